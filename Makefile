@@ -1,0 +1,36 @@
+# Two commands: `make report` and `make test`. Each sets up what it needs, in .venv, from the locked requirements.
+PYTHON ?= python3.11
+BIN := .venv/bin
+READY := .venv/ready
+
+.DEFAULT_GOAL := help
+.PHONY: help report test check lock clean
+
+help:  ## What there is to make
+	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
+
+report: $(READY)  ## Run the lab's main job: every experiment, on one page in results/report
+	$(BIN)/springlab report
+
+test: $(READY)  ## Run all tests, with formatting and types
+	$(BIN)/python -m pytest
+
+check: $(READY)  ## Formatting and types only
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+lock: $(READY)  ## Renew requirements.lock from pyproject.toml
+	$(PYTHON) -m venv .venv-lock && .venv-lock/bin/pip install --quiet uv
+	.venv-lock/bin/uv pip compile pyproject.toml --group dev --universal --python-version 3.11 --generate-hashes \
+		--no-header --no-annotate --no-emit-index-url --upgrade --output-file requirements.lock
+	rm -rf .venv-lock
+
+clean:  ## Remove the environment, the results and the caches
+	rm -rf .venv results .pytest_cache .mypy_cache .ruff_cache .hypothesis
+
+$(READY): requirements.lock pyproject.toml
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements.lock
+	$(BIN)/pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps --editable .
+	touch $@

@@ -1,0 +1,168 @@
+"""MuJoCo with point masses on slide joints, joined by tendons that are springs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any, Literal
+
+import numpy as np
+
+from engines.engine import CAPABILITIES, Unsupported
+from engines.mujoco_common import OFF, check_inertia, mujoco_module, update_constants, without
+from reference.state import Array
+from reference.system import MassSpringSystem
+
+Integrator = Literal["Euler", "RK4", "implicit"]
+
+SCHEMES: Mapping[Integrator, Mapping[str, str]] = {
+    "Euler": {"plain": "kick_drift", "damping": "kick_drift", "drag": "kick_drift"},
+    "RK4": {"plain": "rk4", "damping": "rk4", "drag": "rk4"},
+    "implicit": {
+        "plain": "kick_drift",
+        "damping": "kick_drift_implicit_damping",
+        "drag": "kick_drift_implicit_damping",
+    },
+}
+
+#: [m]. The edge of the cube whose moments of inertia every mass is given. Nothing rotates: it only sets the Stokes drag.
+CUBE = 1.0
+
+
+@dataclass(frozen=True)
+class MujocoTendons:
+    """Point masses on one slide joint per axis; every spring a tendon between two sites, fixed masses sites of the world.
+
+    Integrators, each with h = dt, f the force of springs and gravity alone, C the damping matrix: of the springs
+    (sum of c n n^T over them, n the direction of the spring at the start of the step) plus drag Cd on the diagonal:
+        Euler     M v' = M v + h (f(x) - C v),   x' = x + h v'. MuJoCo's own default treats joint damping (the drag)
+                  implicitly; that is switched off.
+        RK4       the classic one, damping and drag included.
+        implicit  (M + h C) v' = M v + h f(x),   x' = x + h v'.
+
+    MuJoCo keeps of C only what couples a body with its ancestors. For `implicit` the bodies are therefore nested, each
+    inside the one before it, its coordinates relative to that one's: then C is whole. It costs time, as M is then full.
+    Joint damping would act on relative velocities there; the drag is Stokes' law in a viscous medium instead.
+    """
+
+    name: str
+    integrator: Integrator
+    package: str = "mujoco"
+    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    semantics: str = (
+        "stiffness [N/m] and damping [N s/m] of each tendon, as given; drag [N s/m] as "
+        "damping of every slide joint, or with nested bodies as Stokes drag (3 pi times viscosity times diameter)"
+    )
+
+    @property
+    def nested(self) -> bool:
+        """Whether each body is inside the one before it."""
+        return self.integrator == "implicit"
+
+    @property
+    def settings(self) -> Mapping[str, object]:
+        return {"integrator": self.integrator, "nested": self.nested, "disabled": [*OFF, "EULERDAMP"]}
+
+    @property
+    def identified_as(self) -> Mapping[str, str]:
+        return SCHEMES[self.integrator]
+
+    def start(self, system: MassSpringSystem, dt: float) -> TendonSimulation:
+        mujoco = mujoco_module()
+        try:
+            model = _spec(mujoco, system, self.nested).compile()
+        except ValueError as error:
+            raise Unsupported(f"MuJoCo: {error}") from None
+        model.opt.timestep = dt
+        model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
+        model.opt.disableflags = without(mujoco, (*OFF, "EULERDAMP"))
+        return TendonSimulation(mujoco, model, system, self.nested)
+
+
+class TendonSimulation:
+    """A system in MuJoCo. The coordinates are positions, or with nested bodies the steps from each to the next."""
+
+    def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, nested: bool) -> None:
+        self._mujoco, self._model, self._system, self._nested = mujoco, model, system, nested
+        _write_numbers(mujoco, model, system, nested)
+        self._data = mujoco.MjData(model)
+        # MuJoCo's own memory seen as one row per free mass
+        self._q = self._data.qpos.reshape(-1, system.dimension)
+        self._v = self._data.qvel.reshape(-1, system.dimension)
+        free, fixed = np.flatnonzero(~system.fixed), np.flatnonzero(system.fixed)
+        self._q[:] = self._coordinates(system.positions[free])
+        self._v[:] = self._coordinates(system.velocities[free])
+        # what a state is read from: the free masses first, then the fixed; in order only once taken out
+        order = np.concatenate([free, fixed])
+        self._order = np.argsort(order)
+        self._positions, self._velocities = system.positions[order], system.velocities[order]
+        self._free_positions, self._free_velocities = self._positions[: len(free)], self._velocities[: len(free)]
+
+    def step(self) -> None:
+        self._mujoco.mj_step(self._model, self._data)
+
+    def state(self) -> tuple[Array, Array]:
+        self._free_positions[:] = self._q.cumsum(axis=0) if self._nested else self._q
+        self._free_velocities[:] = self._v.cumsum(axis=0) if self._nested else self._v
+        return self._positions.take(self._order, axis=0), self._velocities.take(self._order, axis=0)
+
+    def change(self, parameter: str, value: float) -> None:
+        changed = self._system.with_parameter(parameter, value)
+        _write_numbers(self._mujoco, self._model, changed, self._nested)
+        self._system = changed
+
+    def _coordinates(self, rows: Array) -> Array:
+        return np.diff(rows, axis=0, prepend=0.0) if self._nested else rows
+
+
+def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool) -> Any:
+    """Bodies, joints, sites and tendons: what is joined to what. The numbers come in _write_numbers."""
+    spec = mujoco.MjSpec()
+    if nested:
+        # a step of n nested coordinates works in 120 n^2 bytes, beyond what MuJoCo sets aside from some 900 on
+        spec.memory = 2**24 + 128 * (system.dimension * len(system.positions)) ** 2
+    parent = spec.worldbody
+    for i, fixed in enumerate(system.fixed):
+        if fixed:
+            spec.worldbody.add_site(name=f"mass {i}", pos=_three(system.positions[i]))
+            continue
+        # every body at the origin, so that coordinates are positions
+        body = parent.add_body(mass=1.0, inertia=[1.0, 1.0, 1.0], explicitinertial=True)
+        body.add_site(name=f"mass {i}")
+        for axis in np.eye(3)[: system.dimension]:
+            body.add_joint(type=mujoco.mjtJoint.mjJNT_SLIDE, axis=axis)
+        parent = body if nested else parent
+    for a, b in system.springs:
+        tendon = spec.add_tendon()
+        tendon.wrap_site(f"mass {a}")
+        tendon.wrap_site(f"mass {b}")
+    return spec
+
+
+def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem, nested: bool) -> None:
+    """The parameters of a system into a model that has its bodies and tendons, in double precision."""
+    masses = system.masses[~system.fixed]
+    check_inertia("mass", masses, "kg")
+    model.body_mass[1:] = masses  # body 0 is the world
+    model.body_inertia[1:] = masses[:, None] * CUBE**2 / 6
+    model.tendon_stiffness[:] = system.stiffness
+    model.tendon_damping[:] = system.damping
+    model.tendon_lengthspring[:] = system.rest_lengths[:, None]  # no slack: from the rest length to the rest length
+    model.opt.gravity[:] = _three(system.gravity)
+    if nested:
+        model.opt.viscosity = system.drag / (3 * np.pi * CUBE)
+    else:
+        model.dof_damping[:] = system.drag
+    update_constants(mujoco, model)
+
+
+def _three(vector: Array) -> Array:
+    return np.pad(vector, (0, 3 - len(vector)))
+
+
+ENGINES = (
+    MujocoTendons("mujoco_tendons", "Euler"),
+    MujocoTendons("mujoco_tendons_rk4", "RK4"),
+    MujocoTendons("mujoco_tendons_implicit", "implicit"),
+)

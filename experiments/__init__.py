@@ -1,0 +1,1 @@
+"""Questions put to schemes and engines: one file per question, and the command line."""

@@ -1,0 +1,113 @@
+"""Many steppers on one system: how far each goes from the true motion, and which scheme each one is."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import Any
+
+from engines.isolation import EngineStepper
+from reference.exact import exact
+from reference.identify import Identification, candidates, identify_run
+from reference.outcome import Outcome
+from reference.scenes import Setup
+from reference.simulate import whole_steps
+from reference.state import Array, Trajectory
+from reference.stepper import Stepper
+
+#: Called with what is being done now.
+Progress = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class Run:
+    """One stepper on one system.
+
+    Attributes:
+        stepper: who stepped.
+        outcome: how it ended.
+        identification: which scheme it was.
+        error: distance from the true motion at each time [m], shape (m,); None without a trajectory.
+        deviation: distance from the identified scheme at each time [m], shape (m,); None where there is none.
+    """
+
+    stepper: Stepper
+    outcome: Outcome
+    identification: Identification
+    error: Array | None
+    deviation: Array | None
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """The run in plain numbers and words, None for what is not a number."""
+        return {
+            "stepper": self.stepper.name,
+            "kind": self.stepper.kind,
+            "version": self.stepper.version,
+            "outcome": self.outcome.ending,
+            "reason": self.outcome.reason,
+            "error_m": finite(None if self.error is None else float(self.error.max())),
+            "identified_as": self.identification.identified_as,
+            "identification_error_m": finite(self.identification.error),
+        }
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All steppers on one system; the true motion; the catalogue's trajectories."""
+
+    setup: Setup
+    true: Trajectory
+    runs: tuple[Run, ...]
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The comparison as the command line's JSON has it."""
+        setup = self.setup
+        rows = [run.row for run in self.runs]
+        return {"scene": setup.name, "dt_s": setup.dt, "duration_s": setup.duration, "runs": rows}
+
+
+def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lambda _: None) -> Comparison:
+    """Run steppers on a setup. An engine that fails is a run with that outcome; the others still report.
+
+    Raises:
+        InputError: for a dt or duration that makes no sense.
+    """
+    steps = whole_steps(setup.dt, setup.duration)
+    progress("true motion")
+    true = exact(setup.system, setup.dt, steps, setup.changes)
+    progress("catalogue of schemes")
+    known = candidates(setup.system, setup.dt, steps, setup.changes)
+    runs = []
+    for stepper, outcome in _outcomes(setup, steps, steppers, progress):
+        identification = identify_run(stepper.name, outcome, setup.system, known)
+        named = identification.identified_as
+        trajectory = outcome.trajectory
+        error = None if trajectory is None else trajectory.distance(true)
+        deviation = None if trajectory is None or named is None else trajectory.distance(known[named])
+        runs.append(Run(stepper, outcome, identification, error, deviation))
+    return Comparison(setup, true, tuple(runs))
+
+
+def _outcomes(
+    setup: Setup, steps: int, steppers: Sequence[Stepper], progress: Progress
+) -> Iterator[tuple[Stepper, Outcome]]:
+    """The outcomes in the steppers' order. Engines, in processes of their own, run beside one another."""
+
+    def run(stepper: Stepper) -> Outcome:
+        progress(stepper.name)
+        return stepper.run(setup.system, setup.dt, steps, setup.changes)
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        engines = {s.name: pool.submit(run, s) for s in steppers if isinstance(s, EngineStepper)}
+        for stepper in steppers:
+            yield stepper, engines[stepper.name].result() if stepper.name in engines else run(stepper)
+
+
+def finite(value: float | None) -> float | None:
+    """The number, or None if it is none: JSON has no infinity."""
+    return value if value is not None and math.isfinite(value) else None

@@ -1,0 +1,88 @@
+"""How far does each engine go from the true motion of a string, and why? `python -m experiments.divergence`"""
+
+from __future__ import annotations
+
+from experiments.comparison import Comparison, Progress, Run, compare, finite
+from experiments.experiment import Experiment, Result, Table
+from experiments.steppers import default_steppers
+from reference.scenes import Setup, find
+
+
+def setup() -> Setup:
+    """The default string: ten masses let go horizontally."""
+    string = find("string")
+    return Setup("string", string.system({}), string.dt, string.duration)
+
+
+def run(progress: Progress) -> Result:
+    """Every stepper on the string, against the true motion and against the scheme it is identified with."""
+    return result_of(compare(setup(), default_steppers(), progress))
+
+
+def result_of(comparison: Comparison) -> Result:
+    """A comparison as findings and tables."""
+    tables = [_summary(comparison), _over_time(comparison)]
+    return Result(_findings(comparison), tables, {"comparison": comparison}, _failures(comparison))
+
+
+def _findings(comparison: Comparison) -> list[str]:
+    engines = [r for r in comparison.runs if r.stepper.kind == "engine" and r.outcome.ending == "done"]
+    named = [r for r in engines if r.identification.identified_as]
+    if not named:
+        return ["No engine ran that could be identified."]
+    on_springs = [r for r in named if not str(r.identification.identified_as).startswith("pendulum_")] or named
+    furthest = max(on_springs, key=_error)
+    worst = max(named, key=lambda r: r.identification.error)
+    sentences = [
+        f"{len(named)} of {len(engines)} engine settings are identified: each follows a scheme of the catalogue to "
+        f"{worst.identification.error:.1e} m or better, though {furthest.stepper.name} is up to "
+        f"{_error(furthest):.1e} m from the true motion.",
+        "What separates an engine from the truth is its scheme at this dt: rounding, and what else an engine might "
+        f"do, comes to {worst.identification.error:.1e} m at most.",
+    ]
+    strangers = [r.stepper.name for r in engines if not r.identification.identified_as]
+    if strangers:
+        sentences.append(f"Not identified: {', '.join(strangers)}.")
+    return sentences
+
+
+def _error(run: Run) -> float:
+    return float(run.error.max()) if run.error is not None else 0.0
+
+
+def _summary(comparison: Comparison) -> Table:
+    columns = ["stepper", "kind", "version", "outcome", "error [m]", "identified as", "deviation [m]", "reason"]
+    keys = ["stepper", "kind", "version", "outcome", "error_m", "identified_as", "identification_error_m", "reason"]
+    return Table("divergence", columns, [[run.row[key] for key in keys] for run in comparison.runs])
+
+
+def _over_time(comparison: Comparison) -> Table:
+    """One row per time and run: what the figure draws."""
+    rows = []
+    for run in comparison.runs:
+        for i, time in enumerate(comparison.true.times.tolist()):
+            error, deviation = (None if a is None else finite(float(a[i])) for a in (run.error, run.deviation))
+            rows.append([run.stepper.name, time, error, deviation])
+    return Table("divergence_over_time", ["stepper", "time [s]", "error [m]", "deviation [m]"], rows)
+
+
+def _failures(comparison: Comparison) -> list[str]:
+    return [
+        f"{run.stepper.name}: {run.outcome.ending}, {run.outcome.reason}"
+        for run in comparison.runs
+        if run.outcome.ending != "done"
+    ]
+
+
+EXPERIMENT = Experiment(
+    name="divergence",
+    title="Divergence, and why",
+    question="How far does each stepper go from the true motion of a string, and which scheme explains it?",
+    slides="3-11, 13",
+    run=run,
+)
+
+if __name__ == "__main__":
+    from experiments.console import main
+
+    main(EXPERIMENT)

@@ -1,0 +1,94 @@
+"""What an experiment is: a question, and a function that answers it in tables and sentences made from its numbers."""
+
+from __future__ import annotations
+
+import csv
+import importlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+from experiments.comparison import Progress
+from reference.errors import unknown_name
+
+#: The experiments, in the order the report shows them; each is the module experiments.NAME.
+NAMES = ("divergence", "stiff_limit", "errata")
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of numbers and words under headings with units.
+
+    Attributes:
+        name: what its CSV file is called.
+        columns: headings, with the unit in brackets.
+        rows: one value per column; None where there is nothing to say.
+    """
+
+    name: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Any]]
+
+
+@dataclass(frozen=True)
+class Result:
+    """An experiment's answer.
+
+    Attributes:
+        findings: sentences made from the numbers, the first one the answer.
+        tables: the numbers; the first one is shown, all are written as CSV.
+        data: what its figure draws, by name.
+        failures: what did not come to its end, each with its reason.
+    """
+
+    findings: Sequence[str]
+    tables: Sequence[Table]
+    data: Mapping[str, Any] = field(default_factory=dict)
+    failures: Sequence[str] = ()
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """A question and the function that answers it.
+
+    Attributes:
+        name: the module's.
+        title: a few words.
+        question: one sentence.
+        slides: of the lecture.
+        run: answers it, telling `progress` what it is at.
+    """
+
+    name: str
+    title: str
+    question: str
+    slides: str
+    run: Callable[[Progress], Result]
+
+
+def experiments() -> Mapping[str, Experiment]:
+    """All experiments by name. Imports their modules, which import what they need when they run."""
+    modules = {name: importlib.import_module(f"experiments.{name}") for name in NAMES}
+    return MappingProxyType({name: module.EXPERIMENT for name, module in modules.items()})
+
+
+def find(name: str) -> Experiment:
+    """The experiment of that name. Raises InputError, with a suggestion, where there is none."""
+    if name not in NAMES:
+        raise unknown_name("experiment", name, NAMES)
+    return experiments()[name]
+
+
+def write_tables(result: Result, folder: Path) -> list[Path]:
+    """Write every table as a CSV file into a folder, and return the files."""
+    folder.mkdir(parents=True, exist_ok=True)
+    files = []
+    for table in result.tables:
+        files.append(folder / f"{table.name}.csv")
+        with files[-1].open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(table.columns)
+            writer.writerows(["" if value is None else value for value in row] for row in table.rows)
+    return files

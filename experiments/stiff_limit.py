@@ -1,0 +1,70 @@
+"""What does a string become as it gets stiffer? `python -m experiments.stiff_limit`"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from engines.engine import find as find_engine
+from engines.isolation import EngineStepper
+from experiments.comparison import Progress, finite
+from experiments.experiment import Experiment, Result, Table
+from reference.exact import exact
+from reference.pendulum import PendulumMotion
+from reference.scenes import find
+
+STIFFNESSES = (2e2, 2e3, 2e4, 2e5, 2e6)
+DT, DURATION = 1e-3, 0.5
+
+#: The cable runs with a smaller step, so that its own error (about dt^4) stays far below what is measured.
+CABLE_DT = 2.5e-4
+
+
+def run(progress: Progress) -> Result:
+    """The true motion of ever stiffer strings against the pendulum's, and against MuJoCo's cable."""
+    steps = round(DURATION / DT)
+    progress("pendulum")
+    rods = exact(find("string").system({}), DT, steps, equations=PendulumMotion)
+    progress("MuJoCo cable")
+    every = round(DT / CABLE_DT)
+    outcome = EngineStepper(find_engine("mujoco_cable_rk4")).run(find("string").system({}), CABLE_DT, steps * every)
+    cable = outcome.trajectory.positions[::every] if outcome.ending == "done" and outcome.trajectory else None
+    rows: list[list[float | None]] = []
+    for stiffness in STIFFNESSES:
+        progress(f"string of {stiffness:g} N/m")
+        springs = exact(find("string").system({"stiffness": stiffness}), DT, steps)
+        to_cable = None if cable is None else float(np.linalg.norm(springs.positions - cable, axis=2).max())
+        rows.append([stiffness, float(springs.distance(rods).max()), to_cable])
+    own = None if cable is None else float(np.linalg.norm(rods.positions - cable, axis=2).max())
+    slope = float(np.polyfit(np.log([r[0] for r in rows[2:]]), np.log([r[1] for r in rows[2:]]), 1)[0])
+    columns = ["stiffness [N/m]", "string to pendulum [m]", "string to MuJoCo cable [m]"]
+    tables = [Table("stiff_limit", columns, [[finite(v) for v in row] for row in rows])]
+    failures = [] if cable is not None else [f"mujoco_cable_rk4: {outcome.ending}, {outcome.reason}"]
+    return Result(_findings(slope, rows, own), tables, {"rows": rows, "slope": slope, "cable_error": own}, failures)
+
+
+def _findings(slope: float, rows: list[list[float | None]], cable_error: float | None) -> list[str]:
+    first, last = rows[0], rows[-1]
+    sentences = [
+        f"From {first[0]:g} to {last[0]:g} N/m the string comes from {first[1]:.2g} m to {last[1]:.2g} m of the "
+        f"pendulum of as many masses: the distance goes as stiffness to the power {slope:.2f} (predicted: -1)."
+    ]
+    if cable_error is not None:
+        sentences.append(
+            f"MuJoCo's composite cable, its masses lumped at the tips, is that pendulum: {cable_error:.1e} m from it "
+            f"with RK4 at dt = {CABLE_DT:g} s."
+        )
+    return sentences
+
+
+EXPERIMENT = Experiment(
+    name="stiff_limit",
+    title="The stiff limit",
+    question="What does a string become as its springs get stiffer, and is that what MuJoCo's cable is?",
+    slides="3-5, 27",
+    run=run,
+)
+
+if __name__ == "__main__":
+    from experiments.console import main
+
+    main(EXPERIMENT)

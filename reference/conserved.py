@@ -1,0 +1,29 @@
+"""What physics keeps: energy, momentum, angular momentum. Integrators are known by how they lose them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reference.state import Array, State
+from reference.system import MassSpringSystem
+
+
+def energy(system: MassSpringSystem, state: State) -> float:
+    """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + sum k (L - L0)^2/2 - sum m g.x."""
+    a, b = system.springs.T
+    stretch = np.linalg.norm(state.positions[b] - state.positions[a], axis=1) - system.rest_lengths
+    kinetic = 0.5 * system.masses @ (state.velocities**2).sum(axis=1)
+    elastic = 0.5 * system.stiffness @ stretch**2
+    weight = system.masses @ (state.positions @ system.gravity)
+    return float(kinetic + elastic - weight)
+
+
+def momentum(system: MassSpringSystem, state: State) -> Array:
+    """Linear momentum, sum m v [kg m/s], shape (d,)."""
+    return np.asarray(system.masses @ state.velocities)
+
+
+def angular_momentum(system: MassSpringSystem, state: State) -> Array:
+    """Angular momentum about the origin, sum m x cross v [kg m^2/s]: shape (3,), in 2D along the third axis."""
+    x, v = (np.pad(a, ((0, 0), (0, 3 - system.dimension))) for a in (state.positions, state.velocities))
+    return np.asarray((system.masses[:, None] * np.cross(x, v)).sum(axis=0))

@@ -1,0 +1,115 @@
+"""The semi-implicit schemes engines use for damped springs: forces explicit, damping of the springs implicit.
+
+All kick the velocities by the undamped forces to v*, then slow them down along the springs, so that
+
+    (M + dt C) v = M v*,    C = sum over springs of c_j J_j^T J_j,   J_j v = the rate at which spring j lengthens.
+
+They differ in when positions move, in what they put for c_j, and in how far they solve. Without damping they are
+`kick_drift` and `drift_kick` to the bit. Which engine does which is said by `springlab list` and shown by the tests.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from reference.assembly import damping_blocks, solve_velocities
+from reference.catalogue import scheme
+from reference.forces import SpringMotion
+from reference.state import Array, State
+from reference.system import MassSpringSystem
+
+#: Pymunk's default number of rounds over the springs in a step.
+ROUNDS = 10
+
+
+@scheme(order=1, kind="engine_scheme", springs_only=True)
+def kick_drift_implicit_damping(motion: SpringMotion, state: State, dt: float) -> State:
+    """Kick-drift with the damping of the springs implicit (Baraff and Witkin, SIGGRAPH 1998, for damping alone)."""
+    kicked = state.kick(dt * motion.undamped_acceleration(state))
+    return slowed(motion, kicked, dt * motion.system.damping).drift(dt)
+
+
+@scheme(order=1, kind="engine_scheme", springs_only=True)
+def drift_kick_implicit_damping(motion: SpringMotion, state: State, dt: float) -> State:
+    """Drift-kick with the damping of the springs implicit."""
+    drifted = state.drift(dt)
+    kicked = drifted.kick(dt * motion.undamped_acceleration(drifted))
+    return slowed(motion, kicked, dt * motion.system.damping)
+
+
+@scheme(order=1, kind="engine_scheme", springs_only=True)
+def drift_kick_sequential_damping(motion: SpringMotion, state: State, dt: float) -> State:
+    """Drift-kick, then ten rounds of damping spring by spring in their order: sequential impulses.
+
+    Each spring in turn gives up the part 1 - exp(-dt c / m) of what its lengthening rate is off its target, zero at
+    first, and remembers the rate that leaves as its new target: later rounds take only what its neighbours have put
+    back. With ten rounds (Pymunk's default) the order of the springs shows where damping is strong. Sequential
+    impulses: Catto, GDC 2006; as in Chipmunk's cpDampedSpring.
+    """
+    drifted = state.drift(dt)
+    kicked = drifted.kick(dt * motion.undamped_acceleration(drifted))
+    system = motion.system
+    if not system.damping.any():
+        return kicked
+    directions = spring_directions(system, kicked)
+    mass = effective_masses(system)
+    part = -np.expm1(-dt * system.damping / mass)
+    inverse = np.where(system.fixed, 0.0, 1 / system.masses)
+    velocities = kicked.velocities.copy()
+    sequential_impulses(velocities, system.springs, directions, inverse, mass, part, ROUNDS)
+    return State(kicked.time, kicked.positions, velocities)
+
+
+@scheme(order=1, kind="engine_scheme", springs_only=True)
+def drift_kick_exponential_damping(motion: SpringMotion, state: State, dt: float) -> State:
+    """Drift-kick, springs damped as if each alone decayed exponentially: dt c becomes m (exp(dt c / m) - 1).
+
+    m is the spring's effective mass, 1 / (1/m_a + 1/m_b). Two masses and one spring slow down by exactly
+    exp(-dt c / m), whatever dt. This is what `drift_kick_sequential_damping` converges to with more rounds.
+    """
+    drifted = state.drift(dt)
+    kicked = drifted.kick(dt * motion.undamped_acceleration(drifted))
+    mass = effective_masses(motion.system)
+    return slowed(motion, kicked, mass * np.expm1(dt * motion.system.damping / mass))
+
+
+@njit(cache=True)
+def sequential_impulses(v, springs, directions, inverse_masses, effective, part, rounds):  # type: ignore[no-untyped-def]
+    """Slow the velocities v down in place, spring after spring, `rounds` times over."""
+    target = np.zeros(len(springs))
+    for _ in range(rounds):
+        for j in range(len(springs)):
+            a, b = springs[j, 0], springs[j, 1]
+            rate = 0.0
+            for axis in range(v.shape[1]):
+                rate += (v[b, axis] - v[a, axis]) * directions[j, axis]
+            taken = (rate - target[j]) * part[j]
+            target[j] = rate - taken
+            for axis in range(v.shape[1]):
+                impulse = effective[j] * taken * directions[j, axis]
+                v[a, axis] += inverse_masses[a] * impulse
+                v[b, axis] -= inverse_masses[b] * impulse
+
+
+def slowed(motion: SpringMotion, state: State, coefficients: Array) -> State:
+    """The state after an implicit step of damping alone: dt c_j [N s^2/m = kg] given for every spring, shape (s,)."""
+    if not coefficients.any():
+        return state
+    velocities = solve_velocities(motion.system, damping_blocks(motion.system, state, coefficients), state.velocities)
+    return State(state.time, state.positions, velocities)
+
+
+def effective_masses(system: MassSpringSystem) -> Array:
+    """1 / (1/m_a + 1/m_b) of the masses each spring joins [kg], shape (s,); a fixed mass counts as infinite."""
+    inverse = np.where(system.fixed, 0.0, 1 / system.masses)
+    a, b = system.springs.T
+    with np.errstate(divide="ignore"):
+        return 1 / (inverse[a] + inverse[b])
+
+
+def spring_directions(system: MassSpringSystem, state: State) -> Array:
+    """The unit vector from each spring's first mass to its second, shape (s, d)."""
+    a, b = system.springs.T
+    gap = state.positions[b] - state.positions[a]
+    return gap / np.linalg.norm(gap, axis=1)[:, None]

@@ -1,0 +1,30 @@
+"""What the lab says when it is given something it cannot use, or cannot go on."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+
+
+class InputError(ValueError):
+    """Bad input. The message is one line: the field, the value it had, and what was expected."""
+
+
+class SolverError(ArithmeticError):
+    """An implicit scheme's equation could not be solved; the message says at what step size."""
+
+
+class Unsupported(Exception):
+    """A stepper cannot do what is asked of it; the message is the reason."""
+
+
+def unknown_name(kind: str, name: str, known: Iterable[str]) -> InputError:
+    """The error for a name nobody has: names the nearest one, or all of them.
+
+    >>> print(unknown_name("scheme", "huen", ["euler", "heun"]))
+    unknown scheme 'huen': did you mean 'heun'?
+    """
+    names = sorted(known)
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
+    hint = f"did you mean {near[0]!r}?" if near else f"expected one of {', '.join(names)}"
+    return InputError(f"unknown {kind} {name!r}: {hint}")

@@ -1,0 +1,124 @@
+"""Identification: a stepper in, out comes the catalogued scheme that reproduces its trajectory to rounding.
+
+A stepper and a scheme that do the same arithmetic in another order differ by rounding only, about 1e-15 of the system's
+size over some hundred steps; two different schemes differ by many orders of magnitude more. So the ranking of the
+catalogue by largest deviation has a cliff in it, and a name is given only to what stands on the far side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from reference.changes import Change
+from reference.outcome import Outcome, first_torn
+from reference.state import Trajectory
+from reference.stepper import Stepper, catalogued
+from reference.system import MassSpringSystem
+
+#: A deviation counts as rounding up to this part of the system's size.
+TOLERANCE = 1e-12
+
+#: Deviations below this part of the size are one as good as the other: the simpler scheme is named.
+NOISE = 1e-14
+
+#: A run that blows up is compared while no spring is longer than this many times its length.
+STRAIN = 3.0
+
+
+@dataclass(frozen=True)
+class Match:
+    """How far a catalogued scheme is from the stepper: the largest distance of any mass at any time [m]."""
+
+    scheme: str
+    error: float
+
+
+@dataclass(frozen=True)
+class Identification:
+    """What a stepper was found to be.
+
+    Attributes:
+        stepper: its name.
+        ranking: the catalogue, nearest first.
+        tolerance: up to which a scheme is named [m].
+        reason: why there is no ranking, where there is none.
+    """
+
+    stepper: str
+    ranking: tuple[Match, ...]
+    tolerance: float
+    reason: str = ""
+
+    @property
+    def identified_as(self) -> str | None:
+        """The scheme, or None if none is within the tolerance."""
+        return self.ranking[0].scheme if self.matches else None
+
+    @property
+    def matches(self) -> tuple[Match, ...]:
+        """All schemes within the tolerance: on this system they cannot be told apart."""
+        return tuple(m for m in self.ranking if m.error <= self.tolerance)
+
+    @property
+    def error(self) -> float:
+        """The nearest scheme's deviation [m]; infinite without a ranking."""
+        return self.ranking[0].error if self.ranking else np.inf
+
+    def __str__(self) -> str:
+        if not self.ranking:
+            return f"{self.stepper}: not identified; {self.reason}"
+        nearest = self.ranking[0]
+        if self.identified_as is None:
+            return f"{self.stepper}: not identified; nearest {nearest.scheme} at {nearest.error:.2g} m"
+        return f"{self.stepper} is {nearest.scheme}, to {nearest.error:.2g} m"
+
+
+def identify(
+    stepper: Stepper, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()
+) -> Identification:
+    """Run a stepper and the whole catalogue, and say which scheme it is.
+
+    Args:
+        dt: the step [s].
+        steps: how many; a few hundred tell schemes apart well and keep rounding small.
+    """
+    outcome = stepper.run(system, dt, steps, changes)
+    return identify_run(stepper.name, outcome, system, candidates(system, dt, steps, changes))
+
+
+def candidates(
+    system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()
+) -> dict[str, Trajectory]:
+    """The trajectories of all catalogued schemes that can step the system, the simplest scheme first."""
+    outcomes = {name: stepper.run(system, dt, steps, changes) for name, stepper in catalogued().items()}
+    return {name: outcome.trajectory for name, outcome in outcomes.items() if outcome.trajectory is not None}
+
+
+def identify_run(
+    name: str, outcome: Outcome, system: MassSpringSystem, known: Mapping[str, Trajectory], tolerance: float = TOLERANCE
+) -> Identification:
+    """Rank the known trajectories by their distance from a run's, and name the nearest if it is within the tolerance.
+
+    Args:
+        tolerance: as a part of the system's size.
+    """
+    limit = tolerance * system.size
+    if outcome.trajectory is None:
+        return Identification(name, (), limit, outcome.reason)
+    frames = len(outcome.trajectory)
+    if outcome.ending == "diverged":
+        frames = first_torn(system, outcome.trajectory, STRAIN)
+    if frames < 2:
+        return Identification(name, (), limit, "it blew up in its first step")
+    errors = {scheme: float(_distance(outcome.trajectory, known[scheme], frames)) for scheme in known}
+    noise = max(NOISE * system.size, 10 * min(errors.values(), default=0.0))
+    # Sorting is stable: among those as good as the best, the catalogue's order decides, simplest first.
+    nearest_first = sorted(errors, key=lambda scheme: 0.0 if errors[scheme] <= noise else errors[scheme])
+    return Identification(name, tuple(Match(s, errors[s]) for s in nearest_first), limit)
+
+
+def _distance(one: Trajectory, other: Trajectory, frames: int) -> float:
+    return float(one.distance(other)[:frames].max())

@@ -1,0 +1,92 @@
+"""The n-fold point-mass pendulum: what a string becomes as its stiffness goes to infinity.
+
+Masses on massless rods. With the angles th_i of the rods from straight down and l_i their lengths, mass i is at
+anchor + sum over k <= i of l_k (sin th_k, -cos th_k). With mu_i = m_i + m_{i+1} + ... the mass hanging below rod i,
+Lagrange's equations are, for every rod i,
+
+    sum_k l_i l_k mu_max(i,k) [ cos(th_i - th_k) th_k'' + sin(th_i - th_k) th_k'^2 ] = -mu_i g l_i sin th_i - drag.
+
+Goldstein, *Classical Mechanics*, 1.4 and 1.6. The same schemes that step a string step the pendulum in its angles.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reference.errors import InputError
+from reference.state import Array, Slope, State, Trajectory
+from reference.system import MassSpringSystem
+
+
+class PendulumMotion:
+    """Equations of motion of a string whose springs have become rods.
+
+    Args:
+        system: a chain in 2D hung at its first mass, every spring at its rest length, moving as rods can.
+
+    Raises:
+        InputError: for any other system.
+    """
+
+    def __init__(self, system: MassSpringSystem) -> None:
+        reason = why_no_pendulum(system)
+        if reason:
+            raise InputError(f"no pendulum: {reason}")
+        self.system = system
+        gap = np.diff(system.positions, axis=0)
+        self._anchor = system.positions[0]
+        self._lengths = system.rest_lengths
+        self._masses = system.masses[1:]
+        hanging = np.cumsum(self._masses[::-1])[::-1]
+        longest = np.maximum.outer(np.arange(len(hanging)), np.arange(len(hanging)))
+        self._inertia = np.outer(self._lengths, self._lengths) * hanging[longest]
+        angles = np.arctan2(gap[:, 0], -gap[:, 1])
+        across = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        rates = (np.diff(system.velocities, axis=0) * across).sum(axis=1) / self._lengths
+        self.start = State(0.0, angles, rates)
+
+    def acceleration(self, state: State) -> Array:
+        """Angular accelerations [rad/s^2], shape (n,)."""
+        angles, rates = state.positions, state.velocities
+        difference = angles[:, None] - angles[None, :]
+        torque = -(self._inertia * np.sin(difference)) @ rates**2
+        pull = self._masses[:, None] * self.system.gravity - self.system.drag * self._mass_velocities(state)
+        # Every mass pulls at all the rods above it: rod i feels the sum over the masses i, i+1, ...
+        below = np.cumsum(pull[::-1], axis=0)[::-1]
+        torque += self._lengths * (below[:, 0] * np.cos(angles) + below[:, 1] * np.sin(angles))
+        solution: Array = np.linalg.solve(self._inertia * np.cos(difference), torque)
+        return solution
+
+    def slope(self, state: State) -> Slope:
+        """The rate of change of the whole state: angular velocities and accelerations."""
+        return Slope(1.0, state.velocities, self.acceleration(state))
+
+    def trajectory(self, states: list[State]) -> Trajectory:
+        """Positions and velocities of the masses, the anchor first, from the angles."""
+        still = np.zeros((1, 2))
+        positions = [np.vstack([self._anchor, self._mass_positions(s)]) for s in states]
+        velocities = [np.vstack([still, self._mass_velocities(s)]) for s in states]
+        return Trajectory(np.array([s.time for s in states]), np.array(positions), np.array(velocities))
+
+    def _mass_positions(self, state: State) -> Array:
+        rods = np.stack([np.sin(state.positions), -np.cos(state.positions)], axis=1)
+        return self._anchor + np.cumsum(self._lengths[:, None] * rods, axis=0)
+
+    def _mass_velocities(self, state: State) -> Array:
+        across = np.stack([np.cos(state.positions), np.sin(state.positions)], axis=1)
+        velocities: Array = np.cumsum((self._lengths * state.velocities)[:, None] * across, axis=0)
+        return velocities
+
+
+def why_no_pendulum(system: MassSpringSystem) -> str | None:
+    """Why a system's stiff limit is not a pendulum hung at its first mass, or None if it is."""
+    if system.dimension != 2 or not system.is_string:
+        return "expected a string in 2D, fixed at its first mass only"
+    gap = np.diff(system.positions, axis=0)
+    length = np.linalg.norm(gap, axis=1)
+    if (np.abs(length - system.rest_lengths) > 1e-12 * length).any():
+        return "expected every spring to start at its rest length"
+    stretching = (gap * np.diff(system.velocities, axis=0)).sum(axis=1) / length
+    if (np.abs(stretching) > 1e-12 * np.abs(system.velocities).max()).any():
+        return "expected velocities that do not stretch any spring"
+    return None

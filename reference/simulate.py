@@ -1,0 +1,71 @@
+"""A scheme, step after step: from a system to its trajectory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from reference.catalogue import Scheme
+from reference.changes import Change, changes_by_step
+from reference.errors import InputError
+from reference.forces import SpringMotion
+from reference.motion import Motion
+from reference.state import State, Trajectory
+from reference.system import MassSpringSystem
+
+
+def simulate(
+    system: MassSpringSystem,
+    scheme: Scheme,
+    dt: float,
+    duration: float,
+    changes: Sequence[Change] = (),
+    equations: Callable[[MassSpringSystem], Motion] = SpringMotion,
+) -> Trajectory:
+    """The trajectory of a system under a scheme, with parameters that may change on the fly (slide 12).
+
+    Args:
+        dt: the step [s].
+        duration: how long [s]; the nearest whole number of steps is taken.
+        changes: parameters to change while it moves.
+        equations: what to make of the system; `pendulum.PendulumMotion` hangs rods in place of the springs.
+
+    Returns:
+        The start and every step after it. Ends early at the first state that is not finite.
+
+    Raises:
+        InputError: for a dt or duration that is not a positive number.
+        SolverError: if the scheme is implicit and finds no solution.
+    """
+    steps = whole_steps(dt, duration)
+    pending = changes_by_step(changes, dt)
+    motion = equations(system)
+    state = motion.start
+    states = [state]
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        for i in range(steps):
+            for change in pending.get(i, ()):
+                system = system.with_parameter(change.parameter, change.value)
+                motion = equations(system)
+            state = scheme.step(motion, state, dt)
+            state = State((i + 1) * dt, state.positions, state.velocities)
+            states.append(state)
+            if not (np.isfinite(state.positions).all() and np.isfinite(state.velocities).all()):
+                break
+        return motion.trajectory(states)
+
+
+def whole_steps(dt: float, duration: float) -> int:
+    """The number of steps of dt [s] nearest to a duration [s].
+
+    Raises:
+        InputError: unless both are positive numbers and there is at least one step.
+    """
+    for name, value in (("dt", dt), ("duration", duration)):
+        if not (np.isfinite(value) and value > 0):
+            raise InputError(f"{name} = {value:g}: expected a finite number > 0 [s]")
+    steps = round(duration / dt)
+    if steps < 1:
+        raise InputError(f"duration = {duration:g}: expected at least one step of dt = {dt:g} s")
+    return steps

@@ -1,0 +1,79 @@
+"""The one idea: anything that advances a mass-spring state by dt is a stepper, and all go through the same door."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from reference import catalogue
+from reference.catalogue import Scheme
+from reference.changes import Change
+from reference.errors import InputError, SolverError
+from reference.forces import SpringMotion
+from reference.motion import Motion
+from reference.outcome import Outcome, outcome_of
+from reference.pendulum import PendulumMotion, why_no_pendulum
+from reference.simulate import simulate
+from reference.system import MassSpringSystem
+
+
+class Stepper(Protocol):
+    """A scheme, an engine, a lecture listing, a student's file.
+
+    Attributes:
+        name: as the command line knows it.
+        kind: what it is: scheme, engine_scheme, in_place, pendulum, lecture, engine.
+        version: of the package it comes from, where it comes from one.
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def kind(self) -> str: ...
+    @property
+    def version(self) -> str | None: ...
+
+    def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
+        """Advance the system `steps` times by dt [s]. Never raises for what happens on the way: that is the outcome."""
+
+
+@dataclass(frozen=True)
+class SchemeStepper:
+    """A catalogued scheme on the equations of motion of springs, or of the pendulum that very stiff springs become."""
+
+    scheme: Scheme
+    equations: Callable[[MassSpringSystem], Motion] = SpringMotion
+    version: str | None = None
+
+    @property
+    def name(self) -> str:
+        """The scheme's name, with `pendulum_` before it where rods hang in place of springs."""
+        return self.scheme.name if self.equations is SpringMotion else f"pendulum_{self.scheme.name}"
+
+    @property
+    def kind(self) -> str:
+        """The scheme's kind, or pendulum."""
+        return self.scheme.kind if self.equations is SpringMotion else "pendulum"
+
+    def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
+        """See Stepper."""
+        reason = why_no_pendulum(system) if self.equations is PendulumMotion else None
+        if reason:
+            return Outcome("unsupported", reason)
+        try:
+            trajectory = simulate(system, self.scheme, dt, dt * steps, changes, self.equations)
+        except SolverError as error:
+            return Outcome("diverged", str(error))
+        except InputError as error:
+            # Only a change on the fly can still be wrong here: a rod's length cannot change while it swings.
+            return Outcome("unsupported", str(error))
+        return outcome_of(system, trajectory)
+
+
+def catalogued() -> Mapping[str, SchemeStepper]:
+    """Every scheme on springs, then those that can on the pendulum, by name."""
+    schemes = catalogue.schemes().values()
+    on_springs = [SchemeStepper(s) for s in schemes]
+    on_rods = [SchemeStepper(s, PendulumMotion) for s in schemes if not s.springs_only]
+    return {stepper.name: stepper for stepper in [*on_springs, *on_rods]}

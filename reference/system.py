@@ -1,0 +1,193 @@
+"""What is simulated: masses joined by damped springs. Needs NumPy only, as engines may run in a bare environment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from reference.errors import InputError, unknown_name
+from reference.state import Array, State
+
+IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+
+#: The parameters one number can set, also while the system moves (lecture slide 12), with their units.
+PARAMETERS = {
+    "mass": "kg, of every mass",
+    "rest_length": "m, of every spring",
+    "stiffness": "N/m, of every spring",
+    "damping": "N s/m, of every spring, along it",
+    "drag": "N s/m, on every mass",
+    "gravity": "m/s^2, downwards",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class MassSpringSystem:
+    """Masses joined by damped springs, under gravity and drag. Frozen and validated; arrays are read-only.
+
+    Where an array of one number per mass or per spring is expected, a single number does for all of them.
+
+    Attributes:
+        positions: where every mass starts [m], shape (n, d) with d = 2 or 3.
+        springs: the two masses each spring joins, shape (s, 2).
+        masses: [kg], shape (n,), each > 0 (a fixed mass has one too: engines want it).
+        rest_lengths: [m], shape (s,), each > 0.
+        stiffness: k [N/m], shape (s,), each >= 0.
+        damping: c [N s/m] along each spring, shape (s,), each >= 0.
+        drag: Cd [N s/m] on every mass, >= 0 (lecture slide 10).
+        gravity: [m/s^2], shape (d,); a single number g means downwards, along the second axis.
+        velocities: [m/s], shape (n, d); zero unless given.
+        fixed: which masses never move, shape (n,).
+
+    Raises:
+        InputError: naming the field, the index, the value, and what was expected.
+    """
+
+    positions: Array
+    springs: IntArray
+    masses: Array
+    rest_lengths: Array
+    stiffness: Array
+    damping: Array = field(default_factory=lambda: np.zeros(1))
+    drag: float = 0.0
+    gravity: Array = field(default_factory=lambda: np.array(9.81))
+    velocities: Array = field(default_factory=lambda: np.zeros(1))
+    fixed: BoolArray = field(default_factory=lambda: np.zeros(1, dtype=bool))
+
+    def __post_init__(self) -> None:
+        positions = _finite("positions", self.positions, "m")
+        if positions.ndim != 2 or positions.shape[1] not in (2, 3) or len(positions) == 0:
+            raise InputError(f"positions has shape {positions.shape}: expected (n, 2) or (n, 3) with n >= 1")
+        n, d = positions.shape
+        springs = _springs(self.springs, positions)
+        s = len(springs)
+        gravity = _finite("gravity", self.gravity, "m/s^2")
+        if gravity.ndim == 0:
+            gravity = np.array([0.0, -float(gravity), 0.0][:d])
+        checked = {
+            "positions": positions,
+            "springs": springs,
+            "masses": _in_range("masses", self.masses, (n,), "kg", above_zero=True),
+            "rest_lengths": _in_range("rest_lengths", self.rest_lengths, (s,), "m", above_zero=True),
+            "stiffness": _in_range("stiffness", self.stiffness, (s,), "N/m"),
+            "damping": _in_range("damping", self.damping, (s,), "N s/m"),
+            "gravity": _shaped("gravity", gravity, (d,)),
+            "velocities": _shaped("velocities", _finite("velocities", self.velocities, "m/s"), (n, d)),
+            "fixed": _shaped("fixed", np.asarray(self.fixed, dtype=bool), (n,)),
+        }
+        object.__setattr__(self, "drag", float(_in_range("drag", self.drag, (), "N s/m")))
+        for name, array in checked.items():
+            array = np.ascontiguousarray(array).copy()
+            array.flags.writeable = False
+            object.__setattr__(self, name, array)
+        moving_anchor = np.flatnonzero(self.fixed & self.velocities.any(axis=1))
+        if len(moving_anchor):
+            i = moving_anchor[0]
+            raise InputError(f"velocities[{i}] = {self.velocities[i].tolist()}: expected zero, mass {i} is fixed")
+
+    @property
+    def dimension(self) -> int:
+        """d, 2 or 3."""
+        return int(self.positions.shape[1])
+
+    @property
+    def size(self) -> float:
+        """A length [m] to measure errors against: the widest extent, or the longest spring's rest length."""
+        extent = float(np.ptp(self.positions, axis=0).max())
+        return max(extent, float(self.rest_lengths.max(initial=0.0)))
+
+    @property
+    def is_string(self) -> bool:
+        """Whether it is the lecture's string: spring j joins masses j and j + 1, and mass 0 alone is fixed."""
+        n = len(self.positions)
+        chain = [set(pair) for pair in self.springs.tolist()] == [{j, j + 1} for j in range(n - 1)]
+        return chain and n >= 2 and bool(self.fixed[0]) and not self.fixed[1:].any()
+
+    @property
+    def start(self) -> State:
+        """The state at time zero."""
+        return State(0.0, self.positions, self.velocities)
+
+    def with_parameter(self, name: str, value: float) -> MassSpringSystem:
+        """The same system with one of PARAMETERS set to a number for all its masses or springs.
+
+        Raises:
+            InputError: for an unknown name or a value that makes no sense.
+        """
+        if name not in PARAMETERS:
+            raise unknown_name("parameter", name, PARAMETERS)
+        attribute = {"mass": "masses", "rest_length": "rest_lengths"}.get(name, name)
+        return replace(self, **{attribute: value})
+
+    def renumbered(self, order: npt.ArrayLike) -> MassSpringSystem:
+        """The same system with its masses listed in another order: mass order[i] becomes mass i."""
+        old = np.asarray(order, dtype=np.int64)
+        new_of_old = np.argsort(old)
+        return replace(
+            self,
+            positions=self.positions[old],
+            velocities=self.velocities[old],
+            masses=self.masses[old],
+            fixed=self.fixed[old],
+            springs=new_of_old[self.springs],
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists and numbers, the fields by name: what a digest or a JSON file is made of."""
+        values = {f.name: getattr(self, f.name) for f in fields(self)}
+        return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
+
+
+def _finite(name: str, value: npt.ArrayLike, unit: str) -> Array:
+    try:
+        array = np.asarray(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} = {value!r}: expected numbers [{unit}]") from None
+    _refuse(name, array, ~np.isfinite(array), f"a finite number [{unit}]")
+    return array
+
+
+def _in_range(name: str, value: npt.ArrayLike, shape: tuple[int, ...], unit: str, above_zero: bool = False) -> Array:
+    array = _shaped(name, _finite(name, value, unit), shape)
+    bad = array <= 0 if above_zero else array < 0
+    _refuse(name, array, bad, f"a number {'> 0' if above_zero else '>= 0'} [{unit}]")
+    return array
+
+
+def _refuse(name: str, array: Array, bad: BoolArray, expected: str) -> None:
+    if not np.any(bad):
+        return
+    index = tuple(int(i) for i in np.argwhere(bad)[0])
+    same_everywhere = array.ndim == 1 and np.all(bad) and len(set(array.tolist())) == 1
+    place = "" if not index or same_everywhere else "[" + ", ".join(map(str, index)) + "]"
+    raise InputError(f"{name}{place} = {array[index]:g}: expected {expected}")
+
+
+def _shaped(name: str, array: npt.NDArray[Any], shape: tuple[int, ...]) -> npt.NDArray[Any]:
+    if array.shape in ((), (1,)):
+        return np.broadcast_to(array.reshape(()), shape)
+    if array.shape != shape:
+        raise InputError(f"{name} has shape {array.shape}: expected {shape}")
+    return array
+
+
+def _springs(value: npt.ArrayLike, positions: Array) -> IntArray:
+    springs = np.asarray(value)
+    if springs.size == 0:
+        return np.zeros((0, 2), dtype=np.int64)
+    if springs.ndim != 2 or springs.shape[1] != 2 or not np.issubdtype(springs.dtype, np.integer):
+        raise InputError(f"springs has shape {springs.shape} of {springs.dtype}: expected (s, 2) whole numbers")
+    n = len(positions)
+    for j, (a, b) in enumerate(springs.tolist()):
+        if not (0 <= a < n and 0 <= b < n):
+            raise InputError(f"springs[{j}] = {[a, b]}: expected masses from 0 to {n - 1}")
+        if a == b:
+            raise InputError(f"springs[{j}] = {[a, b]}: expected two different masses")
+        if np.array_equal(positions[a], positions[b]):
+            at = positions[a].tolist()
+            raise InputError(f"springs[{j}] = {[a, b]}: expected a length > 0, both masses start at {at}")
+    return springs.astype(np.int64)
