@@ -18,8 +18,8 @@ Integrator = Literal["Euler", "RK4"]
 
 SCHEMES: Mapping[Integrator, str] = {"Euler": "pendulum_kick_drift", "RK4": "pendulum_rk4"}
 
-#: As a fraction of the shortest segment, the radius of the small sphere that feels the drag at the end of each. So small
-#: that the torque on it is below rounding.
+#: As a fraction of the shortest segment, the radius of the small sphere that feels the drag at the end of each:
+#: so small that the torque on it is below rounding.
 RADIUS = 1e-9
 
 #: As a fraction of m l^2, the inertia of a segment about itself. Nothing twists, but MuJoCo wants a positive number.
@@ -55,14 +55,22 @@ class MujocoCable:
 
     @property
     def settings(self) -> Mapping[str, object]:
+        """What was chosen, and what of MuJoCo's step is switched off."""
         return {"integrator": self.integrator, "composite": "cable", "masses": "at the tips", "disabled": list(OFF)}
 
     @property
     def identified_as(self) -> Mapping[str, str]:
+        """The pendulum's scheme, in every case."""
         scheme = SCHEMES[self.integrator]
         return {"plain": scheme, "damping": scheme, "drag": scheme}
 
     def start(self, system: MassSpringSystem, dt: float) -> CableSimulation:
+        """The system as a cable.
+
+        Raises:
+            Unsupported: beyond the capabilities, where the velocities stretch a segment, where a mass times its
+                segment's length squared is below 1e-14 kg m^2, or where this MuJoCo has no cable (4.0 removed it).
+        """
         refuse_beyond(self, system)
         mujoco = mujoco_module()
         model = _compile(mujoco, system)
@@ -92,9 +100,11 @@ class CableSimulation:
         self._positions, self._velocities = system.positions.copy(), np.zeros_like(system.positions)
 
     def step(self) -> None:
+        """One mj_step."""
         self._mujoco.mj_step(self._model, self._data)
 
     def state(self) -> tuple[Array, Array]:
+        """Positions from MuJoCo's kinematics at the present angles; velocities from the rates of the segments."""
         self._reading_qpos[:] = self._qpos
         self._mujoco.mj_kinematics(self._model, self._reading)
         positions, velocities = self._positions, self._velocities
@@ -105,6 +115,7 @@ class CableSimulation:
         return positions.copy(), velocities.copy()
 
     def change(self, parameter: str, value: float) -> None:
+        """Mass, drag and gravity can change; damping too, without effect. Unsupported: stiffness, rest_length."""
         if parameter == "stiffness":
             raise Unsupported("the segments of a cable do not stretch: there is no stiffness to change")
         if parameter == "rest_length":
@@ -115,7 +126,7 @@ class CableSimulation:
 
 
 def _compile(mujoco: ModuleType, system: MassSpringSystem) -> Any:
-    """A straight cable of as many segments. The numbers come in _write_numbers. Unsupported where MuJoCo has no cable."""
+    """A straight cable of as many segments; the numbers come in _write_numbers. Raises Unsupported in MuJoCo 4."""
     xml = f"""<mujoco><worldbody>
         <composite type="cable" curve="s" count="{len(system.positions)} 1 1" size="1 0 0" initial="ball" prefix="">
             <joint kind="main"/>
@@ -133,7 +144,7 @@ def _compile(mujoco: ModuleType, system: MassSpringSystem) -> Any:
 
 
 def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
-    """The parameters of a system into the model of a cable: every segment along its own first axis, all mass at its end."""
+    """The parameters of a system into the model of a cable: segments along their own first axis, mass at the end."""
     masses, lengths = system.masses[1:], system.rest_lengths
     check_inertia("mass times length squared", masses * lengths**2, "kg m^2")
     radius = RADIUS * lengths.min()

@@ -15,7 +15,7 @@ from reference.state import Array
 #: there are none of (contacts, motors, sensors), and cost time.
 OFF = ("AUTORESET", "CONTACT", "CONSTRAINT", "ACTUATION", "SENSOR")
 
-#: The smallest mass [kg] or moment of inertia [kg m^2] taken. MuJoCo silently raises what is below its mjMINVAL of 1e-15.
+#: The smallest mass [kg] or moment of inertia [kg m^2] taken: MuJoCo silently raises any below its mjMINVAL of 1e-15.
 SMALLEST_INERTIA = 1e-14
 
 

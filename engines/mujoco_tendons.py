@@ -26,13 +26,13 @@ SCHEMES: Mapping[Integrator, Mapping[str, str]] = {
     },
 }
 
-#: [m]. The edge of the cube whose moments of inertia every mass is given. Nothing rotates: it only sets the Stokes drag.
+#: [m]. The edge of the cube that gives a mass its moments of inertia. Nothing rotates: it only sets the Stokes drag.
 CUBE = 1.0
 
 
 @dataclass(frozen=True)
 class MujocoTendons:
-    """Point masses on one slide joint per axis; every spring a tendon between two sites, fixed masses sites of the world.
+    """Point masses on one slide joint per axis; a spring is a tendon between sites, a fixed mass a site of the world.
 
     Integrators, each with h = dt, f the force of springs and gravity alone, C the damping matrix: of the springs
     (sum of c n n^T over them, n the direction of the spring at the start of the step) plus drag Cd on the diagonal:
@@ -62,13 +62,16 @@ class MujocoTendons:
 
     @property
     def settings(self) -> Mapping[str, object]:
+        """What was chosen, and what of MuJoCo's step is switched off."""
         return {"integrator": self.integrator, "nested": self.nested, "disabled": [*OFF, "EULERDAMP"]}
 
     @property
     def identified_as(self) -> Mapping[str, str]:
+        """The schemes written out above."""
         return SCHEMES[self.integrator]
 
     def start(self, system: MassSpringSystem, dt: float) -> TendonSimulation:
+        """The system as bodies and tendons. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
         mujoco = mujoco_module()
         try:
             model = _spec(mujoco, system, self.nested).compile()
@@ -100,14 +103,17 @@ class TendonSimulation:
         self._free_positions, self._free_velocities = self._positions[: len(free)], self._velocities[: len(free)]
 
     def step(self) -> None:
+        """One mj_step."""
         self._mujoco.mj_step(self._model, self._data)
 
     def state(self) -> tuple[Array, Array]:
+        """Positions and velocities, read from the coordinates alone: nothing is computed in the engine."""
         self._free_positions[:] = self._q.cumsum(axis=0) if self._nested else self._q
         self._free_velocities[:] = self._v.cumsum(axis=0) if self._nested else self._v
         return self._positions.take(self._order, axis=0), self._velocities.take(self._order, axis=0)
 
     def change(self, parameter: str, value: float) -> None:
+        """Every parameter can change between two steps; the state stays where it is, to the last bit."""
         changed = self._system.with_parameter(parameter, value)
         _write_numbers(self._mujoco, self._model, changed, self._nested)
         self._system = changed

@@ -18,6 +18,7 @@ from reference.obstacles import Circle
 from reference.scenes import find
 from reference.simulate import simulate
 from reference.stability import largest_stable_dt
+from reference.state import Array
 
 #: The step of the order measurement [s], halved twice.
 DT, DURATION = 1e-3, 0.1
@@ -28,9 +29,17 @@ Remark = tuple[str, str, str, float, str]
 def run(progress: Progress) -> Result:
     """Every remark, executed."""
     progress("slide 11")
-    remarks = [*_incorrect_listing(), *_in_place_variants(progress), *_barrier(), *_next_spring(), *_derivative_listing()]
+    orders = _orders(progress)
+    barrier = _barrier()
+    remarks = [
+        *_incorrect_listing(),
+        *_in_place_variants(orders, progress),
+        *_barrier_remarks(),
+        *_next_spring(),
+        *_derivative_listing(),
+    ]
     columns = ["slide", "as printed", "measured", "value", "unit"]
-    return Result(_findings(remarks), [Table("errata", columns, remarks)], {"remarks": remarks})
+    return Result(_findings(remarks), [Table("errata", columns, remarks)], {"orders": orders, "barrier": barrier})
 
 
 def _findings(remarks: list[Remark]) -> list[str]:
@@ -62,40 +71,52 @@ def _incorrect_listing() -> list[Remark]:
     ]
 
 
-def _in_place_variants(progress: Progress) -> list[Remark]:
-    """What is wrong with truly overwriting the state: order, and (at a price) stability."""
-    names = ("euler", "euler_in_place", "heun", "heun_link_by_link", "heun_aliased")
+def _orders(progress: Progress) -> dict[str, tuple[list[float], list[float], float]]:
+    """Of right and wrong schemes: steps [s], errors [m], and the order that the two smallest steps show."""
     system = find("string").system({"drag": 0.02})
-    slack = find("string").system({"stiffness": 50.0, "drag": 0.2})
     true = exact(system, DT, round(DURATION / DT))
+    orders = {}
+    for name in ("euler", "euler_in_place", "heun", "heun_link_by_link", "heun_aliased"):
+        progress(f"order of {name}")
+        runs = {f: simulate(system, catalogue.find(name), DT / f, DURATION).positions[::f] for f in (1, 2, 4, 8)}
+        errors = [float(np.linalg.norm(x - true.positions, axis=2).max()) for x in runs.values()]
+        orders[name] = ([DT / f for f in runs], errors, float(np.log2(errors[-2] / errors[-1])))
+    return orders
+
+
+def _in_place_variants(
+    orders: dict[str, tuple[list[float], list[float], float]], progress: Progress
+) -> list[Remark]:
+    """What is wrong with truly overwriting the state: order, and (at a price) stability."""
+    slack = find("string").system({"stiffness": 50.0, "drag": 0.2})
+    what = "the whole state, not link by link"
     rows: list[Remark] = []
-    for name in names:
-        progress(f"order and stability of {name}")
-        scheme = catalogue.find(name)
-        errors = [
-            np.linalg.norm(simulate(system, scheme, DT / f, DURATION).positions[::f] - true.positions, axis=2).max()
-            for f in (4, 8)
-        ]
-        stable = largest_stable_dt(scheme, slack, hanging_string(slack))
-        rows.append(("7-11", "the whole state, not link by link", f"order of {name}", float(np.log2(errors[0] / errors[1])), ""))
-        rows.append(("7-11", "the whole state, not link by link", f"largest stable dt, {name}", stable, "s"))
+    for name, (_, _, order) in orders.items():
+        progress(f"stability of {name}")
+        stable = largest_stable_dt(catalogue.find(name), slack, hanging_string(slack))
+        rows.append(("7-11", what, f"order of {name}", order, ""))
+        rows.append(("7-11", what, f"largest stable dt, {name}", stable, "s"))
     return rows
 
 
-def _barrier() -> list[Remark]:
-    """Slide 17's rule on masses that slide along a circle, and so should keep their velocity."""
+def _barrier() -> tuple[Array, Array, Array]:
+    """Around a circle: the angle [rad], and what printed and projected rule leave of 1 m/s along it."""
     circle = Circle((0.0, 0.0), 1.0)
-    angles = np.radians([0.0, 45.0, 90.0])
+    angles = np.radians(np.arange(0, 361, 5.0))
     normal = np.column_stack([np.cos(angles), np.sin(angles)])
     sliding = np.column_stack([-np.sin(angles), np.cos(angles)])
     _, printed = circle.push_out_as_printed(0.9 * normal, sliding)
     _, projected = circle.push_out(0.9 * normal, sliding)
-    along = (printed * sliding).sum(axis=1)
+    return angles, (printed * sliding).sum(axis=1), (projected * sliding).sum(axis=1)
+
+
+def _barrier_remarks() -> list[Remark]:
+    """Slide 17's rule on masses that slide along a circle, and so should keep their velocity."""
+    _, printed, projected = _barrier()
     what = "v_x *= t_x, v_y *= t_y keeps the tangential velocity"
-    places = ("at the side", "half-way up", "at the top")
-    rows = [("17", what, f"part of 1 m/s along the circle that is left {place}", float(a), "m/s") for place, a in zip(places, along, strict=True)]
-    kept = float((projected * sliding).sum(axis=1).min())
-    return [*rows, ("17", "meant: v = (v.t) t", "least part of 1 m/s left anywhere", kept, "m/s")]
+    places = {"at the side": printed[0], "half-way up": printed[9], "at the top": printed[18]}
+    rows = [("17", what, f"of 1 m/s along the circle, left {place}", float(v), "m/s") for place, v in places.items()]
+    return [*rows, ("17", "meant: v = (v.t) t", "of 1 m/s, left anywhere", float(projected.min()), "m/s")]
 
 
 def _next_spring() -> list[Remark]:

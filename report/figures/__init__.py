@@ -1,0 +1,71 @@
+"""One file per experiment: its figure, and the words that stand for the figure where it cannot be seen."""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import dataclass
+from io import StringIO
+from typing import TYPE_CHECKING, Any
+
+from experiments.experiment import Result
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+#: Okabe and Ito's colours, told apart by everyone; each goes with a marker of its own.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+
+STYLE = {
+    "figure.figsize": (9.0, 5.0),
+    "figure.constrained_layout.use": True,
+    "font.size": 11,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.6,
+    "legend.frameon": False,
+    "svg.hashsalt": "springlab",
+}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure and its alternative text."""
+
+    figure: Figure
+    alt: str
+
+    def svg(self) -> str:
+        """The figure as an SVG element, the same bytes for the same figure."""
+        from matplotlib import pyplot
+
+        file = StringIO()
+        with pyplot.rc_context(STYLE):
+            self.figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
+        text = file.getvalue()
+        return text[text.index("<svg") :]
+
+
+def new_figure(**options: Any) -> tuple[Any, Any]:
+    """A figure and its axes in the report's style; options as for pyplot.subplots."""
+    import matplotlib
+
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    with pyplot.rc_context(STYLE):
+        return pyplot.subplots(**options)
+
+
+def look(i: int) -> dict[str, str]:
+    """Colour and marker of the i-th thing in a figure."""
+    return {"color": COLOURS[i % len(COLOURS)], "marker": MARKERS[i % len(MARKERS)]}
+
+
+def draw(name: str, result: Result) -> Picture:
+    """The picture of an experiment's result, drawn by report.figures.NAME."""
+    picture: Picture = importlib.import_module(f"report.figures.{name}").draw(result)
+    return picture
