@@ -43,37 +43,38 @@ class Simulation(Protocol):
         """Let the engine advance by the dt it was started with."""
 
     def state(self) -> tuple[Array, Array]:
-        """Positions [m] and velocities [m/s], each (n, d), as new arrays; fixed masses included, in the system's order."""
+        """Positions [m] and velocities [m/s] of all masses in the system's order, each (n, d), as new arrays."""
 
     def change(self, parameter: str, value: float) -> None:
         """Set one of reference.system.PARAMETERS on the fly. Raises Unsupported where the engine cannot."""
 
 
 class Engine(Protocol):
-    """One engine with one choice of settings. Implementations are frozen dataclasses (they travel between processes).
-
-    Attributes:
-        name: how the command line calls it.
-        package: the distribution it comes in, for its version.
-        settings: what was chosen, recorded with every result.
-        capabilities: names from CAPABILITIES.
-        identified_as: the catalogue scheme it is known to step by, for each of the cases
-            "plain", "damping" (of the springs), "drag"; a case it cannot do is absent.
-        semantics: what the engine's stiffness, damping and drag mean in SI units, in a sentence.
-    """
+    """One engine with one choice of settings. Implementations are frozen dataclasses: they travel between processes."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """How the command line calls it."""
+
     @property
-    def package(self) -> str: ...
+    def package(self) -> str:
+        """The distribution it comes in, for its version."""
+
     @property
-    def settings(self) -> Mapping[str, object]: ...
+    def settings(self) -> Mapping[str, object]:
+        """What was chosen, recorded with every result."""
+
     @property
-    def capabilities(self) -> frozenset[str]: ...
+    def capabilities(self) -> frozenset[str]:
+        """Names from CAPABILITIES."""
+
     @property
-    def identified_as(self) -> Mapping[str, str]: ...
+    def identified_as(self) -> Mapping[str, str]:
+        """The catalogue scheme it is known to step by: "plain", with "damping" of the springs, with "drag"."""
+
     @property
-    def semantics(self) -> str: ...
+    def semantics(self) -> str:
+        """What its stiffness, damping and drag mean in SI units, in a sentence."""
 
     def start(self, system: MassSpringSystem, dt: float) -> Simulation:
         """The system, built in the engine and ready for its first step of dt [s].

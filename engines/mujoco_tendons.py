@@ -16,13 +16,14 @@ from reference.system import MassSpringSystem
 
 Integrator = Literal["Euler", "RK4", "implicit"]
 
+#: With and without spring damping and drag, the scheme of each integrator.
 SCHEMES: Mapping[Integrator, Mapping[str, str]] = {
     "Euler": {"plain": "kick_drift", "damping": "kick_drift", "drag": "kick_drift"},
     "RK4": {"plain": "rk4", "damping": "rk4", "drag": "rk4"},
     "implicit": {
         "plain": "kick_drift",
         "damping": "kick_drift_implicit_damping",
-        "drag": "kick_drift_implicit_damping",
+        "drag": "kick_drift_implicit_damping_and_drag",
     },
 }
 
@@ -36,8 +37,8 @@ class MujocoTendons:
 
     Integrators, each with h = dt, f the force of springs and gravity alone, C the damping matrix: of the springs
     (sum of c n n^T over them, n the direction of the spring at the start of the step) plus drag Cd on the diagonal:
-        Euler     M v' = M v + h (f(x) - C v),   x' = x + h v'. MuJoCo's own default treats joint damping (the drag)
-                  implicitly; that is switched off.
+        Euler     M v' = M v + h (f(x) - C v),   x' = x + h v'. With `eulerdamp`, MuJoCo's own default, the drag is
+                  implicit: (M + h Cd) v' = M v + h (f(x) - C_springs v).
         RK4       the classic one, damping and drag included.
         implicit  (M + h C) v' = M v + h f(x),   x' = x + h v'.
 
@@ -48,12 +49,24 @@ class MujocoTendons:
 
     name: str
     integrator: Integrator
+    eulerdamp: bool = False
     package: str = "mujoco"
     capabilities: frozenset[str] = frozenset(CAPABILITIES)
-    semantics: str = (
-        "stiffness [N/m] and damping [N s/m] of each tendon, as given; drag [N s/m] as "
-        "damping of every slide joint, or with nested bodies as Stokes drag (3 pi times viscosity times diameter)"
-    )
+
+    @property
+    def semantics(self) -> str:
+        """What its numbers mean."""
+        drag = "Stokes drag in a viscous medium" if self.nested else "damping of every slide joint"
+        when = "explicit" if self.integrator != "implicit" else "implicit"
+        return (
+            f"stiffness is k [N/m] and damping c [N s/m] of each tendon, {when}; drag is Cd [N s/m] as {drag}, "
+            f"{'implicit' if self.eulerdamp else when}"
+        )
+
+    @property
+    def disabled(self) -> tuple[str, ...]:
+        """What of MuJoCo's step is switched off."""
+        return OFF if self.eulerdamp else (*OFF, "EULERDAMP")
 
     @property
     def nested(self) -> bool:
@@ -63,12 +76,13 @@ class MujocoTendons:
     @property
     def settings(self) -> Mapping[str, object]:
         """What was chosen, and what of MuJoCo's step is switched off."""
-        return {"integrator": self.integrator, "nested": self.nested, "disabled": [*OFF, "EULERDAMP"]}
+        return {"integrator": self.integrator, "nested": self.nested, "disabled": list(self.disabled)}
 
     @property
     def identified_as(self) -> Mapping[str, str]:
         """The schemes written out above."""
-        return SCHEMES[self.integrator]
+        schemes = SCHEMES[self.integrator]
+        return {**schemes, "drag": "kick_drift_implicit_drag"} if self.eulerdamp else schemes
 
     def start(self, system: MassSpringSystem, dt: float) -> TendonSimulation:
         """The system as bodies and tendons. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
@@ -79,7 +93,7 @@ class MujocoTendons:
             raise Unsupported(f"MuJoCo: {error}") from None
         model.opt.timestep = dt
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
-        model.opt.disableflags = without(mujoco, (*OFF, "EULERDAMP"))
+        model.opt.disableflags = without(mujoco, self.disabled)
         return TendonSimulation(mujoco, model, system, self.nested)
 
 
@@ -169,6 +183,7 @@ def _three(vector: Array) -> Array:
 
 ENGINES = (
     MujocoTendons("mujoco_tendons", "Euler"),
+    MujocoTendons("mujoco_tendons_eulerdamp", "Euler", eulerdamp=True),
     MujocoTendons("mujoco_tendons_rk4", "RK4"),
     MujocoTendons("mujoco_tendons_implicit", "implicit"),
 )

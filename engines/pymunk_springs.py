@@ -33,7 +33,11 @@ class PymunkSprings:
     rounds: int = 10
     backward_euler: bool = False
     identified_as: Mapping[str, str] = field(
-        default_factory=lambda: {"plain": "drift_kick", "damping": "drift_kick_sequential_damping", "drag": "drift_kick"}
+        default_factory=lambda: {
+            "plain": "drift_kick",
+            "damping": "drift_kick_sequential_damping",
+            "drag": "drift_kick",
+        }
     )
     package: str = "pymunk"
     capabilities: frozenset[str] = frozenset(

@@ -13,7 +13,10 @@ import click
 #: Command, its module and function, and what `--help` says of it without importing it.
 COMMANDS = {
     "list": ("experiments.commands:show_list", "Scenes, schemes, engines and experiments."),
-    "compare": ("experiments.commands:compare_command", "Run many steppers on one scene: how far from the truth, and why."),
+    "compare": (
+        "experiments.commands:compare_command",
+        "Run many steppers on one scene: how far from the truth, and why.",
+    ),
     "identify": ("experiments.commands:identify_command", "Say which scheme a stepper is."),
     "run": ("report.commands:run_command", "Run experiments, and write their figures and tables."),
     "report": ("report.commands:report_command", "Write the report: every experiment on one page."),

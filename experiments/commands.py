@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -24,14 +23,22 @@ def show_list(as_json: bool) -> None:
     from reference.scenes import scenes
     from reference.stepper import SchemeStepper
 
-    scene_rows = [[s.name, s.slides, s.summary, ", ".join(f"{k}={v:g}" for k, v in s.parameters.items())] for s in scenes().values()]
+    scene_rows = [
+        [s.name, s.slides, s.summary, ", ".join(f"{k}={v:g}" for k, v in s.parameters.items())]
+        for s in scenes().values()
+    ]
     stepper_rows = []
     for stepper in all_steppers().values():
         if stepper.kind != "engine":
             summary = stepper.scheme.summary if isinstance(stepper, SchemeStepper) else stepper.summary  # type: ignore[attr-defined]
             stepper_rows.append([stepper.name, stepper.kind, summary])
     engine_rows = [
-        [e.name, version(e) or f"not available: {e.package} is not installed", ", ".join(dict.fromkeys(e.identified_as.values())), e.semantics]
+        [
+            e.name,
+            version(e) or f"not available: {e.package} is not installed",
+            ", ".join(dict.fromkeys(e.identified_as.values())),
+            e.semantics,
+        ]
         for e in registry().values()
     ]
     experiment_rows = [[e.name, e.slides, e.question] for e in experiments().values()]
@@ -42,7 +49,15 @@ def show_list(as_json: bool) -> None:
         "experiments": (["experiment", "slides", "question"], experiment_rows),
     }
     if as_json:
-        click.echo(json.dumps({name: [dict(zip(columns, row, strict=True)) for row in rows] for name, (columns, rows) in tables.items()}, indent=2))
+        click.echo(
+            json.dumps(
+                {
+                    name: [dict(zip(columns, row, strict=True)) for row in rows]
+                    for name, (columns, rows) in tables.items()
+                },
+                indent=2,
+            )
+        )
         return
     for name, (columns, rows) in tables.items():
         show_table(name, columns, rows)
@@ -54,7 +69,13 @@ def run_options(command: Any) -> Any:
         click.option("--dt", type=float, help="Step [s]; the scene's own where left out."),
         click.option("--duration", type=float, help="How long [s]."),
         click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Set a parameter of the scene."),
-        click.option("--change", "changes", multiple=True, metavar="T:KEY=VALUE", help="Change a parameter at a time [s], on the fly."),
+        click.option(
+            "--change",
+            "changes",
+            multiple=True,
+            metavar="T:KEY=VALUE",
+            help="Change a parameter at a time [s], on the fly.",
+        ),
         click.option("--json", "as_json", is_flag=True, help="Print JSON."),
     ]
     for option in reversed(options):

@@ -1,4 +1,7 @@
-"""How far does each engine go from the true motion of a string, and why? `python -m experiments.divergence`"""
+"""How far does each engine go from the true motion of a string, and why?
+
+`python -m experiments.divergence`
+"""
 
 from __future__ import annotations
 

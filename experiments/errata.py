@@ -1,4 +1,6 @@
-"""What do the lecture's listings do, run as they are printed? `python -m experiments.errata`
+"""What do the lecture's listings do, run as they are printed?
+
+`python -m experiments.errata`
 
 The lecture teaches the right things, and most of its listings do what it says. Where one does not, a student who types
 it in deserves to know. Each remark here is executed, and carries the number that shows it.
@@ -44,15 +46,16 @@ def run(progress: Progress) -> Result:
 
 def _findings(remarks: list[Remark]) -> list[str]:
     value = {measured: number for _, _, measured, number, _ in remarks}
+    apart = value["distance from slide 7, 500 steps"]
+    wrong, right = value["order of heun_link_by_link"], value["order of heun"]
+    larger = value["largest stable dt, heun_link_by_link"] / value["largest stable dt, heun"]
     return [
-        "Slide 11's listing is better than its heading: run as printed it differs from slide 7's by "
-        f"{value['distance from slide 7, 500 steps']:g} m, because each of its loops reads one array and writes another.",
-        f"What the slide warns of is real: Heun advanced link by link has order {value['order of heun_link_by_link']:.2f} "
-        f"where Heun has {value['order of heun']:.2f}. It is also stable up to a dt "
-        f"{value['largest stable dt, heun_link_by_link'] / value['largest stable dt, heun']:.2f} times as large: stable "
-        "is not accurate.",
-        "Slide 17 multiplies components where a projection is meant, slide 4's force from the next node has the sign of "
-        "D0 turned, and slide 9's function closes after its first spring; each has a one-line remedy.",
+        f"Slide 11's listing is better than its heading: run as printed it is {apart:g} m from slide 7's, because each "
+        "of its loops reads one array and writes another.",
+        f"What the slide warns of is real: Heun advanced link by link has order {wrong:.2f} where Heun has {right:.2f}. "
+        f"It is also stable up to {larger:.2f} times the dt: stable is not accurate.",
+        "Slide 17 multiplies components where a projection is meant, slide 4's force from the next node has the sign "
+        "of D0 turned, and slide 9's function closes after its first spring; each has a one-line remedy.",
     ]
 
 
@@ -62,7 +65,8 @@ def _incorrect_listing() -> list[Remark]:
     system, dt, steps = string.system({"drag": 0.02}), 1e-3, 500
     printed, meant = (listings()[f"lecture_heun_{name}"] for name in ("incorrect", "loops"))
     both = [listing.run(system, dt, steps).trajectory for listing in (printed, meant)]
-    assert both[0] is not None and both[1] is not None
+    assert both[0] is not None
+    assert both[1] is not None
     what = "the listing headed incorrect"
     found = identify(printed, system, dt, steps)
     return [
@@ -84,9 +88,7 @@ def _orders(progress: Progress) -> dict[str, tuple[list[float], list[float], flo
     return orders
 
 
-def _in_place_variants(
-    orders: dict[str, tuple[list[float], list[float], float]], progress: Progress
-) -> list[Remark]:
+def _in_place_variants(orders: dict[str, tuple[list[float], list[float], float]], progress: Progress) -> list[Remark]:
     """What is wrong with truly overwriting the state: order, and (at a price) stability."""
     slack = find("string").system({"stiffness": 50.0, "drag": 0.2})
     what = "the whole state, not link by link"
@@ -126,7 +128,13 @@ def _next_spring() -> list[Remark]:
     what = "F = k (Y_next - Y - D0)"
     return [
         ("4", what, "force at rest", force_from_next(y, 1, k, length, printed=True), "N"),
-        ("4", "meant: F = k (Y_next - Y + D0)", "force at rest, repaired", force_from_next(y, 1, k, length, printed=False), "N"),
+        (
+            "4",
+            "meant: F = k (Y_next - Y + D0)",
+            "force at rest, repaired",
+            force_from_next(y, 1, k, length, printed=False),
+            "N",
+        ),
     ]
 
 
@@ -138,7 +146,13 @@ def _derivative_listing() -> list[Remark]:
     string = StringConstants.of(system)
     cut, whole = (derivatives(links, 0, string, next_spring=both)[3] for both in (False, True))
     return [
-        ("9", "the function closes after the first spring", "acceleration of the top link, hanging at rest", cut, "m/s^2"),
+        (
+            "9",
+            "the function closes after the first spring",
+            "acceleration of the top link, hanging at rest",
+            cut,
+            "m/s^2",
+        ),
         ("9-10", "meant: both springs in one function", "acceleration of the top link, repaired", whole, "m/s^2"),
     ]
 

@@ -1,4 +1,7 @@
-"""What does a string become as it gets stiffer? `python -m experiments.stiff_limit`"""
+"""What does a string become as it gets stiffer?
+
+`python -m experiments.stiff_limit`
+"""
 
 from __future__ import annotations
 
@@ -35,7 +38,9 @@ def run(progress: Progress) -> Result:
         to_cable = None if cable is None else float(np.linalg.norm(springs.positions - cable, axis=2).max())
         rows.append([stiffness, float(springs.distance(rods).max()), to_cable])
     own = None if cable is None else float(np.linalg.norm(rods.positions - cable, axis=2).max())
-    slope = float(np.polyfit(np.log([r[0] for r in rows[2:]]), np.log([r[1] for r in rows[2:]]), 1)[0])
+    stiff = np.array([row[:2] for row in rows[2:]], dtype=float)
+    stiffness, distance = np.log(stiff.T)
+    slope = float(np.polyfit(stiffness, distance, 1)[0])
     columns = ["stiffness [N/m]", "string to pendulum [m]", "string to MuJoCo cable [m]"]
     tables = [Table("stiff_limit", columns, [[finite(v) for v in row] for row in rows])]
     failures = [] if cable is not None else [f"mujoco_cable_rk4: {outcome.ending}, {outcome.reason}"]

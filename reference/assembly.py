@@ -32,6 +32,12 @@ class Blocks:
     springs: Array
     masses: Array
 
+    @classmethod
+    def of_masses(cls, system: MassSpringSystem, value: float) -> Blocks:
+        """The same value for every mass, and nothing for the springs."""
+        d = system.dimension
+        return cls(np.zeros((len(system.springs), d, d)), np.full(len(system.masses), value))
+
     def __rmul__(self, factor: float) -> Blocks:
         return Blocks(factor * self.springs, factor * self.masses)
 
@@ -64,8 +70,8 @@ def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Block
         + (force / length)[:, None, None] * across
         + (system.damping / length)[:, None, None] * turning
     )
-    n = len(system.masses)
-    return Blocks(by_position, np.zeros(n)), Blocks(by_velocity, np.full(n, system.drag))
+    nothing = np.zeros(len(system.masses))
+    return Blocks(by_position, nothing), Blocks(by_velocity, nothing + system.drag)
 
 
 def damping_blocks(system: MassSpringSystem, state: State, coefficients: Array) -> Blocks:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +29,7 @@ class Change:
         return int(np.ceil(self.time / dt - 1e-9))
 
 
-def changes_by_step(changes: tuple[Change, ...], dt: float) -> dict[int, list[Change]]:
+def changes_by_step(changes: Sequence[Change], dt: float) -> dict[int, list[Change]]:
     """The changes in order of time, by the step they act on.
 
     Raises:

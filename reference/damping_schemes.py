@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from reference.assembly import assemble, damping_blocks, solve_velocities
+from reference.assembly import Blocks, assemble, damping_blocks, solve_velocities
 from reference.catalogue import scheme
 from reference.conjugate_residual import conjugate_residual
 from reference.forces import SpringMotion
@@ -27,8 +27,26 @@ ROUNDS = 10
 @scheme(order=1, kind="engine_scheme", springs_only=True)
 def kick_drift_implicit_damping(motion: SpringMotion, state: State, dt: float) -> State:
     """Kick-drift with the damping of the springs implicit (Baraff and Witkin, SIGGRAPH 1998, for damping alone)."""
-    kicked = state.kick(dt * motion.undamped_acceleration(state))
+    kicked = state.kick(dt * motion.acceleration(state, damping=False))
     return slowed(motion, kicked, dt * motion.system.damping).drift(dt)
+
+
+@scheme(order=1, kind="engine_scheme", springs_only=True)
+def kick_drift_implicit_drag(motion: SpringMotion, state: State, dt: float) -> State:
+    """Kick-drift with the drag implicit and the damping of the springs explicit: (m + dt Cd) v = m v*."""
+    kicked = state.kick(dt * motion.acceleration(state, drag=False))
+    slower = 1 + dt * motion.system.drag / motion.system.masses[:, None]
+    return State(state.time, state.positions, kicked.velocities / slower).drift(dt)
+
+
+@scheme(order=1, kind="engine_scheme", springs_only=True)
+def kick_drift_implicit_damping_and_drag(motion: SpringMotion, state: State, dt: float) -> State:
+    """Kick-drift with everything that depends on velocities implicit, damping of the springs and drag."""
+    system = motion.system
+    kicked = state.kick(dt * motion.acceleration(state, damping=False, drag=False))
+    blocks = damping_blocks(system, state, dt * system.damping) + Blocks.of_masses(system, dt * system.drag)
+    velocities = solve_velocities(system, blocks, kicked.velocities)
+    return State(state.time, state.positions, velocities).drift(dt)
 
 
 @scheme(order=1, kind="engine_scheme", springs_only=True)
@@ -38,7 +56,7 @@ def kick_drift_truncated_damping(motion: SpringMotion, state: State, dt: float) 
     Bullet's way, to the rounding: unlike the exact solve it does nothing at all where the first residual is that small.
     """
     system = motion.system
-    kicked = state.kick(dt * motion.undamped_acceleration(state))
+    kicked = state.kick(dt * motion.acceleration(state, damping=False))
     if not system.damping.any():
         return kicked.drift(dt)
     free = ~system.fixed
@@ -58,7 +76,7 @@ def kick_drift_truncated_damping(motion: SpringMotion, state: State, dt: float) 
 def drift_kick_implicit_damping(motion: SpringMotion, state: State, dt: float) -> State:
     """Drift-kick with the damping of the springs implicit."""
     drifted = state.drift(dt)
-    kicked = drifted.kick(dt * motion.undamped_acceleration(drifted))
+    kicked = drifted.kick(dt * motion.acceleration(drifted, damping=False))
     return slowed(motion, kicked, dt * motion.system.damping)
 
 
@@ -72,7 +90,7 @@ def drift_kick_sequential_damping(motion: SpringMotion, state: State, dt: float)
     impulses: Catto, GDC 2006; as in Chipmunk's cpDampedSpring.
     """
     drifted = state.drift(dt)
-    kicked = drifted.kick(dt * motion.undamped_acceleration(drifted))
+    kicked = drifted.kick(dt * motion.acceleration(drifted, damping=False))
     system = motion.system
     if not system.damping.any():
         return kicked
@@ -93,7 +111,7 @@ def drift_kick_exponential_damping(motion: SpringMotion, state: State, dt: float
     exp(-dt c / m), whatever dt. This is what `drift_kick_sequential_damping` converges to with more rounds.
     """
     drifted = state.drift(dt)
-    kicked = drifted.kick(dt * motion.undamped_acceleration(drifted))
+    kicked = drifted.kick(dt * motion.acceleration(drifted, damping=False))
     mass = effective_masses(motion.system)
     return slowed(motion, kicked, mass * np.expm1(dt * motion.system.damping / mass))
 
@@ -120,7 +138,8 @@ def slowed(motion: SpringMotion, state: State, coefficients: Array) -> State:
     """The state after an implicit step of damping alone: dt c_j [N s^2/m = kg] given for every spring, shape (s,)."""
     if not coefficients.any():
         return state
-    velocities = solve_velocities(motion.system, damping_blocks(motion.system, state, coefficients), state.velocities)
+    blocks = damping_blocks(motion.system, state, coefficients)
+    velocities = solve_velocities(motion.system, blocks, state.velocities)
     return State(state.time, state.positions, velocities)
 
 

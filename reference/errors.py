@@ -14,7 +14,7 @@ class SolverError(ArithmeticError):
     """An implicit scheme's equation could not be solved; the message says at what step size."""
 
 
-class Unsupported(Exception):
+class Unsupported(Exception):  # noqa: N818 - one of the five words a run ends with
     """A stepper cannot do what is asked of it; the message is the reason."""
 
 

@@ -78,7 +78,8 @@ def exact(
         for change in pending.get(begin, ()):
             system = system.with_parameter(change.parameter, change.value)
             motion = equations(system)
-        states += _solve(motion, states[-1], dt * np.arange(begin, end + 1), system.size)
+        times: Array = dt * np.arange(begin, end + 1)
+        states += _solve(motion, states[-1], times, system.size)
     return motion.trajectory(states)
 
 

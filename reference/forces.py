@@ -83,16 +83,23 @@ class SpringMotion:
         self.start = system.start
         self._masses_and_weight = (system.masses, system.drag, system.gravity, system.fixed, *springs_of_masses(system))
         self._law = (system.springs, system.rest_lengths, system.stiffness)
-        self._undamped = np.zeros(len(system.springs))
+        self._none = np.zeros(len(system.springs))
         self._pull = np.empty((len(system.springs), system.dimension))
 
-    def acceleration(self, state: State) -> Array:
-        """Accelerations of all masses [m/s^2], shape (n, d), as a new array; zero for fixed masses."""
-        return self._all(state, self.system.damping)
+    def acceleration(self, state: State, damping: bool = True, drag: bool = True) -> Array:
+        """Accelerations of all masses [m/s^2], shape (n, d), as a new array; zero for fixed masses.
 
-    def undamped_acceleration(self, state: State) -> Array:
-        """The same without the damping of the springs, for schemes that treat that apart. Drag stays in."""
-        return self._all(state, self._undamped)
+        Args:
+            damping: False leaves out the damping of the springs, for schemes that treat it apart.
+            drag: False leaves out the drag.
+        """
+        out = np.empty_like(state.positions)
+        law = (*self._law, self.system.damping if damping else self._none)
+        masses, drag_now, *rest = self._masses_and_weight
+        if not drag:
+            drag_now = 0.0
+        all_accelerations(state.positions, state.velocities, *law, masses, drag_now, *rest, self._pull, out)
+        return out
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Acceleration of mass i alone [m/s^2], shape (d,): all the lecture's per-link function sees."""
@@ -112,12 +119,6 @@ class SpringMotion:
     def trajectory(self, states: list[State]) -> Trajectory:
         """The states of a run as the trajectory of the masses."""
         return Trajectory.of(states)
-
-    def _all(self, state: State, damping: Array) -> Array:
-        out = np.empty_like(state.positions)
-        law = (*self._law, damping)
-        all_accelerations(state.positions, state.velocities, *law, *self._masses_and_weight, self._pull, out)
-        return out
 
 
 def springs_of_masses(system: MassSpringSystem) -> tuple[IntArray, IntArray, Array]:

@@ -191,7 +191,9 @@ class LectureListing:
                 for change in pending.get(step, ()):
                     current = current.with_parameter(change.parameter, change.value)
                     if why_no_string(current):
-                        return Outcome("unsupported", f"{change.parameter} = {change.value:g}: {why_no_string(current)}")
+                        return Outcome(
+                            "unsupported", f"{change.parameter} = {change.value:g}: {why_no_string(current)}"
+                        )
                 self.advance(links, StringConstants.of(current), dt)
                 states.append(_state((step + 1) * dt, system, links))
         except (OverflowError, ZeroDivisionError) as error:

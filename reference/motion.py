@@ -8,14 +8,14 @@ from reference.state import Array, Slope, State, Trajectory
 
 
 class Motion(Protocol):
-    """Equations of motion. A mesh of springs has them (`forces.SpringMotion`), a pendulum too (`pendulum.PendulumMotion`)."""
+    """Equations of motion: those of a mesh of springs (`forces.SpringMotion`) or of a pendulum (`pendulum`)."""
 
     @property
     def start(self) -> State:
         """The state at time zero."""
 
     def acceleration(self, state: State) -> Array:
-        """x'' at a state, the shape of its positions."""
+        """X'' at a state, the shape of its positions."""
 
     def slope(self, state: State) -> Slope:
         """(1, x', x''): the rate of change of the whole state."""

@@ -112,7 +112,7 @@ def load(path: Path, settings: Mapping[str, Any]) -> Setup:
 def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup:
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
     if (content.scene is None) == (content.system is None):
-        raise InputError("expected either scene = \"...\" or a table [system]")
+        raise InputError('expected either scene = "..." or a table [system]')
     if content.system is not None:
         if settings or content.parameters:
             name = next(iter([*settings, *content.parameters]))

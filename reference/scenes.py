@@ -132,7 +132,7 @@ def spring(
     """One mass hanging on one spring, moving up and down: the damped oscillator.
 
     It hangs at (0, y) below an anchor at (0, 0), starting `stretch` [m] below the spring's rest length with a velocity
-    upwards [m/s]. Slide 2 writes m y'' = -W - k (y - D0) - ... with y from the spring's foot; this is the same from its top.
+    upwards [m/s]. Slide 2 has the equation, with y measured from the spring's other end.
     """
     return MassSpringSystem(
         positions=np.array([[0.0, 0.0], [0.0, -(rest_length + stretch)]]),
@@ -220,7 +220,7 @@ def _check(name: str, number: float) -> None:
     """Refuse here what the system would refuse under its own, plural name."""
     if not np.isfinite(number):
         raise InputError(f"{name} = {number:g}: expected a finite number")
-    if name in ABOVE_ZERO and number <= 0 or name in NOT_BELOW_ZERO and number < 0:
+    if (name in ABOVE_ZERO and number <= 0) or (name in NOT_BELOW_ZERO and number < 0):
         raise InputError(f"{name} = {number:g}: expected a number {'>' if name in ABOVE_ZERO else '>='} 0")
 
 

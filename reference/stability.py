@@ -67,7 +67,7 @@ def largest_stable_dt(scheme: Scheme, system: MassSpringSystem, equilibrium: Sta
 
 
 def _stiffest(system: MassSpringSystem) -> float:
-    """A bound [1/s^2] on the square of the highest frequency: no mode is stiffer than all springs of one mass at once."""
+    """A bound [1/s^2] on the square of the highest frequency: no mode is stiffer than a mass on all its springs."""
     total = np.zeros(len(system.masses))
     for end in system.springs.T:
         np.add.at(total, end, system.stiffness)

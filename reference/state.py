@@ -34,9 +34,7 @@ class State:
 
     def __add__(self, change: Slope) -> State:
         """The state moved by a slope that has been multiplied by a time."""
-        return State(
-            self.time + change.time, self.positions + change.positions, self.velocities + change.velocities
-        )
+        return State(self.time + change.time, self.positions + change.positions, self.velocities + change.velocities)
 
     def kick(self, change: Array) -> State:
         """The same positions with other velocities: what a force alone does."""
@@ -59,9 +57,7 @@ class Slope:
         return Slope(factor * self.time, factor * self.positions, factor * self.velocities)
 
     def __add__(self, other: Slope) -> Slope:
-        return Slope(
-            self.time + other.time, self.positions + other.positions, self.velocities + other.velocities
-        )
+        return Slope(self.time + other.time, self.positions + other.positions, self.velocities + other.velocities)
 
 
 @dataclass(frozen=True, eq=False)

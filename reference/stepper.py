@@ -19,20 +19,19 @@ from reference.system import MassSpringSystem
 
 
 class Stepper(Protocol):
-    """A scheme, an engine, a lecture listing, a student's file.
-
-    Attributes:
-        name: as the command line knows it.
-        kind: what it is: scheme, engine_scheme, in_place, pendulum, lecture, engine.
-        version: of the package it comes from, where it comes from one.
-    """
+    """A scheme, an engine, a lecture listing, a student's file."""
 
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """As the command line knows it."""
+
     @property
-    def kind(self) -> str: ...
+    def kind(self) -> str:
+        """What it is: scheme, engine_scheme, in_place, pendulum, lecture, engine."""
+
     @property
-    def version(self) -> str | None: ...
+    def version(self) -> str | None:
+        """Of the package it comes from, where it comes from one."""
 
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """Advance the system `steps` times by dt [s]. Never raises for what happens on the way: that is the outcome."""

@@ -121,7 +121,8 @@ class MassSpringSystem:
         if name not in PARAMETERS:
             raise unknown_name("parameter", name, PARAMETERS)
         attribute = {"mass": "masses", "rest_length": "rest_lengths"}.get(name, name)
-        return replace(self, **{attribute: value})
+        changed: dict[str, Any] = {attribute: value}
+        return replace(self, **changed)
 
     def renumbered(self, order: npt.ArrayLike) -> MassSpringSystem:
         """The same system with its masses listed in another order: mass order[i] becomes mass i."""

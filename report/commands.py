@@ -44,7 +44,8 @@ def report_command(names: Sequence[str], out: Path) -> int:
     sections = []
     with progress("report") as tell:
         for experiment in wanted:
-            sections.append(section(experiment, out / experiment.name, lambda what, e=experiment: tell(f"{e.name}, {what}")))  # type: ignore[misc]
+            tell(experiment.name)
+            sections.append(section(experiment, out / experiment.name, tell))
     (out / "index.html").write_text(page(sections), encoding="utf-8")
     for answer in sections:
         first = answer.failure if answer.result is None else answer.result.findings[0]

@@ -6,8 +6,8 @@ import numpy as np
 
 from experiments.comparison import Comparison, Run
 from experiments.experiment import Result
-from report.figures import Picture, look, new_figure
 from reference.state import Array
+from report.figures import Picture, look, new_figure
 
 #: Where no difference at all is drawn: a logarithm has no place for it.
 FLOOR = 1e-17

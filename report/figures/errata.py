@@ -23,7 +23,9 @@ def draw(result: Result) -> Picture:
     right.plot(np.degrees(angles), printed, "--", color=look(1)["color"])
     right.axhline(0, color="#888888", linewidth=0.8)
     right.annotate("projected, v = (v.t) t", (100, 1), (0, -16), textcoords="offset points", color=look(2)["color"])
-    right.annotate("as printed, v = (v_x t_x, v_y t_y)", (0, -1), (16, -3), textcoords="offset points", color=look(1)["color"])
+    right.annotate(
+        "as printed, v = (v_x t_x, v_y t_y)", (0, -1), (16, -3), textcoords="offset points", color=look(1)["color"]
+    )
     right.set_xticks([0, 90, 180, 270, 360], ["side", "top", "side", "bottom", "side"])
     right.set_ylim(-1.2, 1.2)
     right.set_xlabel("place on the circle")

@@ -20,8 +20,29 @@ def draw(result: Result) -> Picture:
     axes.set_yscale("log")
     axes.set_xlabel("stiffness of the springs [N/m]")
     axes.set_ylabel("largest distance within 0.5 s [m]")
-    axes.annotate("predicted: 1/stiffness", (stiffness[0] * 2, to_pendulum[-1] * stiffness[-1] / stiffness[0] / 2), (10, 8), textcoords="offset points", color="#555555")
-    axes.annotate("measured: to the pendulum (ring)", (stiffness[2], to_pendulum[2]), (16, 14), textcoords="offset points", color=look(0)["color"])
-    axes.annotate("measured: to MuJoCo's cable (square)", (stiffness[3], to_pendulum[3]), (-20, -24), textcoords="offset points", ha="right", color=look(1)["color"])
+    axes.annotate(
+        "predicted: 1/stiffness",
+        (stiffness[0] * 2, to_pendulum[-1] * stiffness[-1] / stiffness[0] / 2),
+        (10, 8),
+        textcoords="offset points",
+        color="#555555",
+    )
+    axes.annotate(
+        "measured: to the pendulum (ring)",
+        (stiffness[2], to_pendulum[2]),
+        (16, 14),
+        textcoords="offset points",
+        color=look(0)["color"],
+    )
+    axes.annotate(
+        "measured: to MuJoCo's cable (square)",
+        (stiffness[3], to_pendulum[3]),
+        (-20, -24),
+        textcoords="offset points",
+        ha="right",
+        color=look(1)["color"],
+    )
     numbers = ", ".join(f"{d:.2g} m at {k:g} N/m" for k, d in zip(stiffness, to_pendulum, strict=True))
-    return Picture(figure, f"Logarithmic plot: a string's distance from the pendulum falls with its stiffness, {numbers}.")
+    return Picture(
+        figure, f"Logarithmic plot: a string's distance from the pendulum falls with its stiffness, {numbers}."
+    )
