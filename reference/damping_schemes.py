@@ -33,20 +33,23 @@ def kick_drift_implicit_damping(motion: SpringMotion, state: State, dt: float) -
 
 @scheme(order=1, kind="engine_scheme", springs_only=True)
 def kick_drift_implicit_drag(motion: SpringMotion, state: State, dt: float) -> State:
-    """Kick-drift with the drag implicit and the damping of the springs explicit: (m + dt Cd) v = m v*."""
-    kicked = state.kick(dt * motion.acceleration(state, drag=False))
+    """Kick-drift with the drag implicit and the damping of the springs explicit.
+
+    (m + dt Cd) (v1 - v0) = dt f(x0, v0): MuJoCo's Euler step as it comes.
+    """
     slower = 1 + dt * motion.system.drag / motion.system.masses[:, None]
-    return State(state.time, state.positions, kicked.velocities / slower).drift(dt)
+    return state.kick(dt * motion.acceleration(state) / slower).drift(dt)
 
 
 @scheme(order=1, kind="engine_scheme", springs_only=True)
 def kick_drift_implicit_damping_and_drag(motion: SpringMotion, state: State, dt: float) -> State:
-    """Kick-drift with everything that depends on velocities implicit, damping of the springs and drag."""
+    """Kick-drift with everything that depends on velocities implicit, damping of the springs and drag.
+
+    (M + dt C) (v1 - v0) = dt f(x0, v0) with C the whole damping matrix: MuJoCo's `implicit` integrator.
+    """
     system = motion.system
-    kicked = state.kick(dt * motion.acceleration(state, damping=False, drag=False))
     blocks = damping_blocks(system, state, dt * system.damping) + Blocks.of_masses(system, dt * system.drag)
-    velocities = solve_velocities(system, blocks, kicked.velocities)
-    return State(state.time, state.positions, velocities).drift(dt)
+    return state.kick(dt * solve_velocities(system, blocks, motion.acceleration(state))).drift(dt)
 
 
 @scheme(order=1, kind="engine_scheme", springs_only=True)
@@ -147,8 +150,9 @@ def effective_masses(system: MassSpringSystem) -> Array:
     """1 / (1/m_a + 1/m_b) of the masses each spring joins [kg], shape (s,); a fixed mass counts as infinite."""
     inverse = np.where(system.fixed, 0.0, 1 / system.masses)
     a, b = system.springs.T
-    with np.errstate(divide="ignore"):
-        return 1 / (inverse[a] + inverse[b])
+    both = inverse[a] + inverse[b]
+    # Between two fixed masses any number will do: no impulse moves them.
+    return np.divide(1.0, both, out=np.ones_like(both), where=both > 0)
 
 
 def spring_directions(system: MassSpringSystem, state: State) -> Array:

@@ -43,9 +43,10 @@ def damped_oscillator(
     if square > 0:
         decay, c, d = np.exp(-gamma * t), np.cos(s * t), np.sin(s * t) / s
     elif square < 0:
-        # exp(-gamma t) cosh(s t) as the sum of two decays, since cosh alone would overflow.
-        slow, fast = np.exp(-(gamma - s) * t), np.exp(-(gamma + s) * t)
-        decay, c, d = np.ones_like(t), (slow + fast) / 2, (slow - fast) / (2 * s)
+        # The slow decay, at gamma - s = k/m / (gamma + s), apart: cosh alone would overflow. What remains of sinh is
+        # 1 - exp(-2st), which expm1 keeps exact where the two decays are nearly equal.
+        parted = -np.expm1(-2 * s * t)
+        decay, c, d = np.exp(-stiffness / mass / (gamma + s) * t), 1 - parted / 2, parted / (2 * s)
     else:
         decay, c, d = np.exp(-gamma * t), np.ones_like(t), t
     y = decay * (y0 * c + (v0 + gamma * y0) * d)
@@ -78,7 +79,7 @@ def exact(
         for change in pending.get(begin, ()):
             system = system.with_parameter(change.parameter, change.value)
             motion = equations(system)
-        times: Array = dt * np.arange(begin, end + 1)
+        times = np.array([dt * i for i in range(begin, end + 1)])
         states += _solve(motion, states[-1], times, system.size)
     return motion.trajectory(states)
 

@@ -6,7 +6,8 @@ A spring pulls the two masses it joins together with the force
 
 and a mass feels its springs, its weight m g, and the drag -Cd v. The kernels are compiled by Numba and cached on disk.
 Every spring is computed once; then each mass sums the pulls of its own springs in their order. A mass alone
-(`acceleration_of`) is given exactly the bits it has within the whole.
+(`acceleration_of`) is given exactly the bits it has within the whole. A spring of no length, which has no direction,
+gives forces that are not numbers (Numba's "numpy" error model), and so a run that diverges.
 """
 
 from __future__ import annotations
@@ -19,7 +20,13 @@ from reference.state import Array, Slope, State, Trajectory
 from reference.system import IntArray, MassSpringSystem
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
+def spring_force(stiffness, stretch, damping, lengthening):  # type: ignore[no-untyped-def]
+    """The force law [N]: k times how much longer than at rest, plus c times how fast it lengthens."""
+    return stiffness * stretch + damping * lengthening
+
+
+@njit(cache=True, error_model="numpy")
 def spring_pull(j, x, v, springs, rest_lengths, stiffness, damping, pull):  # type: ignore[no-untyped-def]
     """Write the force of spring j on its first mass [N] to pull[j]; on its second mass it is the opposite."""
     a, b = springs[j, 0], springs[j, 1]
@@ -34,12 +41,12 @@ def spring_pull(j, x, v, springs, rest_lengths, stiffness, damping, pull):  # ty
     for axis in range(dimension):
         pull[j, axis] /= length
         lengthening += pull[j, axis] * (v[b, axis] - v[a, axis])
-    force = stiffness[j] * (length - rest_lengths[j]) + damping[j] * lengthening
+    force = spring_force(stiffness[j], length - rest_lengths[j], damping[j], lengthening)
     for axis in range(dimension):
         pull[j, axis] *= force
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def mass_acceleration(i, v, pull, masses, drag, gravity, fixed, first, spring, sign, out):  # type: ignore[no-untyped-def]
     """Write the acceleration of mass i [m/s^2] to out[i], from its weight, its springs' pulls and its drag."""
     for axis in range(out.shape[1]):
@@ -50,7 +57,7 @@ def mass_acceleration(i, v, pull, masses, drag, gravity, fixed, first, spring, s
         out[i, axis] = 0.0 if fixed[i] else force / masses[i]
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def all_accelerations(  # type: ignore[no-untyped-def]
     x, v, springs, rest_lengths, stiffness, damping, masses, drag, gravity, fixed, first, spring, sign, pull, out
 ):
@@ -61,7 +68,7 @@ def all_accelerations(  # type: ignore[no-untyped-def]
         mass_acceleration(i, v, pull, masses, drag, gravity, fixed, first, spring, sign, out)
 
 
-@njit(cache=True)
+@njit(cache=True, error_model="numpy")
 def one_acceleration(  # type: ignore[no-untyped-def]
     i, x, v, springs, rest_lengths, stiffness, damping, masses, drag, gravity, fixed, first, spring, sign, pull, out
 ):
@@ -86,19 +93,15 @@ class SpringMotion:
         self._none = np.zeros(len(system.springs))
         self._pull = np.empty((len(system.springs), system.dimension))
 
-    def acceleration(self, state: State, damping: bool = True, drag: bool = True) -> Array:
+    def acceleration(self, state: State, damping: bool = True) -> Array:
         """Accelerations of all masses [m/s^2], shape (n, d), as a new array; zero for fixed masses.
 
         Args:
-            damping: False leaves out the damping of the springs, for schemes that treat it apart.
-            drag: False leaves out the drag.
+            damping: False leaves out the damping of the springs, for schemes that treat it apart. Drag stays in.
         """
         out = np.empty_like(state.positions)
         law = (*self._law, self.system.damping if damping else self._none)
-        masses, drag_now, *rest = self._masses_and_weight
-        if not drag:
-            drag_now = 0.0
-        all_accelerations(state.positions, state.velocities, *law, masses, drag_now, *rest, self._pull, out)
+        all_accelerations(state.positions, state.velocities, *law, *self._masses_and_weight, self._pull, out)
         return out
 
     def acceleration_of(self, i: int, state: State) -> Array:

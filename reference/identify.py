@@ -114,7 +114,7 @@ def identify_run(
     if frames < 2:
         return Identification(name, (), limit, "it blew up in its first step")
     errors = {scheme: float(_distance(outcome.trajectory, known[scheme], frames)) for scheme in known}
-    noise = max(NOISE * system.size, 10 * min(errors.values(), default=0.0))
+    noise = min(limit, max(NOISE * system.size, 10 * min(errors.values(), default=0.0)))
     # Sorting is stable: among those as good as the best, the catalogue's order decides, simplest first.
     nearest_first = sorted(errors, key=lambda scheme: 0.0 if errors[scheme] <= noise else errors[scheme])
     return Identification(name, tuple(Match(s, errors[s]) for s in nearest_first), limit)

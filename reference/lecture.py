@@ -194,7 +194,8 @@ class LectureListing:
                         return Outcome(
                             "unsupported", f"{change.parameter} = {change.value:g}: {why_no_string(current)}"
                         )
-                self.advance(links, StringConstants.of(current), dt)
+                with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+                    self.advance(links, StringConstants.of(current), dt)
                 states.append(_state((step + 1) * dt, system, links))
         except (OverflowError, ZeroDivisionError) as error:
             return Outcome("diverged", f"{error} at t = {step * dt:.6g} s", Trajectory.of(states))

@@ -49,13 +49,12 @@ class PendulumMotion:
         """Angular accelerations [rad/s^2], shape (n,)."""
         angles, rates = state.positions, state.velocities
         difference = angles[:, None] - angles[None, :]
-        torque: Array = -(self._inertia * np.sin(difference)) @ rates**2
+        torque = np.asarray(-(self._inertia * np.sin(difference)) @ rates**2)
         pull = self._masses[:, None] * self.system.gravity - self.system.drag * self._mass_velocities(state)
         # Every mass pulls at all the rods above it: rod i feels the sum over the masses i, i+1, ...
         below = np.cumsum(pull[::-1], axis=0)[::-1]
         torque = torque + self._lengths * (below[:, 0] * np.cos(angles) + below[:, 1] * np.sin(angles))
-        solution: Array = np.linalg.solve(self._inertia * np.cos(difference), torque)
-        return solution
+        return np.asarray(np.linalg.solve(self._inertia * np.cos(difference), torque))
 
     def slope(self, state: State) -> Slope:
         """The rate of change of the whole state: angular velocities and accelerations."""

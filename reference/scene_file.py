@@ -117,11 +117,13 @@ def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup
         if settings or content.parameters:
             name = next(iter([*settings, *content.parameters]))
             raise InputError(f"{name}: expected no parameters, the system is written out")
-        return Setup(path.stem, content.system.system(), content.dt or 1e-3, content.duration or 0.5, changes)
-    scene = find(content.scene or "")
-    system = scene.system({**content.parameters, **settings})
-    dt = scene.dt if content.dt is None else content.dt
-    return Setup(path.stem, system, dt, scene.duration if content.duration is None else content.duration, changes)
+        system, dt, duration = content.system.system(), 1e-3, 0.5
+    else:
+        scene = find(content.scene or "")
+        system, dt, duration = scene.system({**content.parameters, **settings}), scene.dt, scene.duration
+    dt = dt if content.dt is None else content.dt
+    duration = duration if content.duration is None else content.duration
+    return Setup(path.stem, system, dt, duration, changes)
 
 
 def _plain(message: str) -> str:

@@ -84,8 +84,9 @@ def backward_euler(motion: SpringMotion, state: State, dt: float) -> State:
         change = solve_velocities(motion.system, dt * by_velocity + dt**2 * by_position, missing)
         velocities = end.velocities + change
         end = State(end.time, state.positions + dt * velocities, velocities)
-        # Newton's error squares at each round: below 1e-9 of the velocities, the next change is rounding.
-        if np.abs(change).max() <= 1e-9 * np.abs(velocities).max(initial=1e-30):
+        # Newton's error squares at each round: below 1e-9 of the velocities, the next change is rounding. Of a state
+        # at rest the velocities themselves are rounding: there, masses moving by 1e-13 of the size are good enough.
+        if np.abs(change).max() <= 1e-9 * np.abs(velocities).max() + 1e-13 * motion.system.size / abs(dt):
             return end
     raise SolverError(f"backward Euler found no solution at t = {state.time:.6g} s with dt = {dt:g} s")
 

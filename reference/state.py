@@ -95,6 +95,10 @@ class Trajectory:
             np.array([s.velocities for s in states]),
         )
 
+    def states(self) -> list[State]:
+        """The states, one per time."""
+        return [State(t, x, v) for t, x, v in zip(self.times.tolist(), self.positions, self.velocities, strict=True)]
+
     def distance(self, other: Trajectory) -> Array:
         """How far apart the two are at each time: the largest distance of any mass [m], shape (m,).
 

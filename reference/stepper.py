@@ -67,7 +67,12 @@ class SchemeStepper:
         except InputError as error:
             # Only a change on the fly can still be wrong here: a rod's length cannot change while it swings.
             return Outcome("unsupported", str(error))
-        return outcome_of(system, trajectory)
+        outcome = outcome_of(system, trajectory)
+        if outcome.ending == "done" and len(trajectory) <= steps:
+            # A pendulum's masses stay on their rods however fast it turns.
+            reason = f"the velocities are not numbers at t = {trajectory.times[-1]:.6g} s"
+            return Outcome("diverged", reason, trajectory)
+        return outcome
 
 
 def catalogued() -> Mapping[str, SchemeStepper]:

@@ -66,8 +66,8 @@ class MassSpringSystem:
         springs = _springs(self.springs, positions)
         s = len(springs)
         gravity = _finite("gravity", self.gravity, "m/s^2")
-        if gravity.ndim == 0:
-            gravity = np.array([0.0, -float(gravity), 0.0][:d])
+        if gravity.size == 1:
+            gravity = np.array([0.0, -float(gravity.item()), 0.0][:d])
         checked = {
             "positions": positions,
             "springs": springs,
@@ -77,7 +77,7 @@ class MassSpringSystem:
             "damping": _in_range("damping", self.damping, (s,), "N s/m"),
             "gravity": _shaped("gravity", gravity, (d,)),
             "velocities": _shaped("velocities", _finite("velocities", self.velocities, "m/s"), (n, d)),
-            "fixed": _shaped("fixed", np.asarray(self.fixed, dtype=bool), (n,)),
+            "fixed": _shaped("fixed", _truths("fixed", self.fixed), (n,)),
         }
         object.__setattr__(self, "drag", float(_in_range("drag", self.drag, (), "N s/m")))
         for name, array in checked.items():
@@ -159,6 +159,13 @@ def _in_range(name: str, value: npt.ArrayLike, shape: tuple[int, ...], unit: str
     return array
 
 
+def _truths(name: str, value: npt.ArrayLike) -> BoolArray:
+    array = np.asarray(value)
+    if array.dtype != bool:
+        raise InputError(f"{name} = {value!r}: expected true or false for each mass")
+    return array
+
+
 def _refuse(name: str, array: Array, bad: BoolArray, expected: str) -> None:
     if not np.any(bad):
         return
@@ -177,7 +184,10 @@ def _shaped(name: str, array: npt.NDArray[Any], shape: tuple[int, ...]) -> npt.N
 
 
 def _springs(value: npt.ArrayLike, positions: Array) -> IntArray:
-    springs = np.asarray(value)
+    try:
+        springs = np.asarray(value)
+    except ValueError:
+        raise InputError(f"springs = {value!r}: expected two masses for each spring") from None
     if springs.size == 0:
         return np.zeros((0, 2), dtype=np.int64)
     if springs.ndim != 2 or springs.shape[1] != 2 or not np.issubdtype(springs.dtype, np.integer):

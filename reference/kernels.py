@@ -1,0 +1,135 @@
+"""Schemes at the speed of tuned C: the loops of `loops`, compiled once and kept on disk.
+
+`advance` does what `simulate` does, to the bit, for explicit schemes without changes on the fly; it keeps only the end.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+import sys
+import tempfile
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from reference.catalogue import Scheme
+from reference.errors import Unsupported
+from reference.forces import springs_of_masses
+from reference.loops import Loops
+from reference.state import State
+from reference.system import MassSpringSystem
+from reference.tracing import trace
+
+#: From this many masses on, threads are worth their waking.
+THREADS_FROM = 20_000
+
+
+def advance(system: MassSpringSystem, scheme: Scheme, dt: float, steps: int, threads: int | None = None) -> State:
+    """The state after so many steps of dt [s]; the same bits for any number of threads.
+
+    Args:
+        threads: how many; left out, all there are for large systems and one for others.
+
+    Raises:
+        Unsupported: for a scheme that needs more than the accelerations of the whole state.
+    """
+    if threads is None:
+        threads = (os.cpu_count() or 1) if len(system.masses) >= THREADS_FROM else 1
+    loops = loops_for(scheme, system, threads=threads > 1)
+    arrays = arrays_of(system, loops)
+    if threads > 1:
+        import numba
+
+        numba.set_num_threads(min(threads, numba.config.NUMBA_NUM_THREADS))
+    compiled(loops).advance(*(arrays[name] for name in (*loops.arrays, "drag")), dt, *lists(system, loops), steps)
+    positions, velocities = (np.stack([arrays[f"{q}{i}"] for i in loops.axes], axis=1) for q in "xv")
+    return State(steps * dt, positions, velocities)
+
+
+def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, threads: bool = False) -> Loops:
+    """The loops of a scheme on a system. Raises Unsupported for a scheme that cannot be written as such loops."""
+    if scheme.springs_only:
+        raise Unsupported(f"{scheme.name} asks more of the springs than the accelerations of the whole state")
+    n, springs = len(system.masses), system.springs
+    string = len(springs) == n - 1 and bool((springs == np.arange(n - 1)[:, None] + [0, 1]).all())
+    return Loops(trace(scheme), system.dimension, string, lanes, threads)
+
+
+def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
+    """A system as the loops want it: one array per axis, and room for what they keep.
+
+    A fixed mass is divided by infinity, so that it needs no question in the loop; a string's pulls have a zero at
+    either end for the same reason.
+    """
+    n, s = len(system.masses), len(system.springs)
+    arrays: dict[str, Any] = {
+        "rest_length": system.rest_lengths,
+        "stiffness": system.stiffness,
+        "damping": system.damping,
+        "divisor": np.where(system.fixed, np.inf, system.masses),
+        "drag": system.drag,
+    }
+    for i in loops.axes:
+        x, v = system.positions[:, i].copy(), system.velocities[:, i].copy()
+        arrays |= {f"x{i}": x, f"v{i}": v, f"xs{i}": x.copy(), f"vs{i}": v.copy(), f"sum{i}": np.zeros(1)}
+        arrays |= {f"pull{i}": np.zeros(s + 2 if loops.string else s), f"weight{i}": system.masses * system.gravity[i]}
+        arrays |= {f"a{k}_{i}": np.zeros(n) for k in loops.kept}
+    return arrays
+
+
+def lists(system: MassSpringSystem, loops: Loops) -> list[Any]:
+    """What is joined to what, as the loops want it: unsigned, as Numba asks signed indices whether they are negative."""
+    if loops.string:
+        return []
+    first, spring, sign = springs_of_masses(system)
+    ends = [np.ascontiguousarray(end, dtype=np.uint32) for end in system.springs.T]
+    return [*ends, first.astype(np.uint32), spring.astype(np.uint32), sign]
+
+
+@cache
+def compiled(loops: Loops) -> ModuleType:
+    """The loops as a module of compiled functions. Its text is a file in the user's cache, so that Numba can keep its code there."""
+    _allow_noalias()
+    text = loops.text()
+    name = f"springlab_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
+    file = _cache_folder() / f"{name}.py"
+    if not file.exists() or file.read_text(encoding="utf-8") != text:
+        with tempfile.NamedTemporaryFile("w", dir=file.parent, suffix=".tmp", delete=False, encoding="utf-8") as new:
+            new.write(text)
+        os.replace(new.name, file)
+    spec = importlib.util.spec_from_file_location(name, file)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def _allow_noalias() -> None:
+    """Let `njit` take the option noalias: that no two arrays given to a kernel share memory.
+
+    Numba's compiler has it (its parallel loops use it) but its decorator does not offer it. Without it short loops
+    spend more time on asking whether arrays overlap than on springs: at 20 masses twice the time.
+    """
+    from numba.core.cpu import CPUTargetOptions
+    from numba.core.options import _mapping
+
+    CPUTargetOptions.noalias = _mapping("noalias")
+
+
+def _cache_folder() -> Path:
+    """Where kernels are kept: the user's cache folder, or a scratch folder where that cannot be written."""
+    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    folder = home / "springlab" / "kernels"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except OSError:
+        return Path(tempfile.mkdtemp(prefix="springlab-kernels-"))
