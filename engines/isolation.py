@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -30,6 +30,8 @@ from reference.system import MassSpringSystem
 
 #: A run may take this long [s] before it counts as hung.
 TIME_LIMIT = 60.0
+
+T = TypeVar("T")
 
 #: Where, in its scratch folder, a process's output is kept.
 OUTPUT = "output.txt"
@@ -80,8 +82,8 @@ def run_engine(
     return outcome_of(system, Trajectory.of(states))
 
 
-def isolated(task: Callable[..., Outcome], *arguments: Any, time_limit: float = TIME_LIMIT) -> Outcome:
-    """The outcome of a task in a process of its own; if that ends without one, what ended it.
+def isolated(task: Callable[..., T], *arguments: Any, time_limit: float = TIME_LIMIT) -> T | Outcome:
+    """What a task in a process of its own returns; if that ends without an answer, the outcome that says why.
 
     The process works in a scratch folder that is removed afterwards, and what it prints is kept for the reason.
 
@@ -112,7 +114,7 @@ def _context() -> Any:
     return context
 
 
-def _work(answer: Connection, scratch: str, task: Callable[..., Outcome], arguments: tuple[Any, ...]) -> None:
+def _work(answer: Connection, scratch: str, task: Callable[..., Any], arguments: tuple[Any, ...]) -> None:
     """What the process does: the task, and its outcome or its exception down the pipe."""
     os.chdir(scratch)
     output = os.open(OUTPUT, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
@@ -125,16 +127,17 @@ def _work(answer: Connection, scratch: str, task: Callable[..., Outcome], argume
         answer.send(Outcome("crashed", f"{type(error).__name__}: {_one_line(str(error))}"))
 
 
-def _answer(process: BaseProcess, answer: Connection, scratch: Path, time_limit: float) -> Outcome:
-    """Wait for the outcome. The pipe closes when the process is gone, however it went."""
-    if not wait([answer], time_limit):
+def _answer(process: BaseProcess, answer: Connection, scratch: Path, time_limit: float) -> Any:
+    """Wait for the answer, or for the process to be gone: a child it left behind may still hold the pipe open."""
+    if not wait([answer, process.sentinel], time_limit):
         return Outcome("timed out", f"no answer within {time_limit:g} s")
     try:
-        outcome: Outcome = answer.recv()
-        return outcome
-    except EOFError:
-        process.join()
-        return Outcome("crashed", _cause(process.exitcode or 0) + _last_words(scratch / OUTPUT))
+        if answer.poll():
+            return answer.recv()
+    except (EOFError, OSError):  # no answer, or half of one
+        pass
+    process.join()
+    return Outcome("crashed", _cause(process.exitcode or 0) + _last_words(scratch / OUTPUT))
 
 
 def _cause(exit_code: int) -> str:

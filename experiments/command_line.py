@@ -18,6 +18,7 @@ COMMANDS = {
         "Run many steppers on one scene: how far from the truth, and why.",
     ),
     "identify": ("experiments.commands:identify_command", "Say which scheme a stepper is."),
+    "stability": ("report.commands:stability_command", "Predict and measure the largest stable dt; map growth."),
     "run": ("report.commands:run_command", "Run experiments, and write their figures and tables."),
     "report": ("report.commands:report_command", "Write the report: every experiment on one page."),
 }

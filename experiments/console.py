@@ -6,11 +6,13 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from experiments.comparison import Progress
-from experiments.experiment import Experiment, Result, Table, write_tables
 from reference.errors import InputError, SolverError
+
+if TYPE_CHECKING:  # these import NumPy, Numba and the engines' adapters: `springlab --help` does without
+    from experiments.comparison import Progress
+    from experiments.experiment import Experiment, Result, Table
 
 #: Where results go unless told otherwise.
 RESULTS = Path("results")
@@ -77,6 +79,7 @@ def show_result(experiment: Experiment, result: Result) -> None:
 
 def main(experiment: Experiment) -> None:
     """Run one experiment as a script: show it, and write its tables to results/NAME."""
+    from experiments.experiment import write_tables
 
     def script() -> None:
         with progress(experiment.name) as tell:

@@ -19,7 +19,7 @@ from reference.lecture import Links, StringConstants, derivatives, force_from_ne
 from reference.obstacles import Circle
 from reference.scenes import find
 from reference.simulate import simulate
-from reference.stability import largest_stable_dt
+from reference.stability import spring_equilibrium, stability_limit
 from reference.state import Array
 
 #: The step of the order measurement [s], halved twice.
@@ -91,11 +91,12 @@ def _orders(progress: Progress) -> dict[str, tuple[list[float], list[float], flo
 def _in_place_variants(orders: dict[str, tuple[list[float], list[float], float]], progress: Progress) -> list[Remark]:
     """What is wrong with truly overwriting the state: order, and (at a price) stability."""
     slack = find("string").system({"stiffness": 50.0, "drag": 0.2})
+    rest = spring_equilibrium(slack)
     what = "the whole state, not link by link"
     rows: list[Remark] = []
     for name, (_, _, order) in orders.items():
         progress(f"stability of {name}")
-        stable = largest_stable_dt(catalogue.find(name), slack, hanging_string(slack))
+        stable = stability_limit(catalogue.find(name), rest).dt or 0.0
         rows.append(("7-11", what, f"order of {name}", order, ""))
         rows.append(("7-11", what, f"largest stable dt, {name}", stable, "s"))
     return rows

@@ -48,7 +48,7 @@ def conjugate_residual(
         r = r - alpha * p_a_p
         if _largest(r) < least:
             best, least = x, _largest(r)
-            if least < tolerance:
+            if least <= tolerance:
                 break
         a_r = apply(r)
         before, r_a_r = r_a_r, _dot(r, a_r)

@@ -58,7 +58,13 @@ class Loops:
     def arrays(self) -> list[str]:
         """Arguments that hold numbers of masses and springs, one array per axis where they have axes."""
         per_axis = ["x", "v", "xs", "vs", "pull", "weight", "sum", *(f"a{k}_" for k in self.kept)]
-        return [*(f"{name}{i}" for name in per_axis for i in self.axes), "rest_length", "stiffness", "damping", "divisor"]
+        return [
+            *(f"{name}{i}" for name in per_axis for i in self.axes),
+            "rest_length",
+            "stiffness",
+            "damping",
+            "divisor",
+        ]
 
     @property
     def lists(self) -> list[str]:

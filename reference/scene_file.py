@@ -64,7 +64,8 @@ class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
             values["rest_lengths"] = 1.0
             unstretched = MassSpringSystem(**values)
             a, b = unstretched.springs.T
-            values["rest_lengths"] = np.linalg.norm(unstretched.positions[b] - unstretched.positions[a], axis=1)
+            with np.errstate(over="ignore"):
+                values["rest_lengths"] = np.linalg.norm(unstretched.positions[b] - unstretched.positions[a], axis=1)
         return MassSpringSystem(**values)
 
 
@@ -81,7 +82,7 @@ class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
 
     scene: str | None = None
     system: SystemTable | None = None
-    parameters: dict[str, int | float | list[float]] = {}
+    parameters: dict[str, Any] = {}
     dt: float | None = None
     duration: float | None = None
     changes: list[ChangeTable] = []
@@ -113,6 +114,10 @@ def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
     if (content.scene is None) == (content.system is None):
         raise InputError('expected either scene = "..." or a table [system]')
+    for name, value in content.parameters.items():
+        numbers = value if isinstance(value, list) else [value]
+        if any(isinstance(number, bool) or not isinstance(number, int | float) for number in numbers):
+            raise InputError(f"parameters.{name} = {value!r}: expected a number or a list of numbers")
     if content.system is not None:
         if settings or content.parameters:
             name = next(iter([*settings, *content.parameters]))
@@ -135,7 +140,7 @@ def _plain(message: str) -> str:
 def _line(text: str, message: str) -> str:
     """Where the last key a message names stands in the file, as ', line N'; nothing if it does not stand there once."""
     keys = re.findall(r"[A-Za-z_]\w*", message.partition("$.")[2] or message.partition(" = ")[0])
-    unknown = re.search(r"unknown field `(\w+)`", message)
+    unknown = re.search(r"unknown (?:field|parameter[^:]*) [`'](\w+)[`']", message)
     key = unknown[1] if unknown else keys[-1] if keys else ""
     lines = [i for i, line in enumerate(text.splitlines(), 1) if key and re.match(rf"\s*{key}\s*=", line)]
     return f", line {lines[0]}" if len(lines) == 1 else ""

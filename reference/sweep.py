@@ -29,7 +29,7 @@ class Sweep:
     Attributes:
         positions: shape (m, n, d) [m]; where a system has blown up, from when that was noticed.
         velocities: shape (m, n, d) [m/s].
-        distances: of the mass furthest from where it began, after each chunk of steps, shape (chunks, m) [m].
+        distances: of the mass furthest from where it is at rest, after each chunk of steps, shape (chunks, m) [m].
         blown_up: shape (m,), whether some mass went further than the limit, or nowhere that is a number.
     """
 
@@ -46,6 +46,7 @@ def sweep(
     steps: int,
     parameters: Mapping[str, Array] | None = None,
     positions: Array | None = None,
+    still: Array | None = None,
     limit: float = np.inf,
     threads: int | None = None,
     progress: Callable[[float], None] = lambda _: None,
@@ -59,7 +60,8 @@ def sweep(
         steps: how many.
         parameters: from reference.system.PARAMETERS, each an array of shape (m,).
         positions: where each starts [m], shape (m, n, d); as the system does, where left out.
-        limit: how far from its start a mass may go [m] before its system has blown up.
+        still: where distances are measured from [m], shape (m, n, d); from each one's start, where left out.
+        limit: how far from there a mass may go [m] before its system has blown up.
         threads: how many; all there are, where left out.
         progress: told now and then which part of the work is done.
 
@@ -79,7 +81,8 @@ def sweep(
     for i in loops.axes:
         begin = _in_lanes(start[:, :, i], m, blocks)
         named |= {f"x{i}": begin.copy(), f"xs{i}": begin.copy(), f"sum{i}": np.zeros((blocks, LANES))}
-    origin = [named[f"x{i}"].copy() for i in loops.axes]
+    still = start if still is None else np.broadcast_to(still, (m, n, d))
+    origin = [_in_lanes(still[:, :, i], m, blocks) for i in loops.axes]
     function = compiled(loops).sweep
     _use_threads(threads)
     alive = np.arange(blocks)
@@ -116,7 +119,9 @@ def _per_system(system: MassSpringSystem, parameters: Mapping[str, Array], m: in
     if "mass" in given or "gravity" in given:
         masses = np.repeat(given["mass"][:, None], len(system.masses), axis=1) if "mass" in given else system.masses
         masses = np.broadcast_to(masses, (m, len(system.masses)))
-        down = np.outer(given["gravity"], [0.0, -1.0, 0.0][: system.dimension]) if "gravity" in given else system.gravity
+        down = (
+            np.outer(given["gravity"], [0.0, -1.0, 0.0][: system.dimension]) if "gravity" in given else system.gravity
+        )
         down = np.broadcast_to(down, (m, system.dimension))
         values["divisor"] = np.where(system.fixed, np.inf, masses)
         values |= {f"weight{i}": masses * down[:, i, None] for i in range(system.dimension)}

@@ -137,6 +137,15 @@ class MassSpringSystem:
             springs=new_of_old[self.springs],
         )
 
+    def with_springs_reversed(self) -> MassSpringSystem:
+        """The same system with its springs listed from the last to the first, and each named from its other end."""
+        backwards = {name: getattr(self, name)[::-1] for name in ("rest_lengths", "stiffness", "damping")}
+        return replace(self, springs=self.springs[::-1, ::-1], **backwards)
+
+    def with_ends_swapped(self) -> MassSpringSystem:
+        """The same system with each spring named from its other end."""
+        return replace(self, springs=self.springs[:, ::-1])
+
     def to_dict(self) -> dict[str, Any]:
         """Plain lists and numbers, the fields by name: what a digest or a JSON file is made of."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
@@ -160,7 +169,10 @@ def _in_range(name: str, value: npt.ArrayLike, shape: tuple[int, ...], unit: str
 
 
 def _truths(name: str, value: npt.ArrayLike) -> BoolArray:
-    array = np.asarray(value)
+    try:
+        array = np.asarray(value)
+    except ValueError:  # lists of unequal lengths
+        array = np.zeros(0)
     if array.dtype != bool:
         raise InputError(f"{name} = {value!r}: expected true or false for each mass")
     return array

@@ -2,14 +2,107 @@
 
 from __future__ import annotations
 
+import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from experiments.console import RESULTS, progress, show_result
 from experiments.experiment import NAMES, find
+
+if TYPE_CHECKING:
+    from experiments.stability import Row
+    from reference.stepper import Stepper
+
+
+@click.command("stability")
+@click.argument("scene", default="string")
+@click.option("--stepper", "names", multiple=True, metavar="NAME", help="Only these; see `springlab list`.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Set a parameter of the scene.")
+@click.option("--map", "axes", nargs=2, metavar="X Y", help="Map growth over two of dt, masses, damping, stiffness ...")
+@click.option("--range", "ranges", multiple=True, metavar="KEY=LOW:HIGH", help="The range of a map's axis.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.option(
+    "--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "stability", show_default=True
+)
+def stability_command(
+    scene: str,
+    names: tuple[str, ...],
+    settings: tuple[str, ...],
+    axes: tuple[str, str] | None,
+    ranges: tuple[str, ...],
+    as_json: bool,
+    out: Path,
+) -> None:
+    """Predict and measure the largest stable dt of steppers on SCENE, about its equilibrium; or map growth.
+
+    Without --set damping or drag, in the cases the report shows: undamped, damping 0.1 and 0.5, drag 0.1 N s/m.
+    """
+    from experiments.arguments import parse_settings
+    from experiments.steppers import all_steppers, find_steppers
+
+    given = parse_settings(settings)
+    steppers = find_steppers(names) if names else [s for s in all_steppers().values() if s.kind != "lecture"]
+    if axes:
+        _map(scene, given, axes, ranges, steppers if names else find_steppers(["heun"]), out)
+        return
+    rows = _rows(scene, given, steppers if names else [s for s in steppers if s.kind != "pendulum"])
+    _write_stability(rows, as_json, out)
+
+
+def _rows(scene: str, settings: Mapping[str, str], steppers: Sequence[Stepper]) -> list[Row]:
+    from experiments.arguments import setup_for
+    from experiments.stability import CASES, stability_rows
+
+    named = not Path(scene).suffix and not {"damping", "drag"} & settings.keys()
+    cases = [{key: str(value) for key, value in case.items()} for case in CASES] if named else [{}]
+    rows = []
+    with progress("stability") as tell:
+        for case in cases:
+            rows += stability_rows(setup_for(scene, settings={**settings, **case}).system, steppers, tell)
+    return rows
+
+
+def _write_stability(rows: Sequence[Row], as_json: bool, out: Path) -> None:
+    from experiments.experiment import write_tables
+    from experiments.stability import EXPERIMENT, result_of
+    from report.figures import draw
+
+    result = result_of(rows)
+    written = write_tables(result, out)
+    (out / "stability.svg").write_text(draw("stability", result).svg(), encoding="utf-8")
+    if as_json:
+        click.echo(json.dumps([row.document for row in rows], indent=2))
+        return
+    show_result(EXPERIMENT, result)
+    click.echo(f"written: {', '.join(map(str, [*written, out / 'stability.svg']))}")
+
+
+def _map(
+    scene: str,
+    settings: Mapping[str, str],
+    names: tuple[str, str],
+    ranges: Sequence[str],
+    steppers: Sequence[Stepper],
+    out: Path,
+) -> None:
+    from experiments.map_arguments import axes_for, system_maker
+    from experiments.stability_map import stability_map, write_map
+    from report.figures.stability_map import draw_map
+
+    system_at, dt = system_maker(scene, settings)
+    x, y = axes_for(names, ranges, system_at({}))
+    out.mkdir(parents=True, exist_ok=True)
+    for stepper in steppers:
+        with progress(f"map of {stepper.name}") as tell:
+            found = stability_map(stepper, system_at, dt, x, y, tell)
+        name = f"{stepper.name}-{x.name}-{y.name}"
+        (out / f"{name}.svg").write_text(draw_map(found).svg(), encoding="utf-8")
+        write_map(found, out / f"{name}.csv")
+        click.echo(f"written: {out / name}.svg, {out / name}.csv")
 
 
 @click.command("run")

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from experiments.comparison import Progress
 from experiments.console import plain
+from experiments.environment import environment
 from experiments.experiment import Experiment, Result, write_tables
-from report.environment import environment
 from report.figures import draw
 
 

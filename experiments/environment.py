@@ -18,7 +18,7 @@ def environment() -> dict[str, str]:
         **{package: _version(package) for package in PACKAGES},
         "Python": platform.python_version(),
         "system": f"{platform.system()} {platform.machine()}",
-        "processor": _processor(),
+        "processor": processor(),
         "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
         "requirements.lock (SHA-256)": _lock_digest(),
     }
@@ -31,7 +31,8 @@ def _version(package: str) -> str:
         return "not installed"
 
 
-def _processor() -> str:
+def processor() -> str:
+    """The processor's name and how many cores there are to work on."""
     cores = f"{os.cpu_count()} cores"
     information = Path("/proc/cpuinfo")
     names = [

@@ -1,0 +1,66 @@
+"""Predicted against measured stability limits, a row of panels, one for each case of damping and drag."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from experiments.experiment import Result
+from experiments.stability import Row
+from report.figures import COLOURS, Picture, new_figure
+
+#: How the three words are drawn, here and in every map: predicted a line, measured a dot.
+PREDICTED, MEASURED = COLOURS[6], COLOURS[1]
+
+
+def draw(result: Result) -> Picture:
+    """Every stepper's limit in every case: a black bar where it is predicted, a dot where it is measured."""
+    rows: Sequence[Row] = result.data["rows"]
+    cases = list(dict.fromkeys(_case(row) for row in rows))
+    names = list(dict.fromkeys(row.stepper for row in rows))
+    figure, panels = new_figure(ncols=len(cases), sharey=True, figsize=(11, 1.4 + 0.26 * len(names)), squeeze=False)
+    for panel, case in zip(panels[0], cases, strict=True):
+        _panel(panel, case, [row for row in rows if _case(row) == case], names)
+    panels[0][0].set_yticks(range(len(names)), names)
+    panels[0][0].set_ylim(len(names) - 0.5, -0.5)
+    figure.suptitle("largest stable dt: predicted (bar) and measured (dot)", x=0.01, ha="left", fontsize=12)
+    return Picture(figure, _alt(rows))
+
+
+def _panel(panel: object, case: str, rows: Sequence[Row], names: Sequence[str]) -> None:
+    axes: object = panel
+    for row in rows:
+        y = names.index(row.stepper)
+        if row.predicted.dt is not None:
+            axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], "-", color=PREDICTED, linewidth=2)  # type: ignore[attr-defined]
+        if row.measured.dt is not None:
+            axes.plot(row.measured.dt, y, "o", color=MEASURED, markersize=5)  # type: ignore[attr-defined]
+        if row.predicted.dt is None and row.measured.dt is None:
+            word = _short(row)
+            axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), va="center", fontsize=8, color="#555555")  # type: ignore[attr-defined]
+    axes.set_xscale("log")  # type: ignore[attr-defined]
+    axes.set_title(case, fontsize=10, loc="left")  # type: ignore[attr-defined]
+    axes.set_xlabel("dt [s]")  # type: ignore[attr-defined]
+
+
+def _short(row: Row) -> str:
+    if row.outcome != "done":
+        return row.outcome
+    return "unstable at any dt" if row.predicted.growth is not None else "stable at any dt tried"
+
+
+def _case(row: Row) -> str:
+    damping, drag = float(np.max(row.system.damping, initial=0.0)), row.system.drag
+    parts = [f"{name} {value:g} N s/m" for name, value in (("damping", damping), ("drag", drag)) if value]
+    return ", ".join(parts) or "undamped"
+
+
+def _alt(rows: Sequence[Row]) -> str:
+    compared = [abs(row.relative_difference) for row in rows if row.relative_difference is not None]
+    if not compared:
+        return "No limit was both predicted and measured."
+    return (
+        f"Bars and dots for {len(compared)} stability limits, predicted and measured; the widest apart differ by "
+        f"{max(compared):.1e} of the limit."
+    )

@@ -1,0 +1,48 @@
+"""Growth over a plane: the measured field in colour, the predicted boundary as a line over it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from experiments.stability_map import Axis, StabilityMap
+from reference.system import PARAMETERS
+from report.figures import Picture, new_figure
+
+#: Growth per step at which the colours end, and below which it counts as none.
+MOST, LEAST = 0.05, 1e-3
+
+
+def draw_map(found: StabilityMap) -> Picture:
+    """The field from blue (dying away) over white to red (growing), with the boundary in black."""
+    from matplotlib.colors import SymLogNorm
+
+    figure, axes = new_figure(figsize=(8, 5.4))
+    norm = SymLogNorm(LEAST, vmin=-MOST, vmax=MOST)
+    field = axes.pcolormesh(
+        found.x_values, found.y_values, np.clip(found.growth, -MOST, MOST), cmap="RdBu_r", norm=norm, rasterized=True
+    )
+    bar = figure.colorbar(field, ax=axes, label="measured growth in a step [1]")
+    bar.set_ticks([-MOST, -0.01, -LEAST, 0, LEAST, 0.01, MOST])
+    bar.set_ticklabels(["-5 %", "-1 %", "-0.1 %", "0", "0.1 %", "1 %", "5 % or more"])
+    if len(found.boundary):
+        axes.plot(*found.boundary.T, "-", color="black", linewidth=2)
+    if found.predicted_growth is not None:
+        xs, ys, radius = found.predicted_growth
+        axes.contour(xs, ys, np.clip(radius - 1, -1e-3, 1e-3), levels=[1e-6], colors="black", linewidths=2)
+    axes.set_xlim(found.x_values[0], found.x_values[-1])
+    axes.set_ylim(found.y_values[0], found.y_values[-1])
+    axes.grid(visible=False)
+    axes.set_xlabel(_label(found.x))
+    axes.set_ylabel(_label(found.y))
+    line = f"black: predicted limit of {found.predicted_by}"
+    axes.set_title(f"{found.stepper}\n{line}", loc="left", fontsize=11)
+    stable = float(np.mean(found.growth <= LEAST))
+    return Picture(
+        figure,
+        f"Map of growth over {found.x.name} and {found.y.name} for {found.stepper}: {stable:.0%} of the plane is stable.",
+    )
+
+
+def _label(axis: Axis) -> str:
+    units = {"dt": "s", "masses": "how many", **{name: text.partition(",")[0] for name, text in PARAMETERS.items()}}
+    return f"{axis.name} [{units[axis.name]}]"
