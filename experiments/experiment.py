@@ -13,8 +13,8 @@ from typing import Any
 from experiments.comparison import Progress
 from reference.errors import unknown_name
 
-#: The experiments, in the order the report shows them; each is the module experiments.NAME.
-NAMES = ("divergence", "stiff_limit", "errata")
+#: The experiments, in the order they are shown; each is the module experiments.NAME.
+NAMES = ("divergence", "stability", "stiff_limit", "errata", "speed")
 
 
 @dataclass(frozen=True)
@@ -59,6 +59,7 @@ class Experiment:
         question: one sentence.
         slides: of the lecture.
         run: answers it, telling `progress` what it is at.
+        in_report: whether `springlab report` runs it unasked.
     """
 
     name: str
@@ -66,6 +67,7 @@ class Experiment:
     question: str
     slides: str
     run: Callable[[Progress], Result]
+    in_report: bool = True
 
 
 def experiments() -> Mapping[str, Experiment]:

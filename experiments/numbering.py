@@ -9,62 +9,39 @@ masses or springs one after the other, and looks at what it has already changed.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
 
 from engines.engine import Engine
-from engines.isolation import EngineStepper, isolated, run_engine
+from engines.isolation import EngineStepper, isolated
 from engines.pymunk_springs import PymunkSprings
 from experiments.comparison import Progress, finite
 from experiments.experiment import Experiment, Result, Table
+from experiments.renaming import CHANGES, Renamed, differences, differences_in_engines
 from experiments.steppers import default_steppers
 from reference.catalogue import Scheme
-from reference.damping_schemes import effective_masses, spring_directions
 from reference.identify import TOLERANCE
-from reference.outcome import Outcome
 from reference.scenes import find
 from reference.stepper import SchemeStepper, Stepper, catalogued
-from reference.system import IntArray, MassSpringSystem
+from reference.system import MassSpringSystem
 
 DT, STEPS = 1e-3, 200
 
-#: Of the springs [N s/m]: none, and so much that in a step a spring alone gives up 0.39 of its lengthening rate.
-DAMPINGS = (0.0, 5.0)
+#: Of the springs [N s/m]: so much that in a step a spring alone gives up 0.39 of its lengthening rate; and none.
+DAMPINGS = (5.0, 0.0)
 
-#: Rounds of sequential impulses in a step of Pymunk (10 is its default), and the dampings they are tried with [N s/m].
-ROUNDS = (1, 2, 3, 5, 7, 10, 12, 15, 20, 30, 50, 100)
+#: Rounds of sequential impulses in a step of Pymunk, and the dampings they are tried with [N s/m].
+ROUNDS = (1, 2, 3, 5, 7, 10, 12, 15, 20, 30, 50, 70, 100)
 ROUNDS_DAMPINGS = (5.0, 20.0)
 
 #: The schemes that go through the springs one after the other.
 SPRING_AFTER_SPRING = ("drift_kick_sequential_damping",)
 
-#: What is done to the names, and whose order it changes.
-CHANGES = {"masses renumbered": "masses", "springs reversed": "springs", "ends swapped": "ends"}
-
-
-@dataclass(frozen=True)
-class Renamed:
-    """What a stepper makes of other names for the same string.
-
-    Attributes:
-        distances: for each change that it could run, the largest distance of any mass at any time [m].
-        reasons: for each change that it could not run, why.
-    """
-
-    distances: Mapping[str, float]
-    reasons: Mapping[str, str]
-
-    def sees(self, rounding: float) -> frozenset[str]:
-        """Whose order changes the motion by more than rounding [m]."""
-        return frozenset(CHANGES[change] for change, distance in self.distances.items() if distance > rounding)
-
-    @property
-    def tried(self) -> frozenset[str]:
-        """Whose order was changed."""
-        return frozenset(CHANGES[change] for change in self.distances)
+#: Below this part of the string's size a difference is rounding.
+ROUNDING = TOLERANCE
 
 
 @dataclass(frozen=True)
@@ -89,7 +66,7 @@ class Convergence:
     Attributes:
         damping: of the springs [N s/m].
         distances: [m], one for each of ROUNDS; NaN where it could not run.
-        predicted: by what a round multiplies the difference in the long run.
+        predicted: what a round leaves of the difference, in the long run.
         measured: the same, fitted; None where there is nothing to fit.
     """
 
@@ -101,36 +78,23 @@ class Convergence:
 
 def run(progress: Progress) -> Result:
     """Every stepper under other names, and Pymunk with more and more rounds."""
-    rounding = TOLERANCE * string(0.0).size
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        cases = [(stepper, damping) for damping in DAMPINGS for stepper in steppers()]
-        engines = {
-            (stepper.name, damping): pool.submit(renamed_by, stepper, string(damping))
-            for stepper, damping in cases
-            if isinstance(stepper, EngineStepper)
-        }
-        rounds = [
-            [pool.submit(renamed_by, EngineStepper(PymunkSprings(rounds=n)), string(damping)) for n in ROUNDS]
-            for damping in ROUNDS_DAMPINGS
-        ]
+        rounds = pool.submit(_pymunk_rounds)
+        engines = {s.name: pool.submit(renamed_by, s) for s in steppers() if isinstance(s, EngineStepper)}
         rows = []
-        for stepper, damping in cases:
-            progress(f"{stepper.name}, damping {damping:g} N s/m")
-            pending = engines.get((stepper.name, damping))
-            renamed = pending.result() if pending else renamed_by(stepper, string(damping))
-            rows.append(Row(stepper, damping, predicted(stepper, damping), renamed))
+        for stepper in steppers():
+            progress(stepper.name)
+            renamed = engines[stepper.name].result() if stepper.name in engines else renamed_by(stepper)
+            rows += [Row(stepper, c, predicted(stepper, c), r) for c, r in zip(DAMPINGS, renamed, strict=True)]
         progress("Pymunk's rounds")
-        convergences = [
-            convergence(damping, [run.result() for run in runs], rounding)
-            for damping, runs in zip(ROUNDS_DAMPINGS, rounds, strict=True)
-        ]
-    data = {"rows": rows, "convergences": convergences, "rounding": rounding}
-    tables = [_table(rows, rounding), _rounds_table(convergences)]
-    return Result(_findings(rows, convergences, rounding), tables, data, _failures(rows))
+        convergences = rounds.result()
+    tables = [_table(c, [row for row in rows if row.damping == c]) for c in DAMPINGS]
+    data = {"rows": rows, "convergences": convergences, "rounding": rounding()}
+    return Result(_findings(rows, convergences), [*tables, _rounds_table(convergences)], data, _failures(rows))
 
 
 def steppers() -> list[Stepper]:
-    """Schemes and engines; the lecture's listings know no names but one after the other along the string."""
+    """Schemes and engines. The lecture's listings know nothing but links in their order."""
     return [stepper for stepper in default_steppers() if stepper.kind != "lecture"]
 
 
@@ -139,52 +103,26 @@ def string(damping: float) -> MassSpringSystem:
     return find("string").system({"damping": damping})
 
 
-def renamings(system: MassSpringSystem) -> dict[str, tuple[MassSpringSystem, IntArray]]:
-    """The system under other names, and for each mass its number in the original. The anchor stays mass 0."""
-    n = len(system.masses)
-    same = np.arange(n)
-    shuffled = np.concatenate([[0], 1 + np.random.default_rng(1).permutation(n - 1)])
-    systems = [
-        (system.renumbered(shuffled), shuffled),
-        (system.with_springs_reversed(), same),
-        (system.with_ends_swapped(), same),
-    ]
-    return dict(zip(CHANGES, systems, strict=True))
+def rounding() -> float:
+    """A difference [m] that is none."""
+    return ROUNDING * string(0.0).size
 
 
-def renamed_by(stepper: Stepper, system: MassSpringSystem) -> Renamed:
-    """A stepper under every change of names; an engine in one process of its own."""
-    if not isinstance(stepper, EngineStepper):
-        return differences(lambda system: stepper.run(system, DT, STEPS), system)
+def renamed_by(stepper: Stepper) -> list[Renamed]:
+    """A stepper under every change of names, for each of DAMPINGS; an engine in a process of its own."""
+    systems = [string(damping) for damping in DAMPINGS]
+    if isinstance(stepper, EngineStepper):
+        return _in_a_process(stepper, [(stepper.engine, system) for system in systems])
+    return [differences(lambda s: stepper.run(s, DT, STEPS), system) for system in systems]
+
+
+def _in_a_process(stepper: EngineStepper, runs: Sequence[tuple[Engine, MassSpringSystem]]) -> list[Renamed]:
     if stepper.version is None:
-        return _nothing(f"{stepper.engine.package} is not installed")
-    answer = isolated(renamed_in_engine, stepper.engine, system, time_limit=stepper.time_limit)
-    return answer if isinstance(answer, Renamed) else _nothing(f"{answer.ending}, {answer.reason}")
-
-
-def renamed_in_engine(engine: Engine, system: MassSpringSystem) -> Renamed:
-    """An engine under every change of names, in this very process."""
-    return differences(lambda system: run_engine(engine, system, DT, STEPS), system)
-
-
-def differences(run: Callable[[MassSpringSystem], Outcome], system: MassSpringSystem) -> Renamed:
-    """How far apart the runs of a system and of the same system under other names are."""
-    original = run(system)
-    if original.ending != "done" or original.trajectory is None:
-        return _nothing(f"{original.ending}, {original.reason}")
-    distances, reasons = {}, {}
-    for change, (other, order) in renamings(system).items():
-        outcome = run(other)
-        if outcome.ending == "done" and outcome.trajectory is not None:
-            gap = outcome.trajectory.positions - original.trajectory.positions[:, order]
-            distances[change] = float(np.linalg.norm(gap, axis=2).max())
-        else:
-            reasons[change] = f"{outcome.ending}, {outcome.reason}"
-    return Renamed(distances, reasons)
-
-
-def _nothing(reason: str) -> Renamed:
-    return Renamed({}, dict.fromkeys(CHANGES, reason))
+        return [Renamed.nothing(f"unsupported, {stepper.engine.package} is not installed")] * len(runs)
+    answer = isolated(differences_in_engines, runs, DT, STEPS, time_limit=stepper.time_limit)
+    if isinstance(answer, list):
+        return answer
+    return [Renamed.nothing(f"{answer.ending}, {answer.reason}")] * len(runs)
 
 
 def predicted(stepper: Stepper, damping: float) -> frozenset[str]:
@@ -202,11 +140,17 @@ def _scheme(stepper: Stepper, damping: float) -> Scheme:
     return stepper.scheme
 
 
-def convergence(damping: float, runs: Sequence[Renamed], rounding: float) -> Convergence:
-    """The difference against the rounds; the factor is fitted once all springs have heard of one another."""
+def _pymunk_rounds() -> list[Convergence]:
+    cases = [(PymunkSprings(rounds=n), string(damping)) for damping in ROUNDS_DAMPINGS for n in ROUNDS]
+    renamed = _in_a_process(EngineStepper(PymunkSprings()), cases)
+    distances = np.array([r.distances.get("springs reversed", np.nan) for r in renamed]).reshape(-1, len(ROUNDS))
+    return [convergence(c, row) for c, row in zip(ROUNDS_DAMPINGS, distances.tolist(), strict=True)]
+
+
+def convergence(damping: float, distances: Sequence[float]) -> Convergence:
+    """Differences [m] against the rounds. What a round leaves is fitted once all springs have heard of one another."""
     system = string(damping)
-    distances = [renamed.distances.get("springs reversed", np.nan) for renamed in runs]
-    settled = [(n, d) for n, d in zip(ROUNDS, distances, strict=True) if n >= len(system.springs) and d > rounding]
+    settled = [(n, d) for n, d in zip(ROUNDS, distances, strict=True) if n >= len(system.springs) and d > rounding()]
     measured = None
     if len(settled) > 1:
         n, d = np.array(settled).T
@@ -215,12 +159,14 @@ def convergence(damping: float, runs: Sequence[Renamed], rounding: float) -> Con
 
 
 def gauss_seidel(system: MassSpringSystem, dt: float) -> float:
-    """By what a round of sequential impulses multiplies what is still missing, while the springs point as at the start.
+    """What a round of sequential impulses leaves of what is missing, while the springs point as they do at the start.
 
-    A round is one of Gauss and Seidel's iteration for the springs' impulses p, (A + D) p = -J v. A = J J^T / m is what
-    they do to one another's lengthening rates, and the damping makes its diagonal 1 / (m' (1 - exp(-dt c / m'))), m' a
+    A round is one of Gauss and Seidel's iteration for the springs' impulses p, (A + D) p = -J v. A = J M^-1 J^T is what
+    they do to one another's lengthening rates; with its damping D the diagonal is 1 / (m' (1 - exp(-dt c / m'))), m' a
     spring's effective mass. Springs in line do most to one another. (Golub and Van Loan, *Matrix Computations*, 11.2.)
     """
+    from reference.damping_schemes import effective_masses, spring_directions
+
     count, (a, b) = np.arange(len(system.springs)), system.springs.T
     rates = np.zeros((len(system.springs), *system.positions.shape))
     rates[count, b] = spring_directions(system, system.start)
@@ -233,26 +179,24 @@ def gauss_seidel(system: MassSpringSystem, dt: float) -> float:
     return float(np.abs(np.linalg.eigvals(np.linalg.solve(lower, lower - mutual))).max())
 
 
-def _table(rows: Sequence[Row], rounding: float) -> Table:
-    columns = ["stepper", "damping [N s/m]", "predicted: order that shows", "measured: order that shows"]
-    columns += [*(f"{change} [m]" for change in CHANGES), "reason"]
+def _table(damping: float, rows: Sequence[Row]) -> Table:
+    """One row per stepper, on a string of one damping."""
+    columns = ["stepper", "predicted: order shows of", "measured: order shows of", *(f"{c} [m]" for c in CHANGES)]
     cells = []
     for row in rows:
-        seen = row.renamed.sees(rounding) if row.renamed.tried else None
-        distances = [row.renamed.distances.get(change) for change in CHANGES]
-        reason = "; ".join(dict.fromkeys(row.renamed.reasons.values()))
-        cells.append([row.stepper.name, row.damping, _names(row.predicted), _names(seen), *map(finite, distances), reason])
-    return Table("numbering", columns, cells)
+        seen = None if row.renamed.reasons else names(row.renamed.sees(rounding()))
+        distances = [finite(row.renamed.distances.get(change)) for change in CHANGES]
+        cells.append([row.stepper.name, names(row.predicted), seen, *distances])
+    return Table(f"numbering_damping_{damping:g}", columns, cells)
 
 
-def _names(orders: frozenset[str] | None) -> str | None:
-    if orders is None:
-        return None
+def names(orders: frozenset[str]) -> str:
+    """Whose order shows, in words."""
     return " and ".join(name for name in CHANGES.values() if name in orders) or "none"
 
 
 def _rounds_table(convergences: Sequence[Convergence]) -> Table:
-    columns = ["damping [N s/m]", "rounds", "springs reversed [m]", "predicted factor per round", "measured factor"]
+    columns = ["damping [N s/m]", "rounds", "springs reversed [m]", "predicted: a round leaves", "measured"]
     rows = [
         [c.damping, n, finite(distance), c.predicted, c.measured]
         for c in convergences
@@ -261,44 +205,56 @@ def _rounds_table(convergences: Sequence[Convergence]) -> Table:
     return Table("numbering_rounds", columns, rows)
 
 
-def _findings(rows: Sequence[Row], convergences: Sequence[Convergence], rounding: float) -> list[str]:
-    ran = [row for row in rows if row.renamed.tried]
-    blind = [row for row in ran if not row.renamed.sees(rounding)]
-    largest = max((d for row in blind for d in row.renamed.distances.values()), default=0.0)
+def _findings(rows: Sequence[Row], convergences: Sequence[Convergence]) -> list[str]:
+    ran = [row for row in rows if not row.renamed.reasons]
+    blind = [row for row in ran if not row.renamed.sees(rounding())]
     sentences = [
         f"In {len(blind)} of {len(ran)} runs it does not matter how masses and springs are numbered: other names "
-        f"change the motion by {largest:.1e} m at most, which is rounding."
+        f"change the motion by {_largest(blind):.1e} m at most, which is rounding."
     ]
     for change, whose in CHANGES.items():
-        seen = [row for row in ran if whose in row.renamed.sees(rounding)]
+        seen = [row for row in ran if whose in row.renamed.sees(rounding())]
         if seen:
-            names = ", ".join(dict.fromkeys(row.stepper.name for row in seen))
             distances = [row.renamed.distances[change] for row in seen]
-            sentences.append(
-                f"With {change} there is a difference of {min(distances):.1e} to {max(distances):.1e} m in {names}."
-            )
-    wrong = [row for row in ran if row.renamed.sees(rounding) != row.predicted & row.renamed.tried]
+            sentences.append(f"With {change} {_list(seen)} differ by {min(distances):.1e} to {max(distances):.1e} m.")
+    wrong = [row for row in ran if row.renamed.sees(rounding()) != row.predicted]
     sentences.append(
-        f"Whose order shows was predicted from the scheme in {len(ran) - len(wrong)} of {len(ran)} runs"
-        + (f", but not for {', '.join(dict.fromkeys(row.stepper.name for row in wrong))}." if wrong else ".")
+        f"Whose order shows is as predicted from the scheme in {len(ran) - len(wrong)} of {len(ran)} runs"
+        + (f"; not for {_list(wrong)}." if wrong else ".")
     )
-    for c in convergences:
-        if c.measured is not None:
-            sentences.append(
-                f"With damping {c.damping:g} N s/m the order of the springs changes Pymunk's motion by "
-                f"{c.distances[0]:.1e} m with {ROUNDS[0]} round in a step, by {c.distances[ROUNDS.index(10)]:.1e} m "
-                f"with its default of 10, and each further round leaves {c.measured:.2f} of that (predicted for the "
-                f"straight string: {c.predicted:.2f})."
-            )
-    return sentences
+    partly = [row for row in rows if row.renamed.reasons and row.renamed.tried]
+    if partly:
+        sentences.append(
+            f"{_list(partly)} take a string in its own order only; what they can run under other names "
+            f"({_tried(partly)}) differs by {_largest(partly):.1e} m."
+        )
+    return sentences + [_rounds_finding(c) for c in convergences if c.measured is not None]
+
+
+def _list(rows: Sequence[Row]) -> str:
+    return ", ".join(dict.fromkeys(row.stepper.name for row in rows))
+
+
+def _tried(rows: Sequence[Row]) -> str:
+    return ", ".join(dict.fromkeys(change for row in rows for change in row.renamed.distances))
+
+
+def _largest(rows: Sequence[Row]) -> float:
+    return max((d for row in rows for d in row.renamed.distances.values()), default=0.0)
+
+
+def _rounds_finding(c: Convergence) -> str:
+    few, default = ROUNDS[0], PymunkSprings().rounds
+    return (
+        f"Damped with {c.damping:g} N s/m, Pymunk's string with its springs reversed differs by {c.distances[0]:.1e} m with "
+        f"{few} round in a step and by {c.distances[ROUNDS.index(default)]:.1e} m with its default of {default}; each "
+        f"further round leaves {c.measured:.2f} of that (predicted for the straight string: {c.predicted:.2f})."
+    )
 
 
 def _failures(rows: Sequence[Row]) -> list[str]:
-    return list(
-        dict.fromkeys(
-            f"{row.stepper.name}, {change}: {reason}" for row in rows for change, reason in row.renamed.reasons.items()
-        )
-    )
+    failures = [f"{row.stepper.name}, {what}: {why}" for row in rows for what, why in row.renamed.reasons.items()]
+    return list(dict.fromkeys(failures))
 
 
 EXPERIMENT = Experiment(

@@ -257,9 +257,10 @@ def _findings(rows: Sequence[Row]) -> list[str]:
     if not compared:
         return ["No stepper has a limit here that could be both predicted and measured."]
     worst = max(compared, key=lambda row: abs(row.relative_difference or 0.0))
+    apart = abs(worst.relative_difference or 0.0)
     sentences = [
-        f"{len(compared)} limits were predicted and measured: they agree to {abs(worst.relative_difference or 0.0):.1e} "
-        f"of themselves or better (the widest apart is {worst.stepper})."
+        f"{len(compared)} limits were predicted and measured: they agree to {apart:.1e} of themselves or better (the "
+        f"widest apart is {worst.stepper})."
     ]
     never = sorted({row.stepper for row in rows if row.predicted.growth is not None})
     if never:

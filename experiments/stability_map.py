@@ -97,7 +97,9 @@ def stability_map(
             raise InputError(f"map axis {axis.name!r}: expected dt, masses, {', '.join(PARAMETERS)}")
         if not (np.isfinite([axis.low, axis.high]).all() and axis.low < axis.high):
             raise InputError(f"map axis {axis.name} from {axis.low:g} to {axis.high:g}: expected a rising range")
-    scheme, on_rods = _scheme_of(stepper, system_at({}))
+    # In the middle of the plane, where nothing that an axis is about is switched off.
+    middle = {axis.name: (axis.low + axis.high) / 2 for axis in (x, y) if axis.name != "dt"}
+    scheme, on_rods = _scheme_of(stepper, system_at(middle))
     swept = isinstance(stepper, SchemeStepper) and scheme is not None and not scheme.springs_only and not on_rods
     count = SWEPT if swept else ENGINE
     xs, ys = x.values(count), y.values(count)

@@ -21,7 +21,7 @@ from reference.catalogue import Scheme
 from reference.errors import Unsupported
 from reference.forces import springs_of_masses
 from reference.loops import Loops
-from reference.state import State
+from reference.state import Array, State
 from reference.system import MassSpringSystem
 from reference.tracing import trace
 
@@ -38,17 +38,45 @@ def advance(system: MassSpringSystem, scheme: Scheme, dt: float, steps: int, thr
     Raises:
         Unsupported: for a scheme that needs more than the accelerations of the whole state.
     """
-    if threads is None:
-        threads = (os.cpu_count() or 1) if len(system.masses) >= THREADS_FROM else 1
-    loops = loops_for(scheme, system, threads=threads > 1)
-    arrays = arrays_of(system, loops)
-    if threads > 1:
-        import numba
+    kernel = Kernel(system, scheme, threads)
+    kernel.advance(dt, steps)
+    return State(steps * dt, *kernel.state())
 
-        numba.set_num_threads(min(threads, numba.config.NUMBA_NUM_THREADS))
-    compiled(loops).advance(*(arrays[name] for name in (*loops.arrays, "drag")), dt, *lists(system, loops), steps)
-    positions, velocities = (np.stack([arrays[f"{q}{i}"] for i in loops.axes], axis=1) for q in "xv")
-    return State(steps * dt, positions, velocities)
+
+class Kernel:
+    """A system in the arrays of a scheme's loops, to be advanced again and again.
+
+    Args, and what is raised: see `advance`.
+    """
+
+    def __init__(self, system: MassSpringSystem, scheme: Scheme, threads: int | None = None) -> None:
+        if threads is None:
+            threads = (os.cpu_count() or 1) if len(system.masses) >= THREADS_FROM else 1
+        self._threads = threads
+        self._loops = loops_for(scheme, system, threads=threads > 1)
+        self._arrays = arrays_of(system, self._loops)
+        self._lists = lists(system, self._loops)
+        self._function = compiled(self._loops).advance
+
+    @property
+    def bytes(self) -> int:
+        """How much memory its arrays take."""
+        arrays = {id(a): a.nbytes for a in [*self._arrays.values(), *self._lists] if isinstance(a, np.ndarray)}
+        return sum(arrays.values())
+
+    def advance(self, dt: float, steps: int) -> None:
+        """So many steps of dt [s]."""
+        if self._threads > 1:
+            import numba
+
+            numba.set_num_threads(min(self._threads, numba.config.NUMBA_NUM_THREADS))
+        arrays = (self._arrays[name] for name in (*self._loops.arrays, "drag"))
+        self._function(*arrays, dt, *self._lists, steps)
+
+    def state(self) -> tuple[Array, Array]:
+        """Positions [m] and velocities [m/s] now, each (n, d)."""
+        x, v = (np.stack([self._arrays[f"{q}{i}"] for i in self._loops.axes], axis=1) for q in "xv")
+        return x, v
 
 
 def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, threads: bool = False) -> Loops:
@@ -83,7 +111,7 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
 
 
 def lists(system: MassSpringSystem, loops: Loops) -> list[Any]:
-    """What is joined to what, as the loops want it: unsigned, as Numba asks signed indices whether they are negative."""
+    """What is joined to what, as the loops want it: unsigned, as Numba asks of signed indices if they are negative."""
     if loops.string:
         return []
     first, spring, sign = springs_of_masses(system)
@@ -93,7 +121,7 @@ def lists(system: MassSpringSystem, loops: Loops) -> list[Any]:
 
 @cache
 def compiled(loops: Loops) -> ModuleType:
-    """The loops as a module of compiled functions. Its text is a file in the user's cache, so that Numba can keep its code there."""
+    """The loops as a module of compiled functions: a file in the user's cache, beside which Numba keeps its code."""
     _allow_noalias()
     text = loops.text()
     name = f"springlab_{hashlib.sha256(text.encode()).hexdigest()[:16]}"

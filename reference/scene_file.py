@@ -139,7 +139,7 @@ def _plain(message: str) -> str:
 
 def _line(text: str, message: str) -> str:
     """Where the last key a message names stands in the file, as ', line N'; nothing if it does not stand there once."""
-    keys = re.findall(r"[A-Za-z_]\w*", message.partition("$.")[2] or message.partition(" = ")[0])
+    keys = re.findall(r"[A-Za-z_]\w*", message.partition("$.")[2] or re.split(r"[^\w.\[\]]", message)[0])
     unknown = re.search(r"unknown (?:field|parameter[^:]*) [`'](\w+)[`']", message)
     key = unknown[1] if unknown else keys[-1] if keys else ""
     lines = [i for i, line in enumerate(text.splitlines(), 1) if key and re.match(rf"\s*{key}\s*=", line)]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import cos, radians, sin
+from math import cos, isfinite, radians, sin
 from types import MappingProxyType
 from typing import Any
 
@@ -22,12 +22,12 @@ from reference.system import MassSpringSystem
 #: One number for all, or one for each.
 PerItem = float | Sequence[float]
 
-#: Parameters that may be one number, or one for each mass or spring.
-PER_ITEM = ("mass", "rest_length", "stiffness", "damping")
-
 #: What scenes agree on about their parameters' ranges.
 ABOVE_ZERO = ("masses", "mass", "rest_length")
 NOT_BELOW_ZERO = ("stiffness", "damping", "drag")
+
+#: More masses than that are a slip of the finger, and would fill the memory.
+MOST_MASSES = 10_000_000
 
 _SCENES: dict[str, Scene] = {}
 
@@ -69,10 +69,13 @@ class Scene:
         Raises:
             InputError: for an unknown parameter or a value of the wrong type or range.
         """
-        for name in settings:
+        values = {}
+        for name, value in settings.items():
             if name not in self.parameters:
                 raise unknown_name(f"parameter of scene {self.name!r}", name, self.parameters)
-        return self.build(**{name: _converted(name, value, self.parameters[name]) for name, value in settings.items()})
+            several = self.build.__annotations__[name] in (PerItem, "PerItem")
+            values[name] = _converted(name, value, self.parameters[name], several)
+        return self.build(**values)
 
 
 @dataclass(frozen=True)
@@ -196,8 +199,8 @@ def _each(name: str, value: PerItem, count: int) -> np.ndarray[Any, np.dtype[np.
     return np.array(np.broadcast_to(values, (count,)))
 
 
-def _converted(name: str, value: Any, default: Any) -> Any:
-    """The value as the type its default has: text from the command line, or numbers from a file."""
+def _converted(name: str, value: Any, default: Any, several: bool) -> Any:
+    """The value as the type its default has, or several of them: text from the command line, or numbers from a file."""
     whole = isinstance(default, int)
     parts = value.split(",") if isinstance(value, str) else value if isinstance(value, list) else [value]
     try:
@@ -211,15 +214,17 @@ def _converted(name: str, value: Any, default: Any) -> Any:
         _check(name, number)
     if len(numbers) == 1 and not isinstance(value, list):
         return numbers[0]
-    if name not in PER_ITEM:
+    if not several:
         raise InputError(f"{name} = {value!r}: expected one number")
     return numbers
 
 
 def _check(name: str, number: float) -> None:
     """Refuse here what the system would refuse under its own, plural name."""
-    if not np.isfinite(number):
+    if not isfinite(number):
         raise InputError(f"{name} = {number:g}: expected a finite number")
+    if name == "masses" and number > MOST_MASSES:
+        raise InputError(f"{name} = {number:g}: expected at most {MOST_MASSES:,}")
     if (name in ABOVE_ZERO and number <= 0) or (name in NOT_BELOW_ZERO and number < 0):
         raise InputError(f"{name} = {number:g}: expected a number {'>' if name in ABOVE_ZERO else '>='} 0")
 

@@ -184,7 +184,7 @@ class Limit:
 
 
 def stability_limit(scheme: Scheme, rest: Equilibrium) -> Limit:
-    """The predicted limit of a scheme about an equilibrium: from the largest dt on down, to where pushes do not grow."""
+    """The predicted limit of a scheme about an equilibrium: the dt below which pushes do not grow."""
     fastest = fastest_rate(rest)
     if fastest == 0:
         return Limit(None, "nothing moves")

@@ -1,9 +1,9 @@
 """A scheme's own function, run on symbols in place of numbers: what is left is the list of what it computes.
 
 There is one definition of each scheme, the function a student reads. For speed it must become a loop over masses that
-a compiler sees as a whole. So the function is called once with symbols for positions, velocities and dt. Every operation
-on a symbol writes itself down, and every acceleration asked for begins a new stage: before it, all masses must be where
-the scheme wants them. The arithmetic is kept in its order, so that loop and function agree to the bit.
+a compiler sees as a whole. So the function is called once with symbols for positions, velocities and dt. Every
+operation on a symbol writes itself down, and every acceleration asked for begins a new stage: before it, all masses
+must be where the scheme wants them. The arithmetic is kept in its order, so that loop and function agree to the bit.
 """
 
 from __future__ import annotations

@@ -133,6 +133,8 @@ def report_command(names: Sequence[str], out: Path) -> int:
     from report.page import page, section
 
     wanted = [find(name) for name in names or NAMES]
+    if not names:
+        wanted = [experiment for experiment in wanted if experiment.in_report]
     out.mkdir(parents=True, exist_ok=True)
     sections = []
     with progress("report") as tell:

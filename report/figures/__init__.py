@@ -40,24 +40,26 @@ class Picture:
 
     def svg(self) -> str:
         """The figure as an SVG element, the same bytes for the same figure."""
-        from matplotlib import pyplot
+        from matplotlib import rc_context
 
         file = StringIO()
-        with pyplot.rc_context(STYLE):
+        with rc_context(STYLE):
             self.figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
         text = file.getvalue()
         return text[text.index("<svg") :]
 
 
-def new_figure(**options: Any) -> tuple[Any, Any]:
-    """A figure and its axes in the report's style; options as for pyplot.subplots."""
-    import matplotlib
+def new_figure(figsize: tuple[float, float], **options: Any) -> tuple[Any, Any]:
+    """A figure of a size [inches] and its axes in the report's style; options as for Figure.subplots.
 
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
+    Made without pyplot, which would keep every figure for ever.
+    """
+    from matplotlib import rc_context
+    from matplotlib.figure import Figure
 
-    with pyplot.rc_context(STYLE):
-        return pyplot.subplots(**options)
+    with rc_context(STYLE):
+        figure = Figure(figsize=figsize)
+        return figure, figure.subplots(**options)
 
 
 def look(i: int) -> dict[str, str]:

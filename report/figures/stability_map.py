@@ -34,13 +34,16 @@ def draw_map(found: StabilityMap) -> Picture:
     axes.grid(visible=False)
     axes.set_xlabel(_label(found.x))
     axes.set_ylabel(_label(found.y))
-    line = f"black: predicted limit of {found.predicted_by}"
-    axes.set_title(f"{found.stepper}\n{line}", loc="left", fontsize=11)
+    axes.set_title(f"{found.stepper}\n{_prediction(found)}", loc="left", fontsize=11)
     stable = float(np.mean(found.growth <= LEAST))
-    return Picture(
-        figure,
-        f"Map of growth over {found.x.name} and {found.y.name} for {found.stepper}: {stable:.0%} of the plane is stable.",
-    )
+    plane = f"{found.x.name} and {found.y.name}"
+    return Picture(figure, f"Map of growth over {plane} for {found.stepper}: {stable:.0%} of it is stable.")
+
+
+def _prediction(found: StabilityMap) -> str:
+    if len(found.boundary) or found.predicted_growth is not None:
+        return f"black: predicted limit of {found.predicted_by}"
+    return f"{found.predicted_by}: predicted to have no limit here, being stable or unstable at any dt"
 
 
 def _label(axis: Axis) -> str:

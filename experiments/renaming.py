@@ -1,0 +1,77 @@
+"""The same system under other names, and how much that changes. Needs NumPy only: engines' processes import it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from engines.engine import Engine
+from engines.isolation import run_engine
+from reference.outcome import Outcome
+from reference.system import IntArray, MassSpringSystem
+
+#: What is done to the names, and whose order it changes.
+CHANGES = {"masses renumbered": "masses", "springs reversed": "springs", "ends swapped": "ends"}
+
+
+@dataclass(frozen=True)
+class Renamed:
+    """What a stepper makes of other names for the same system.
+
+    Attributes:
+        distances: for each change that it could run, the largest distance of any mass at any time [m].
+        reasons: for each change that it could not run, why.
+    """
+
+    distances: Mapping[str, float]
+    reasons: Mapping[str, str]
+
+    @classmethod
+    def nothing(cls, reason: str) -> Renamed:
+        """Where nothing could be run."""
+        return cls({}, dict.fromkeys(CHANGES, reason))
+
+    def sees(self, rounding: float) -> frozenset[str]:
+        """Whose order changes the motion by more than rounding [m]."""
+        return frozenset(CHANGES[change] for change, distance in self.distances.items() if distance > rounding)
+
+    @property
+    def tried(self) -> frozenset[str]:
+        """Whose order was changed."""
+        return frozenset(CHANGES[change] for change in self.distances)
+
+
+def renamings(system: MassSpringSystem) -> dict[str, tuple[MassSpringSystem, IntArray]]:
+    """The system under other names, and for each mass its number in the original. Mass 0 stays mass 0."""
+    n = len(system.masses)
+    same = np.arange(n)
+    shuffled = np.concatenate([[0], 1 + np.random.default_rng(1).permutation(n - 1)])
+    systems = [
+        (system.renumbered(shuffled), shuffled),
+        (system.with_springs_reversed(), same),
+        (system.with_ends_swapped(), same),
+    ]
+    return dict(zip(CHANGES, systems, strict=True))
+
+
+def differences(run: Callable[[MassSpringSystem], Outcome], system: MassSpringSystem) -> Renamed:
+    """How far apart the runs of a system and of the same system under other names are."""
+    original = run(system)
+    if original.ending != "done" or original.trajectory is None:
+        return Renamed.nothing(f"{original.ending}, {original.reason}")
+    distances, reasons = {}, {}
+    for change, (other, order) in renamings(system).items():
+        outcome = run(other)
+        if outcome.ending == "done" and outcome.trajectory is not None:
+            gap = outcome.trajectory.positions - original.trajectory.positions[:, order]
+            distances[change] = float(np.linalg.norm(gap, axis=2).max())
+        else:
+            reasons[change] = f"{outcome.ending}, {outcome.reason}"
+    return Renamed(distances, reasons)
+
+
+def differences_in_engines(runs: Sequence[tuple[Engine, MassSpringSystem]], dt: float, steps: int) -> list[Renamed]:
+    """The same of engines, each with its system, one after the other in this very process."""
+    return [differences(lambda s, engine=engine: run_engine(engine, s, dt, steps), system) for engine, system in runs]

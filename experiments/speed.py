@@ -1,0 +1,225 @@
+"""How fast are the kernels, as a ratio to tuned C on the same mesh in the same run?
+
+`python -m experiments.speed`
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from experiments.comparison import Progress
+from experiments.environment import processor
+from experiments.experiment import Experiment, Result, Table
+from experiments.tuned import TunedHeun
+from reference import catalogue
+from reference.errors import Unsupported
+from reference.forces import SpringMotion
+from reference.kernels import Kernel
+from reference.loops import LANES
+from reference.scenes import find
+from reference.state import State
+from reference.sweep import sweep
+from reference.system import MassSpringSystem
+
+DT = 1e-5
+
+#: Every timing is of at least about so many node-steps, and the least of so many rounds.
+WORK, ROUNDS = 4_000_000, 5
+
+#: Neighbours a mass of a mesh is joined to: along the axes, across, and (cloth) two along, for bending.
+CLOTH = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 0), (0, 2))
+JELLO = tuple(o for o in product((-1, 0, 1), repeat=3) if o > (0, 0, 0))
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One kernel against tuned C on the same mesh: node-steps per second, the ratio of times, memory."""
+
+    what: str
+    threads: int
+    masses: int
+    springs: int
+    ours: float
+    tuned: float | None
+    bytes_per_mass: float | None
+
+    @property
+    def ratio(self) -> float | None:
+        """Our time over tuned C's, for the same work."""
+        return None if self.tuned is None else self.tuned / self.ours
+
+
+def lattice(shape: Sequence[int], offsets: Sequence[tuple[int, ...]], spacing: float = 0.1) -> MassSpringSystem:
+    """A block of masses on a lattice, each joined to its neighbours at the offsets; the first corner is fixed."""
+    index = np.arange(np.prod(shape)).reshape(shape)
+    pairs = []
+    for offset in offsets:
+        here = tuple(slice(max(0, -o), s - max(0, o)) for o, s in zip(offset, shape, strict=True))
+        there = tuple(slice(max(0, o), s + min(0, o)) for o, s in zip(offset, shape, strict=True))
+        pairs.append(np.column_stack([index[here].ravel(), index[there].ravel()]))
+    springs = np.concatenate(pairs)
+    positions = spacing * np.indices(shape).reshape(len(shape), -1).T.astype(float)
+    lengths = np.linalg.norm(positions[springs[:, 1]] - positions[springs[:, 0]], axis=1)
+    return MassSpringSystem(
+        positions=positions,
+        springs=springs,
+        masses=np.array(0.02),
+        rest_lengths=lengths,
+        stiffness=np.array(200.0),
+        damping=np.array(0.05),
+        drag=0.02,
+        fixed=np.arange(len(positions)) == 0,
+    )
+
+
+def string(masses: int) -> MassSpringSystem:
+    """The default string with so many masses, damped in both ways."""
+    return find("string").system({"masses": masses, "damping": 0.05, "drag": 0.02})
+
+
+def cases() -> dict[str, Callable[[], MassSpringSystem]]:
+    """The meshes, by name."""
+    strings = {f"string {n}": lambda n=n: string(n) for n in (20, 200, 2_000, 100_000, 1_000_000)}
+    cloths = {f"cloth {n} x {n}": lambda n=n: lattice((n, n), CLOTH) for n in (30, 300, 1000)}
+    jellos = {f"jello {n}^3": lambda n=n: lattice((n, n, n), JELLO) for n in (10, 50)}
+    return {**strings, **cloths, **jellos}
+
+
+def run(progress: Progress) -> Result:
+    """All meshes, the sweep, and NumPy arrays for comparison."""
+    rows = []
+    for name, system in cases().items():
+        progress(name)
+        rows += time_mesh(name, system())
+    progress("string 200, renumbered")
+    order = np.concatenate([[0], 1 + np.random.default_rng(0).permutation(200)])
+    rows += time_mesh("string 200, renumbered at random", string(200).renumbered(order))
+    progress("sweep")
+    rows += time_sweep()
+    progress("NumPy arrays")
+    rows.append(time_numpy())
+    columns = [
+        "what",
+        "threads",
+        "masses",
+        "springs",
+        "node-steps/s",
+        "tuned C, node-steps/s",
+        "time / tuned C",
+        "bytes/mass",
+    ]
+    table = Table(
+        "speed",
+        columns,
+        [[r.what, r.threads, r.masses, r.springs, r.ours, r.tuned, r.ratio, r.bytes_per_mass] for r in rows],
+    )
+    return Result(_findings(rows), [table], {"rows": rows})
+
+
+def time_mesh(name: str, system: MassSpringSystem) -> list[Timing]:
+    """Heun by our kernel, on one thread and on all, against tuned C; each round times one after the other."""
+    n, springs = len(system.masses), len(system.springs)
+    steps = max(2, WORK // n)
+    tuned = _anchor(system)
+    timings = []
+    for threads in (1, os.cpu_count() or 1) if n >= 2_000 else (1,):
+        kernel = Kernel(system, catalogue.find("heun"), threads)
+        kernel.advance(DT, 1)
+        ours, theirs = [], []
+        for _ in range(ROUNDS):
+            ours.append(_seconds(lambda: kernel.advance(DT, steps)))
+            theirs.append(tuned.advance(DT, steps) if tuned else np.nan)
+        speed = n * steps / min(ours)
+        anchor = n * steps / min(theirs) if tuned else None
+        timings.append(Timing(name, threads, n, springs, speed, anchor, kernel.bytes / n))
+    return timings
+
+
+def time_sweep(systems: int = 65_536, masses: int = 20) -> list[Timing]:
+    """Many strings at once, on one thread and on all, against as many core-seconds of tuned C on one of them."""
+    system = string(masses)
+    tuned = _anchor(system)
+    timings = []
+    for threads in dict.fromkeys((1, os.cpu_count() or 1)):
+        dt = np.full(systems, DT)
+        sweep(system, catalogue.find("heun"), dt[:LANES], 1, threads=threads)
+        steps = 200
+        # What it takes to set the arrays up is taken off: the speed is that of stepping.
+        begin = min(_seconds(lambda: sweep(system, catalogue.find("heun"), dt, 1, threads=threads)) for _ in range(2))  # noqa: B023
+        whole = min(
+            _seconds(lambda: sweep(system, catalogue.find("heun"), dt, steps + 1, threads=threads)) for _ in range(2)
+        )
+        anchor = (
+            max(masses * WORK / masses / tuned.advance(DT, WORK // masses) for _ in range(ROUNDS)) if tuned else None
+        )
+        speed = systems * masses * steps / (whole - begin)
+        timings.append(Timing(f"sweep of {systems} strings", threads, masses, masses, speed, anchor, None))
+    return timings
+
+
+def time_numpy(masses: int = 20) -> Timing:
+    """Heun as the scheme's own function on whole arrays, as a student runs it."""
+    system = string(masses)
+    motion, heun = SpringMotion(system), catalogue.find("heun").step
+    steps, tuned = 2_000, _anchor(system)
+
+    def stepping() -> None:
+        state: State = motion.start
+        for _ in range(steps):
+            state = heun(motion, state, DT)
+
+    ours = min(_seconds(stepping) for _ in range(ROUNDS))
+    anchor = masses * WORK / masses / tuned.advance(DT, WORK // masses) if tuned else None
+    return Timing("scheme's own function, string 20", 1, masses, masses, masses * steps / ours, anchor, None)
+
+
+def _anchor(system: MassSpringSystem) -> TunedHeun | None:
+    try:
+        return TunedHeun(system, as_string=True)
+    except Unsupported:
+        return None
+
+
+def _seconds(work: Callable[[], object]) -> float:
+    begin = time.perf_counter()
+    work()
+    return time.perf_counter() - begin
+
+
+def _findings(rows: Sequence[Timing]) -> list[str]:
+    single = [r for r in rows if r.threads == 1 and r.ratio is not None and r.bytes_per_mass is not None]
+    if not single:
+        return [f"Measured on {processor()}; there is no C compiler here, so there are no ratios."]
+    slowest = max(single, key=lambda r: r.ratio or 0.0)
+    sweeps = [r for r in rows if r.what.startswith("sweep") and r.ratio]
+    sentences = [
+        f"On {processor()}, one thread of ours takes at most {slowest.ratio:.2f} times the time of tuned C on the same "
+        f"mesh (at {slowest.what})."
+    ]
+    sentences += [
+        f"The sweep is {1 / r.ratio:.2f} times as fast as tuned C on {r.threads} thread{'s' if r.threads > 1 else ''}."
+        for r in sweeps
+        if r.ratio
+    ]
+    return sentences
+
+
+EXPERIMENT = Experiment(
+    name="speed",
+    title="Speed",
+    question="How fast are the kernels, as a ratio to tuned C on the same mesh in the same run?",
+    slides="8",
+    run=run,
+    in_report=False,
+)
+
+if __name__ == "__main__":
+    from experiments.console import main
+
+    main(EXPERIMENT)
