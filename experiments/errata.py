@@ -50,7 +50,7 @@ def _findings(remarks: list[Remark]) -> list[str]:
     wrong, right = value["order of heun_link_by_link"], value["order of heun"]
     larger = value["largest stable dt, heun_link_by_link"] / value["largest stable dt, heun"]
     return [
-        f"Slide 11's listing is better than its heading: run as printed it is {apart:g} m from slide 7's, as each of "
+        f"Slide 11's listing is better than its heading: run as printed it is {apart:g} m from slide 7's. Each of "
         "its loops reads one array and writes another.",
         f"What the slide warns of is real: Heun advanced link by link has order {wrong:.2f} where Heun has {right:.2f}. "
         f"It is also stable up to {larger:.2f} times the dt: stable is not accurate.",

@@ -245,10 +245,11 @@ def _largest(rows: Sequence[Row]) -> float:
 
 def _rounds_finding(c: Convergence) -> str:
     few, default = ROUNDS[0], PymunkSprings().rounds
+    first, usual = c.distances[0], c.distances[ROUNDS.index(default)]
     return (
-        f"Damped with {c.damping:g} N s/m, Pymunk's string with its springs reversed differs by {c.distances[0]:.1e} m with "
-        f"{few} round in a step and by {c.distances[ROUNDS.index(default)]:.1e} m with its default of {default}; each "
-        f"further round leaves {c.measured:.2f} of that (predicted for the straight string: {c.predicted:.2f})."
+        f"Damped with {c.damping:g} N s/m, Pymunk's string with its springs reversed differs by {first:.1e} m with "
+        f"{few} round in a step and by {usual:.1e} m with the default of {default}; each further round leaves "
+        f"{c.measured:.2f} of that (predicted for the straight string: {c.predicted:.2f})."
     )
 
 

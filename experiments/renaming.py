@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -74,4 +75,4 @@ def differences(run: Callable[[MassSpringSystem], Outcome], system: MassSpringSy
 
 def differences_in_engines(runs: Sequence[tuple[Engine, MassSpringSystem]], dt: float, steps: int) -> list[Renamed]:
     """The same of engines, each with its system, one after the other in this very process."""
-    return [differences(lambda s, engine=engine: run_engine(engine, s, dt, steps), system) for engine, system in runs]
+    return [differences(partial(run_engine, engine, dt=dt, steps=steps), system) for engine, system in runs]

@@ -123,51 +123,47 @@ def run(progress: Progress) -> Result:
 
 
 def time_mesh(name: str, system: MassSpringSystem) -> list[Timing]:
-    """Heun by our kernel, on one thread and on all, against tuned C; each round times one after the other."""
-    n, springs = len(system.masses), len(system.springs)
+    """Heun by our kernel, on one thread and on all, against tuned C."""
+    n = len(system.masses)
+    return [_time_kernel(name, system, threads) for threads in ((1, os.cpu_count() or 1) if n >= 2_000 else (1,))]
+
+
+def _time_kernel(name: str, system: MassSpringSystem, threads: int) -> Timing:
+    """The least of ROUNDS times of each, one after the other, so that both see the same machine."""
+    n = len(system.masses)
     steps = max(2, WORK // n)
-    tuned = _anchor(system)
-    timings = []
-    for threads in (1, os.cpu_count() or 1) if n >= 2_000 else (1,):
-        kernel = Kernel(system, catalogue.find("heun"), threads)
-        kernel.advance(DT, 1)
-        ours, theirs = [], []
-        for _ in range(ROUNDS):
-            ours.append(_seconds(lambda: kernel.advance(DT, steps)))
-            theirs.append(tuned.advance(DT, steps) if tuned else np.nan)
-        speed = n * steps / min(ours)
-        anchor = n * steps / min(theirs) if tuned else None
-        timings.append(Timing(name, threads, n, springs, speed, anchor, kernel.bytes / n))
-    return timings
+    kernel, tuned = Kernel(system, catalogue.find("heun"), threads), _anchor(system)
+    kernel.advance(DT, 1)
+    times = [
+        (_seconds(lambda: kernel.advance(DT, steps)), tuned.advance(DT, steps) if tuned else np.inf)
+        for _ in range(ROUNDS)
+    ]
+    ours, theirs = (n * steps / min(column) for column in zip(*times, strict=True))
+    return Timing(name, threads, n, len(system.springs), ours, theirs or None, kernel.bytes / n)
 
 
 def time_sweep(systems: int = 65_536, masses: int = 20) -> list[Timing]:
-    """Many strings at once, on one thread and on all, against as many core-seconds of tuned C on one of them."""
-    system = string(masses)
-    tuned = _anchor(system)
-    timings = []
-    for threads in dict.fromkeys((1, os.cpu_count() or 1)):
-        dt = np.full(systems, DT)
-        sweep(system, catalogue.find("heun"), dt[:LANES], 1, threads=threads)
-        steps = 200
-        # What it takes to set the arrays up is taken off: the speed is that of stepping.
-        begin = min(_seconds(lambda: sweep(system, catalogue.find("heun"), dt, 1, threads=threads)) for _ in range(2))  # noqa: B023
-        whole = min(
-            _seconds(lambda: sweep(system, catalogue.find("heun"), dt, steps + 1, threads=threads)) for _ in range(2)
-        )
-        anchor = (
-            max(masses * WORK / masses / tuned.advance(DT, WORK // masses) for _ in range(ROUNDS)) if tuned else None
-        )
-        speed = systems * masses * steps / (whole - begin)
-        timings.append(Timing(f"sweep of {systems} strings", threads, masses, masses, speed, anchor, None))
-    return timings
+    """Many strings at once, on one thread and on all, against tuned C on one of them and one thread."""
+    return [_time_sweep(systems, masses, threads) for threads in dict.fromkeys((1, os.cpu_count() or 1))]
+
+
+def _time_sweep(systems: int, masses: int, threads: int, steps: int = 200) -> Timing:
+    """What it takes to set the arrays up is taken off: the speed is that of stepping."""
+    system, heun, dt = string(masses), catalogue.find("heun"), np.full(systems, DT)
+    sweep(system, heun, dt[:LANES], 1, threads=threads)
+
+    def seconds(count: int) -> float:
+        return min(_seconds(lambda: sweep(system, heun, dt, count, threads=threads)) for _ in range(2))
+
+    speed = systems * masses * steps / (seconds(steps + 1) - seconds(1))
+    return Timing(f"sweep of {systems} strings", threads, masses, masses, speed, _anchor_speed(system), None)
 
 
 def time_numpy(masses: int = 20) -> Timing:
     """Heun as the scheme's own function on whole arrays, as a student runs it."""
     system = string(masses)
     motion, heun = SpringMotion(system), catalogue.find("heun").step
-    steps, tuned = 2_000, _anchor(system)
+    steps = 2_000
 
     def stepping() -> None:
         state: State = motion.start
@@ -175,8 +171,14 @@ def time_numpy(masses: int = 20) -> Timing:
             state = heun(motion, state, DT)
 
     ours = min(_seconds(stepping) for _ in range(ROUNDS))
-    anchor = masses * WORK / masses / tuned.advance(DT, WORK // masses) if tuned else None
-    return Timing("scheme's own function, string 20", 1, masses, masses, masses * steps / ours, anchor, None)
+    speed = masses * steps / ours
+    return Timing("scheme's own function, string 20", 1, masses, masses, speed, _anchor_speed(system), None)
+
+
+def _anchor_speed(system: MassSpringSystem) -> float | None:
+    """Node-steps per second of tuned C on a small system."""
+    tuned, n = _anchor(system), len(system.masses)
+    return max(WORK / tuned.advance(DT, WORK // n) for _ in range(ROUNDS)) if tuned else None
 
 
 def _anchor(system: MassSpringSystem) -> TunedHeun | None:

@@ -9,6 +9,7 @@ import tempfile
 import time
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -55,7 +56,7 @@ class TunedHeun:
         self._numbers = [system.masses, system.rest_lengths, system.stiffness, system.damping, system.gravity]
         begin, spring, sign = springs_of_masses(system)
         lists = [np.ascontiguousarray(a, dtype=np.uint32) for a in (*system.springs.T, begin, spring)]
-        self._lists = [*lists, sign, system.fixed.astype(np.uint8)]
+        self._lists: list[Any] = [*lists, sign, system.fixed.astype(np.uint8)]
         self._drag, self._n, self._springs = system.drag, n, len(system.springs)
 
     def advance(self, dt: float, steps: int) -> float:

@@ -110,12 +110,12 @@ def _per_system(system: MassSpringSystem, parameters: Mapping[str, Array], m: in
         for value in (np.min(values), np.max(values)):
             system.with_parameter(name, float(value))
     given = {name: np.asarray(parameters[name], dtype=np.float64) for name in PARAMETERS if name in parameters}
-    values: dict[str, Array] = {}
+    arrays: dict[str, Array] = {}
     for name in ("rest_length", "stiffness", "damping"):
         if name in given:
-            values[name] = np.repeat(given[name][:, None], len(system.springs), axis=1)
+            arrays[name] = np.repeat(given[name][:, None], len(system.springs), axis=1)
     if "drag" in given:
-        values["drag"] = given["drag"]
+        arrays["drag"] = given["drag"]
     if "mass" in given or "gravity" in given:
         masses = np.repeat(given["mass"][:, None], len(system.masses), axis=1) if "mass" in given else system.masses
         masses = np.broadcast_to(masses, (m, len(system.masses)))
@@ -123,9 +123,9 @@ def _per_system(system: MassSpringSystem, parameters: Mapping[str, Array], m: in
             np.outer(given["gravity"], [0.0, -1.0, 0.0][: system.dimension]) if "gravity" in given else system.gravity
         )
         down = np.broadcast_to(down, (m, system.dimension))
-        values["divisor"] = np.where(system.fixed, np.inf, masses)
-        values |= {f"weight{i}": masses * down[:, i, None] for i in range(system.dimension)}
-    return values
+        arrays["divisor"] = np.where(system.fixed, np.inf, masses)
+        arrays |= {f"weight{i}": masses * down[:, i, None] for i in range(system.dimension)}
+    return arrays
 
 
 def _in_lanes(array: Array, m: int, blocks: int) -> Array:

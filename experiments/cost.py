@@ -1,0 +1,268 @@
+"""What does accuracy cost, and what does a step?
+
+`python -m experiments.cost`
+
+Wall time of the stepping alone, on this machine: an engine's inside its own process, and nothing read in between.
+Schemes run as compiled kernels where they can be (one thread), else step by step in Python. Those that treat only the
+damping in a way of their own are left out: without damping they are kick_drift or drift_kick to the bit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache, partial
+from time import perf_counter
+
+import numpy as np
+
+from engines.isolation import EngineStepper, isolated
+from experiments.comparison import Progress, finite
+from experiments.environment import processor
+from experiments.experiment import Experiment, Result, Table
+from experiments.steppers import all_steppers
+from experiments.timing import Speeds, Timing, engine_cost, least, seconds_per_step
+from reference.catalogue import Scheme
+from reference.exact import exact
+from reference.forces import SpringMotion
+from reference.kernels import advance
+from reference.motion import Motion
+from reference.outcome import Outcome
+from reference.scenes import find
+from reference.simulate import simulate
+from reference.state import Array
+from reference.stepper import SchemeStepper, Stepper, catalogued
+from reference.system import MassSpringSystem
+
+#: How long the string swings [s], and the steps [s] that this is cut into.
+DURATION = 0.48
+DTS = (8e-3, 4e-3, 2e-3, 1e-3, 5e-4)
+
+#: The masses of the strings whose steps are timed, at a dt [s]; kernels go on where engines stop.
+MASSES = (10, 30, 100, 300, 1000)
+MORE_MASSES = (3000, 10_000, 30_000, 100_000)
+DT = 1e-3
+
+#: What ratios are to: its kernel on the same string in the same run.
+ANCHOR = "kick_drift"
+
+#: An error [m] to be met at the least cost.
+GOAL = 1e-3
+
+
+@dataclass(frozen=True)
+class Point:
+    """One run: its step [s], wall time [s], and how far its masses are from the truth at the end, at most [m]."""
+
+    dt: float
+    seconds: float
+    error: float
+
+
+@dataclass(frozen=True)
+class Cost:
+    """What a stepper costs.
+
+    Attributes:
+        runs_as: kernel, Python or engine.
+        identified_as: the scheme of an engine, or its own.
+        points: one for each of DTS; empty where it could not run.
+        speeds: of the strings of MASSES, as far as it came.
+        failure: why it could not run; empty if it could.
+    """
+
+    stepper: Stepper
+    runs_as: str
+    identified_as: str
+    points: Sequence[Point]
+    speeds: Speeds
+    failure: str = ""
+
+    @property
+    def steps_per_second(self) -> list[tuple[int, float]]:
+        """(masses, steps per second) of the strings that it came to."""
+        return [(n, 1 / seconds) for n, seconds in zip((*MASSES, *MORE_MASSES), self.speeds.seconds, strict=False)]
+
+
+def run(progress: Progress) -> Result:
+    """All costs, one stepper after the other: what runs beside it would slow it down."""
+    costs = []
+    for stepper in steppers():
+        progress(stepper.name)
+        costs.append(engine(stepper) if isinstance(stepper, EngineStepper) else scheme(stepper))
+    failures = [f"{c.stepper.name}: {c.failure}" for c in costs if c.failure]
+    failures += [f"{c.stepper.name}: {c.speeds.reason}" for c in costs if c.speeds.reason]
+    tables = [_summary(costs), _errors(costs), _speeds(costs)]
+    return Result(_findings(costs), tables, {"costs": costs}, failures)
+
+
+def steppers() -> Iterator[SchemeStepper | EngineStepper]:
+    """The right schemes and the engines."""
+    for stepper in all_steppers().values():
+        if isinstance(stepper, SchemeStepper | EngineStepper) and stepper.kind in ("scheme", "engine"):
+            yield stepper
+
+
+def string(masses: int = 10) -> MassSpringSystem:
+    """The default string, of so many masses."""
+    return find("string").system({"masses": masses})
+
+
+def scheme(stepper: SchemeStepper) -> Cost:
+    """A scheme's cost: its kernel's, or that of stepping in Python."""
+    time = _time_in_python if stepper.scheme.springs_only else _time_kernel
+    timings = [time(stepper.scheme, dt, _steps(dt)) for dt in DTS]
+    points = _points(timings, SpringMotion)
+    if stepper.scheme.springs_only:
+        return Cost(stepper, "Python", stepper.name, points, Speeds([]))
+    strings = [string(n) for n in (*MASSES, *MORE_MASSES)]
+    speeds = [seconds_per_step(partial(_advance, s, stepper.scheme, DT)) for s in strings]
+    return Cost(stepper, "kernel", stepper.name, points, Speeds(speeds))
+
+
+def engine(stepper: EngineStepper) -> Cost:
+    """An engine's cost, measured in a process of its own."""
+    named = stepper.engine.identified_as["plain"]
+    cost = partial(Cost, stepper, "engine", named)
+    if stepper.version is None:
+        return cost([], Speeds([]), f"unsupported, {stepper.engine.package} is not installed")
+    runs = [(dt, _steps(dt)) for dt in DTS]
+    strings = [string(n) for n in MASSES]
+    answer = isolated(engine_cost, stepper.engine, string(), runs, strings, DT, time_limit=stepper.time_limit)
+    if isinstance(answer, Outcome):
+        return cost([], Speeds([]), f"{answer.ending}, {answer.reason}")
+    timings, speeds = answer
+    return cost(_points(timings, catalogued()[named].equations), speeds)
+
+
+def _steps(dt: float) -> int:
+    return round(DURATION / dt)
+
+
+def _advance(system: MassSpringSystem, scheme: Scheme, dt: float, steps: int) -> Array:
+    return advance(system, scheme, dt, steps, threads=1).positions
+
+
+def _time_kernel(scheme: Scheme, dt: float, steps: int) -> Timing:
+    """A run is over in no time at all: what a step takes is measured on many."""
+    per_step = seconds_per_step(partial(_advance, string(), scheme, dt))
+    return Timing(steps * per_step, _advance(string(), scheme, dt, steps))
+
+
+def _time_in_python(scheme: Scheme, dt: float, steps: int) -> Timing:
+    def run() -> Timing:
+        begin = perf_counter()
+        trajectory = simulate(string(), scheme, dt, dt * steps)
+        return Timing(perf_counter() - begin, trajectory.positions[-1])
+
+    return least(run)
+
+
+def _points(timings: Sequence[Timing], equations: Callable[[MassSpringSystem], Motion]) -> list[Point]:
+    points = []
+    for dt, timing in zip(DTS, timings, strict=True):
+        with np.errstate(over="ignore", invalid="ignore"):
+            error = float(np.linalg.norm(timing.positions - _truth(equations), axis=1).max())
+        # Further off than the string is long, or no number: it has blown up.
+        points.append(Point(dt, timing.seconds, error if error < string().size else np.inf))
+    return points
+
+
+@cache
+def _truth(equations: Callable[[MassSpringSystem], Motion]) -> Array:
+    """Where the string is at the end [m]; that of rods where an engine's segments are rigid."""
+    return exact(string(), DURATION, 1, equations=equations).positions[-1]
+
+
+def _summary(costs: Sequence[Cost]) -> Table:
+    """One row per stepper: the speed of the smallest string, and the error of a common step."""
+    columns = ["stepper", "runs as", "same as", "steps/s [1/s]", "step / anchor's", f"error, dt {1e3 * DT:g} ms [m]"]
+    columns += [f"time to {1e3 * GOAL:g} mm [s]", "processor"]
+    rows = []
+    for cost in costs:
+        point = next((p for p in cost.points if p.dt == DT), None)
+        if point is None:
+            continue
+        per_step = point.seconds / _steps(DT)
+        cheapest = min((p.seconds for p in cost.points if p.error <= GOAL), default=None)
+        slower = per_step / anchor(costs)
+        row = [cost.stepper.name, cost.runs_as, cost.identified_as, 1 / per_step, slower, finite(point.error), cheapest]
+        rows.append([*row, processor()])
+    return Table("cost", columns, rows)
+
+
+def anchor(costs: Sequence[Cost], masses: int | None = None) -> float:
+    """Wall time of a step of the anchor [s]: on the string of the runs, or on one of so many masses."""
+    (cost,) = [c for c in costs if c.stepper.name == ANCHOR]
+    if masses is not None:
+        return 1 / dict(cost.steps_per_second)[masses]
+    (point,) = [p for p in cost.points if p.dt == DT]
+    return point.seconds / _steps(DT)
+
+
+def _errors(costs: Sequence[Cost]) -> Table:
+    columns = ["stepper", "runs as", "dt [s]", "steps", "wall time [s]", "error [m]", "processor"]
+    rows = [
+        [cost.stepper.name, cost.runs_as, p.dt, _steps(p.dt), p.seconds, finite(p.error), processor()]
+        for cost in costs
+        for p in cost.points
+    ]
+    return Table("cost_error", columns, rows)
+
+
+def _speeds(costs: Sequence[Cost]) -> Table:
+    columns = ["stepper", "runs as", "masses", "steps/s [1/s]", "step / anchor's", "processor"]
+    rows = [
+        [cost.stepper.name, cost.runs_as, masses, speed, 1 / speed / anchor(costs, masses), processor()]
+        for cost in costs
+        for masses, speed in cost.steps_per_second
+    ]
+    return Table("cost_masses", columns, rows)
+
+
+def _findings(costs: Sequence[Cost]) -> list[str]:
+    sentences = [
+        f"On {processor()}, a step of the string of {MASSES[0]} masses takes the {ANCHOR} kernel "
+        f"{1e9 * anchor(costs):.0f} ns.",
+        *_speed_findings(costs),
+    ]
+    for what, runs_as in (("scheme", ("kernel", "Python")), ("engine", ("engine",))):
+        met = [(p.seconds, p.dt, c) for c in costs if c.runs_as in runs_as for p in c.points if p.error <= GOAL]
+        if met:
+            seconds, dt, cost = min(met, key=lambda m: m[:2])
+            sentences.append(
+                f"The cheapest {what} that ends within {GOAL:g} m of the truth is {cost.stepper.name}, with "
+                f"dt = {dt:g} s: {1e3 * seconds:.2g} ms for {DURATION:g} s of motion."
+            )
+    return sentences
+
+
+def _speed_findings(costs: Sequence[Cost]) -> list[str]:
+    """How engines compare with the anchor, on the smallest string and on the largest that they all came to."""
+    engines = [c for c in costs if c.runs_as == "engine" and c.speeds.seconds]
+    if not engines:
+        return ["No engine ran."]
+    sentences = []
+    shared = [n for n in MASSES if all(n in dict(c.steps_per_second) for c in engines)]
+    for masses in dict.fromkeys((shared[0], shared[-1])):
+        slower = {c.stepper.name: 1 / dict(c.steps_per_second)[masses] / anchor(costs, masses) for c in engines}
+        quickest, slowest = min(slower, key=slower.__getitem__), max(slower, key=slower.__getitem__)
+        sentences.append(
+            f"With {masses} masses engines take {slower[quickest]:.2g} ({quickest}) to {slower[slowest]:.2g} "
+            f"({slowest}) times as long as that kernel."
+        )
+    return sentences
+
+
+EXPERIMENT = Experiment(
+    name="cost",
+    title="What accuracy costs",
+    question="What does an error cost in wall time, and how fast is each stepper on larger strings?",
+    slides="6-8, 13",
+    run=run,
+)
+
+if __name__ == "__main__":
+    from experiments.console import main
+
+    main(EXPERIMENT)

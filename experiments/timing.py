@@ -1,0 +1,116 @@
+"""Wall time of stepping alone, nothing else. Needs NumPy only: engines' processes import it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import log
+from time import perf_counter
+
+from engines.engine import Engine, Simulation
+from reference.errors import Unsupported
+from reference.outcome import Outcome
+from reference.state import Array
+from reference.system import MassSpringSystem
+
+#: A time is the least of so many tries: whatever else a machine does only adds to it.
+TRIES = 3
+
+#: What takes longer than this [s] is not tried again.
+LONG = 0.15
+
+#: So long [s] a stepper is given to show its speed; a system is too large where its start or a step takes LIMIT.
+BUDGET, LIMIT = 0.02, 0.25
+
+
+@dataclass(frozen=True)
+class Timing:
+    """One run: its wall time [s], and where its masses end [m]."""
+
+    seconds: float
+    positions: Array
+
+
+@dataclass(frozen=True)
+class Speeds:
+    """Wall time of a step [s] on ever larger systems, as many as were small enough; why the others were not tried."""
+
+    seconds: Sequence[float]
+    reason: str = ""
+
+
+def least(run: Callable[[], Timing]) -> Timing:
+    """The quickest of some tries of the same run."""
+    timings = [run()]
+    while len(timings) < TRIES and sum(timing.seconds for timing in timings) < LONG:
+        timings.append(run())
+    return min(timings, key=lambda timing: timing.seconds)
+
+
+def seconds_of(task: Callable[[], object]) -> float:
+    """How long a task takes [s]."""
+    begin = perf_counter()
+    task()
+    return perf_counter() - begin
+
+
+def seconds_per_step(advance: Callable[[int], object]) -> float:
+    """How long a step takes [s], from some number of them; what no steps at all would take is taken off."""
+    advance(1)  # the first time may load or compile something
+    steps = 1
+    while seconds_of(partial(advance, steps)) < BUDGET / 4:
+        steps *= 4
+    none, some = (min(seconds_of(partial(advance, n)) for _ in range(TRIES)) for n in (0, steps))
+    return (some - none) / steps
+
+
+def engine_cost(
+    engine: Engine,
+    system: MassSpringSystem,
+    runs: Sequence[tuple[float, int]],
+    larger: Sequence[MassSpringSystem],
+    dt: float,
+) -> tuple[list[Timing], Speeds] | Outcome:
+    """In this very process: runs of a system, each of a dt [s] and a number of steps, and the speed on larger ones."""
+    try:
+        return [least(partial(_engine_run, engine, system, *run)) for run in runs], engine_speeds(engine, larger, dt)
+    except Unsupported as error:
+        return Outcome("unsupported", str(error))
+
+
+def _engine_run(engine: Engine, system: MassSpringSystem, dt: float, steps: int) -> Timing:
+    simulation = engine.start(system, dt)
+    seconds = seconds_of(partial(_advance, simulation, steps))
+    return Timing(seconds, simulation.state()[0])
+
+
+def engine_speeds(engine: Engine, systems: Sequence[MassSpringSystem], dt: float) -> Speeds:
+    """An engine's speed on ever larger systems, up to where a start or a step is expected to take too long."""
+    sizes: list[int] = []
+    starts: list[float] = []
+    steps: list[float] = []
+    for system in systems:
+        size = len(system.masses)
+        expected = max(_extrapolated(sizes, starts, size), _extrapolated(sizes, steps, size))
+        if expected > LIMIT:
+            return Speeds(steps, f"the next start or step, of {size} masses, would take some {expected:.1g} s")
+        begin = perf_counter()
+        simulation = engine.start(system, dt)
+        starts.append(perf_counter() - begin)
+        steps.append(seconds_per_step(partial(_advance, simulation)))
+        sizes.append(size)
+    return Speeds(steps)
+
+
+def _advance(simulation: Simulation, steps: int) -> None:
+    for _ in range(steps):
+        simulation.step()
+
+
+def _extrapolated(sizes: Sequence[int], seconds: Sequence[float], size: int) -> float:
+    """The time at a size [s] if it goes on as a power of it, as it did last; 0 where there is nothing to go by."""
+    if len(sizes) < 2:
+        return 0.0
+    power = log(seconds[-1] / seconds[-2]) / log(sizes[-1] / sizes[-2])
+    return seconds[-1] * (size / sizes[-1]) ** power
