@@ -52,7 +52,7 @@ def _findings(remarks: list[Remark]) -> list[str]:
     return [
         f"Slide 11's listing is better than its heading: run as printed it is {apart:g} m from slide 7's. Each of "
         "its loops reads one array and writes another.",
-        f"What the slide warns of is real: Heun advanced link by link has order {wrong:.2f} where Heun has {right:.2f}. "
+        f"What the slide warns of is real: Heun link by link has order {wrong:.2f} where Heun has {right:.2f}. "
         f"It is also stable up to {larger:.2f} times the dt: stable is not accurate.",
         "Slide 17 multiplies components where a projection is meant, slide 4's force from the next node has the sign "
         "of D0 turned, and slide 9's function closes after its first spring; each has a one-line remedy.",

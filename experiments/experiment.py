@@ -14,7 +14,17 @@ from experiments.comparison import Progress
 from reference.errors import unknown_name
 
 #: The experiments, in the order they are shown; each is the module experiments.NAME.
-NAMES = ("divergence", "stability", "stiff_limit", "errata", "speed")
+NAMES = (
+    "divergence",
+    "stability",
+    "stiff_limit",
+    "less_damping",
+    "first_order_instability",
+    "numbering",
+    "errata",
+    "cost",
+    "speed",
+)
 
 
 @dataclass(frozen=True)

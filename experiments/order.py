@@ -7,7 +7,7 @@ A method of order p has an error of C dt^p once dt is small: a straight line of 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -17,12 +17,11 @@ from engines.isolation import EngineStepper
 from experiments.comparison import Progress, finite
 from experiments.experiment import Experiment, Result, Table
 from experiments.ladder import engine_ladder
-from experiments.runs import identify_start, scheme_of, side_by_side
+from experiments.runs import Equations, identify_start, scheme_of, side_by_side
 from experiments.steppers import all_steppers
 from reference.exact import TOLERANCE, exact
 from reference.forces import SpringMotion
 from reference.identify import candidates
-from reference.motion import Motion
 from reference.outcome import Outcome
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
@@ -58,13 +57,13 @@ class Bench:
     Attributes:
         name: what resists its motion.
         system: the string.
-        true: where it truly is at the end, by its equations of motion: of springs, or of the rods they become.
+        true: where it truly is at the end, by either's equations of motion.
         known: the catalogue's trajectories, to identify others by.
     """
 
     name: str
     system: MassSpringSystem
-    true: Mapping[Callable[[MassSpringSystem], Motion], State]
+    true: Mapping[Equations, State]
     known: Mapping[str, Trajectory]
 
     @property
@@ -128,7 +127,8 @@ def result_of(rows: Sequence[Row]) -> Result:
 def bench(name: str) -> Bench:
     """One of STRINGS, ready."""
     system = find("string").system(STRINGS[name])
-    true = {e: exact(system, DURATION, 1, equations=e).states()[-1] for e in (SpringMotion, PendulumMotion)}
+    equations: tuple[Equations, ...] = (SpringMotion, PendulumMotion)
+    true = {e: exact(system, DURATION, 1, equations=e).states()[-1] for e in equations}
     return Bench(name, system, true, candidates(system, float(DTS[IDENTIFYING]), STEPS[IDENTIFYING]))
 
 
@@ -193,26 +193,31 @@ def _distances(outcomes: Sequence[Outcome], true: State) -> Array:
 
 
 def _summary(rows: Sequence[Row]) -> Table:
-    errors = [f"error at dt = {1000 * dt:g} ms [m]" for dt in DTS]
-    columns = ["stepper", "identified as", "predicted order", "measured slope", *errors, "outcome", "reason"]
+    """One row per stepper: order by theory, slope, and the error with every other dt (all are in the other table)."""
+    errors = [f"{milliseconds(dt)} [m]" for dt in DTS[::2]]
+    columns = ["stepper", "predicted", "measured", *errors, "outcome", "reason"]
     cells = []
     for row in rows:
-        named = row.scheme.name if row.scheme else None
-        distances = [finite(error) for error in row.errors.tolist()]
-        cells.append(
-            [row.stepper.name, named, row.predicted, row.slope, *distances, row.outcome.ending, row.reason or None]
-        )
+        distances = [finite(error) for error in row.errors[::2].tolist()]
+        cells.append([row.stepper.name, row.predicted, row.slope, *distances, row.outcome.ending, row.reason or None])
     return Table("order", columns, cells)
+
+
+def milliseconds(dt: float) -> str:
+    """A dt [s] in words, like 4 ms and 1/4 ms."""
+    return f"{1000 * dt:g} ms" if dt > 0.9e-3 else f"1/{1e-3 / dt:g} ms"
 
 
 def _errors(rows: Sequence[Row]) -> Table:
     """One row per stepper and dt: what the figure draws, and what the slopes are fitted to."""
     cells = []
     for row in rows:
+        named = row.scheme.name if row.scheme else None
         fitted = range(len(DTS))[row.fitted] if row.fitted else range(0)
         for i, (dt, error) in enumerate(zip(DTS.tolist(), row.errors.tolist(), strict=True)):
-            cells.append([row.stepper.name, row.string, dt, finite(error), "yes" if i in fitted else "no"])
-    return Table("order_errors", ["stepper", "string resisted by", "dt [s]", "error [m]", "in the fit"], cells)
+            cells.append([row.stepper.name, named, row.string, dt, finite(error), "yes" if i in fitted else "no"])
+    columns = ["stepper", "identified as", "string with", "dt [s]", "error [m]", "in the fit"]
+    return Table("order_errors", columns, cells)
 
 
 def _findings(rows: Sequence[Row]) -> list[str]:
@@ -228,8 +233,9 @@ def _findings(rows: Sequence[Row]) -> list[str]:
     ]
     for row in compared:
         if row not in near:
-            sentences.append(f"Not as predicted: {row.stepper.name}, {row.slope:.2f} where {row.predicted} is predicted.")
-    return sentences + _in_place_finding(compared) + _engines_finding(compared)
+            sentences.append(f"Not as predicted: {row.stepper.name}, {row.slope:.2f} where it is {row.predicted}.")
+    what = f"Errors are distances from the true motion after {DURATION:g} s, by dt in the table."
+    return [*sentences, *_in_place_finding(compared), *_engines_finding(compared), what]
 
 
 def _in_place_finding(rows: Sequence[Row]) -> list[str]:
@@ -248,17 +254,15 @@ def _engines_finding(rows: Sequence[Row]) -> list[str]:
         return []
     orders = sorted({row.predicted or 0 for row in engines})
     names = {p: ", ".join(row.stepper.name for row in engines if row.predicted == p) for p in orders}
-    known = {row.stepper.name: row for row in rows}
+    of_schemes = {row.stepper.name: row.errors for row in rows}
     gaps = [
-        float(np.nanmax(np.abs(row.errors / known[row.scheme.name].errors - 1)[row.fitted]))
+        float(np.nanmax(np.abs(row.errors - of_schemes[row.scheme.name])))
         for row in engines
-        if row.scheme is not None and row.fitted is not None and row.scheme.name in known
+        if row.scheme is not None and row.scheme.name in of_schemes
     ]
     sentences = [f"Engines of order {p}: {names[p]}." for p in orders]
     if gaps:
-        sentences.append(
-            f"Each engine's errors are those of the scheme it is identified with, to {max(gaps):.1e} of the error."
-        )
+        sentences.append(f"Their errors are those of the schemes they are identified with, to {max(gaps):.1e} m.")
     return sentences
 
 

@@ -1,4 +1,4 @@
-"""Many steppers at one task, and which scheme each of them is: what experiments on all steppers begin with."""
+"""Many steppers at one task, and which scheme each of them is."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TypeVar
 from engines.isolation import EngineStepper
 from experiments.comparison import Progress
 from reference.identify import Identification, identify_run
+from reference.motion import Motion
 from reference.outcome import Outcome
 from reference.state import Trajectory
 from reference.stepper import SchemeStepper, Stepper, catalogued
@@ -17,11 +18,14 @@ from reference.system import MassSpringSystem
 
 T = TypeVar("T")
 
+#: What a system is taken for: springs, or the rods they become.
+Equations = Callable[[MassSpringSystem], Motion]
+
 
 def side_by_side(
     steppers: Sequence[Stepper], task: Callable[[Stepper], T], progress: Progress
 ) -> Iterator[tuple[Stepper, T]]:
-    """What a task makes of every stepper, in their order. Engines, in processes of their own, run beside one another."""
+    """What a task makes of every stepper, in their order. Engines, being other processes, run beside one another."""
 
     def told(stepper: Stepper) -> T:
         progress(stepper.name)
@@ -47,7 +51,7 @@ def identify_start(
 
 
 def scheme_of(stepper: Stepper, identification: Identification) -> SchemeStepper | None:
-    """The catalogue's stepper that theory has to say about: a scheme itself, or what another stepper is identified as."""
+    """What theory knows a stepper as: a scheme is itself, another is what it was identified as."""
     if isinstance(stepper, SchemeStepper):
         return stepper
     named = identification.identified_as

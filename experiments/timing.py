@@ -14,14 +14,17 @@ from reference.outcome import Outcome
 from reference.state import Array
 from reference.system import MassSpringSystem
 
-#: A time is the least of so many tries: whatever else a machine does only adds to it.
-TRIES = 3
+#: A time is the least of some tries, as whatever else a machine does only adds to it: at most so many, ...
+TRIES = 10
 
-#: What takes longer than this [s] is not tried again.
-LONG = 0.15
+#: ... together at most this long [s], ...
+BUDGET = 0.015
 
-#: So long [s] a stepper is given to show its speed; a system is too large where its start or a step takes LIMIT.
-BUDGET, LIMIT = 0.02, 0.25
+#: ... and each at least this long [s]: well above what a call takes, and below what a busy machine interrupts.
+WINDOW = 1e-3
+
+#: A system is too large for an engine where its start or a step takes longer than this [s].
+LIMIT = 0.5
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,7 @@ class Speeds:
 def least(run: Callable[[], Timing]) -> Timing:
     """The quickest of some tries of the same run."""
     timings = [run()]
-    while len(timings) < TRIES and sum(timing.seconds for timing in timings) < LONG:
+    while len(timings) < TRIES and sum(timing.seconds for timing in timings) < BUDGET:
         timings.append(run())
     return min(timings, key=lambda timing: timing.seconds)
 
@@ -56,13 +59,15 @@ def seconds_of(task: Callable[[], object]) -> float:
 
 
 def seconds_per_step(advance: Callable[[int], object]) -> float:
-    """How long a step takes [s], from some number of them; what no steps at all would take is taken off."""
+    """How long a step takes [s], given a function that takes some number of them."""
     advance(1)  # the first time may load or compile something
     steps = 1
-    while seconds_of(partial(advance, steps)) < BUDGET / 4:
-        steps *= 4
-    none, some = (min(seconds_of(partial(advance, n)) for _ in range(TRIES)) for n in (0, steps))
-    return (some - none) / steps
+    while seconds_of(partial(advance, steps)) < WINDOW:
+        steps *= 2
+    tries = [seconds_of(partial(advance, steps))]
+    while len(tries) < TRIES and sum(tries) < BUDGET:
+        tries.append(seconds_of(partial(advance, steps)))
+    return min(tries) / steps
 
 
 def engine_cost(
@@ -91,7 +96,7 @@ def engine_speeds(engine: Engine, systems: Sequence[MassSpringSystem], dt: float
     starts: list[float] = []
     steps: list[float] = []
     for system in systems:
-        size = len(system.masses)
+        size = int((~system.fixed).sum())
         expected = max(_extrapolated(sizes, starts, size), _extrapolated(sizes, steps, size))
         if expected > LIMIT:
             return Speeds(steps, f"the next start or step, of {size} masses, would take some {expected:.1g} s")

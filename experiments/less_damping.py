@@ -1,0 +1,130 @@
+"""How does a string swing with less damping?
+
+`python -m experiments.less_damping`
+
+The true motion, whose energy only the drag takes: dE/dt = -2 (Cd/m) T, with T the kinetic energy. A small swing has
+half of its energy in motion on average, so that it should decay as exp(-t Cd/m). The string's first are not small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from experiments.comparison import Progress
+from experiments.experiment import Experiment, Result, Table
+from reference.conserved import energy
+from reference.exact import exact, hanging_string
+from reference.scenes import find
+from reference.state import Array, Trajectory
+from reference.system import MassSpringSystem
+
+#: On every mass [N s/m]: more, the report's usual one, and less.
+DRAGS = (0.1, 0.02, 0.004)
+
+DT, DURATION = 1e-3, 3.0
+
+#: When the string is drawn [s].
+TIMES = (0.0, 0.4, 0.8, 1.2, 1.6, 2.0, 2.4, 2.8)
+
+
+@dataclass(frozen=True)
+class Swing:
+    """One string.
+
+    Attributes:
+        drag: on every mass [N s/m].
+        motion: the true one.
+        energies: above that of rest [J], one for each time of the motion.
+        predicted: in how long a small swing's energy falls to 1/e [s].
+        measured: the same, fitted to all the energies.
+        taken: what the drag has taken by the end, from the velocities alone [J].
+    """
+
+    drag: float
+    motion: Trajectory
+    energies: Array
+    predicted: float
+    measured: float
+    taken: float
+
+
+def run(progress: Progress) -> Result:
+    """The string with more and less drag."""
+    swings = []
+    for drag in DRAGS:
+        progress(f"drag {drag:g} N s/m")
+        system = find("string").system({"drag": drag})
+        swings.append(swing(system, exact(system, DT, round(DURATION / DT))))
+    tables = [_summary(swings), _over_time(swings)]
+    return Result(_findings(swings), tables, {"swings": swings})
+
+
+def swing(system: MassSpringSystem, motion: Trajectory) -> Swing:
+    """What becomes of a string's energy in a motion."""
+    rest = energy(system, hanging_string(system))
+    energies = np.array([energy(system, state) for state in motion.states()]) - rest
+    squares = (motion.velocities**2).sum(axis=(1, 2))
+    return Swing(
+        drag=system.drag,
+        motion=motion,
+        energies=energies,
+        predicted=float(system.masses[-1] / system.drag),
+        measured=float(-1 / np.polyfit(motion.times, np.log(energies), 1)[0]),
+        taken=float(system.drag * np.trapezoid(squares, motion.times)),
+    )
+
+
+def _summary(swings: Sequence[Swing]) -> Table:
+    columns = ["drag [N s/m]", "decay time, predicted for small swings [s]", "measured [s]"]
+    columns += ["energy at the start [J]", f"after {DURATION:g} s [J]", "taken by the drag [J]", "left"]
+    rows = []
+    for s in swings:
+        first, last = s.energies[[0, -1]].tolist()
+        rows.append([s.drag, s.predicted, s.measured, first, last, s.taken, last / first])
+    return Table("less_damping", columns, rows)
+
+
+def _over_time(swings: Sequence[Swing]) -> Table:
+    """The energies that the figure draws, and where the last mass is."""
+    columns = ["drag [N s/m]", "time [s]", "energy above rest [J]", "last mass x [m]", "last mass y [m]"]
+    rows = [
+        [s.drag, time, joule, *end]
+        for s in swings
+        for time, joule, end in list(
+            zip(s.motion.times.tolist(), s.energies.tolist(), s.motion.positions[:, -1].tolist(), strict=True)
+        )[::10]
+    ]
+    return Table("less_damping_over_time", columns, rows)
+
+
+def _findings(swings: Sequence[Swing]) -> list[str]:
+    sentences = [
+        f"With a drag of {s.drag:g} N s/m the string keeps {100 * s.energies[-1] / s.energies[0]:.2g} % of its energy "
+        f"for {DURATION:g} s: it falls to 1/e in {s.measured:.2g} s (predicted for small swings, m/Cd: "
+        f"{s.predicted:.2g} s)."
+        for s in swings
+    ]
+    off = max(abs(s.measured / s.predicted - 1) for s in swings)
+    balance = max(abs(s.energies[0] - s.energies[-1] - s.taken) / s.energies[0] for s in swings)
+    return [
+        *sentences,
+        f"Measured and predicted decay times differ by {100 * off:.1f} % at most; what is missing of the energy and "
+        f"what the drag has taken differ by {balance:.0e} of it.",
+    ]
+
+
+EXPERIMENT = Experiment(
+    name="less_damping",
+    title="Less damping",
+    question="How does a string swing with less damping?",
+    slides="13-14",
+    run=run,
+)
+
+if __name__ == "__main__":
+    from experiments.console import main
+
+    main(EXPERIMENT)

@@ -1,0 +1,93 @@
+"""Error against dt, family by family: the slopes are the orders, and engines lie on the lines of their schemes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from experiments.experiment import Result
+from experiments.order import DTS, DURATION, Row
+from reference.forces import SpringMotion
+from report.figures import Picture, look, new_figure
+from report.figures.labels import End, label_ends
+
+#: Slopes to compare with, each with an error [m] at the largest dt that keeps it off the lines.
+SLOPES = {1: 6e-2, 2: 6e-4, 4: 1e-9}
+
+LOWEST, HIGHEST = 1e-15, 1e-1
+
+
+def draw(result: Result) -> Picture:
+    """A panel for each family: lines are schemes, rings are engines."""
+    rows: Sequence[Row] = result.data["rows"]
+    figure, axes = new_figure(nrows=2, ncols=2, sharex=True, sharey=True, figsize=(13, 9.5))
+    for panel, (title, family) in zip(axes.flat, _families(rows).items(), strict=True):
+        _panel(panel, title, family)
+    for panel in axes[1]:
+        panel.set_xlabel("dt [s]")
+    for panel in axes[:, 0]:
+        panel.set_ylabel(f"error after {DURATION:g} s [m]")
+    return Picture(figure, _alt(rows))
+
+
+def _families(rows: Sequence[Row]) -> dict[str, list[Row]]:
+    """Who is drawn with whom, by what they are."""
+    engines = [row for row in rows if row.stepper.kind == "engine"]
+    on_springs = [row for row in engines if row.scheme is None or row.scheme.equations is SpringMotion]
+    theirs = [row.scheme.name for row in on_springs if row.scheme]
+    return {
+        "Schemes, and their measured slopes": [row for row in rows if row.stepper.kind == "scheme"],
+        "Written in place, and the lecture's listings": [r for r in rows if r.stepper.kind in ("in_place", "lecture")],
+        "Engines (rings) on the lines of their schemes": [
+            row for row in rows if row.stepper.kind == "engine_scheme" or row.stepper.name in theirs or row in on_springs
+        ],
+        "With rods for springs: the pendulum, and a cable (rings)": [
+            row for row in rows if row.stepper.kind == "pendulum" or (row in engines and row not in on_springs)
+        ],
+    }
+
+
+def _panel(axes: Any, title: str, rows: Sequence[Row]) -> None:
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(0.8 * DTS[-1], 1.25 * DTS[0])
+    axes.set_ylim(LOWEST, HIGHEST)
+    axes.set_title(title, loc="left", fontsize=11)
+    for slope, error in SLOPES.items():
+        axes.plot(DTS, error * (DTS / DTS[0]) ** slope, ":", color="#777777", linewidth=1.2)
+        middle = len(DTS) // 2
+        axes.annotate(
+            f"slope {slope}",
+            (DTS[middle], error * (DTS[middle] / DTS[0]) ** slope),
+            (0, 6),
+            textcoords="offset points",
+            color="#555555",
+            fontsize=9,
+            ha="center",
+        )
+    lines = [row for row in rows if row.stepper.kind != "engine" and np.isfinite(row.errors[0])]
+    rings = [row for row in rows if row.stepper.kind == "engine"]
+    ends = []
+    for i, row in enumerate(lines):
+        # Markers of different lines at different dt: where lines lie on one another, all can still be seen.
+        axes.plot(DTS, row.errors, "-", markevery=(i % 3, 3), markersize=5, **look(i))
+        ends.append(End(DTS[0], row.errors[0], _label(row, rings), look(i)["color"]))
+    for row in rings:
+        axes.plot(DTS, row.errors, "o", fillstyle="none", color="#000000", markersize=10, markeredgewidth=1.1)
+    named = [row.stepper.name for row in lines]
+    strangers = [row for row in rings if (row.scheme is None or row.scheme.name not in named)]
+    ends += [End(DTS[0], r.errors[0], _label(r, []), "#000000") for r in strangers if np.isfinite(r.errors[0])]
+    label_ends(axes, ends, gap=0.062)
+
+
+def _label(row: Row, rings: Sequence[Row]) -> str:
+    slope = "no slope" if row.slope is None else f"{row.slope:.2f}"
+    engines = [ring.stepper.name for ring in rings if ring.scheme and ring.scheme.name == row.stepper.name]
+    return f"{row.stepper.name} {slope}" + "".join(f"\n   o {engine}" for engine in engines)
+
+
+def _alt(rows: Sequence[Row]) -> str:
+    slopes = [f"{row.stepper.name} {row.slope:.2f}" for row in rows if row.slope is not None]
+    return f"Errors against dt, both axes logarithmic; slopes: {', '.join(slopes)}."

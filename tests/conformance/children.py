@@ -1,0 +1,65 @@
+"""What an engine does in a process of its own, and how the answer gets back.
+
+One process runs many cases, which saves starting the engine anew for each. This file is imported in every such process:
+it imports nothing heavy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from engines.engine import Engine
+from engines.isolation import isolated, run_engine
+from reference.outcome import Outcome
+from reference.state import Array
+from reference.system import MassSpringSystem
+from tests.conformance.strings import Case
+
+T = TypeVar("T")
+
+
+def run_all(engine: Engine, cases: Sequence[Case]) -> list[Outcome]:
+    """How all cases end."""
+    return [run_engine(engine, case.system, case.dt, case.steps, tuple(case.changes)) for case in cases]
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """What a simulation says of its state: at the start, again after the first answer was overwritten, after a step.
+
+    Attributes:
+        kept: the second answer, as it is after the step.
+    """
+
+    first: tuple[Array, Array]
+    second: tuple[Array, Array]
+    kept: tuple[Array, Array]
+    stepped: tuple[Array, Array]
+
+
+def look_on(engine: Engine, systems: Sequence[MassSpringSystem]) -> list[Look]:
+    """Look at the states of systems, write into what the engine answers, and look again."""
+    return [_look(engine, system) for system in systems]
+
+
+def _look(engine: Engine, system: MassSpringSystem) -> Look:
+    simulation = engine.start(system, 1e-3)
+    answer = simulation.state()
+    first = (answer[0].copy(), answer[1].copy())
+    for array in answer:
+        array[:] = np.nan
+    kept = simulation.state()
+    second = (kept[0].copy(), kept[1].copy())
+    simulation.step()
+    return Look(first, second, kept, simulation.state())
+
+
+def answer_of(task: Callable[..., T], *arguments: object) -> T:
+    """What a task returns from a process of its own."""
+    answer = isolated(task, *arguments)
+    assert not isinstance(answer, Outcome), f"{answer.ending}: {answer.reason}"
+    return answer

@@ -1,0 +1,158 @@
+"""Engines made for the suite, in NumPy: an honest one, and liars that the suite must catch.
+
+All claim to be kick-drift on strings. Each liar's class says its one lie.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from engines.engine import CAPABILITIES, refuse_beyond
+from reference.state import Array
+from reference.system import MassSpringSystem
+
+
+class KickDrift:
+    """Honest: v += h a(x, v), then x += h v."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        self.system, self.dt = system, dt
+        self.x, self.v = system.positions.copy(), system.velocities.copy()
+
+    def step(self) -> None:
+        """Advance by dt."""
+        self.v += self.dt * self.acceleration()
+        self.x += self.dt * self.v
+
+    def acceleration(self) -> Array:
+        """Of all masses [m/s^2], shape (n, d)."""
+        system = self.system
+        a, b = system.springs.T
+        gap, w = self.x[b] - self.x[a], self.v[b] - self.v[a]
+        length = np.linalg.norm(gap, axis=1)
+        u = gap / length[:, None]
+        pull = self.stiffness() * (length - system.rest_lengths) + system.damping * (u * w).sum(axis=1)
+        force = system.masses[:, None] * system.gravity - system.drag * self.v
+        np.add.at(force, a, pull[:, None] * u)
+        np.subtract.at(force, b, pull[:, None] * u)
+        return np.where(system.fixed[:, None], 0.0, force / system.masses[:, None])
+
+    def stiffness(self) -> Array:
+        """Of all springs [N/m]."""
+        return self.system.stiffness
+
+    def state(self) -> tuple[Array, Array]:
+        """Copies."""
+        return self.x.copy(), self.v.copy()
+
+    def change(self, parameter: str, value: float) -> None:
+        """Any parameter."""
+        self.system = self.system.with_parameter(parameter, value)
+
+
+class Euler(KickDrift):
+    """Moves with the velocities before the kick."""
+
+    def step(self) -> None:
+        """Advance by dt."""
+        before = self.v.copy()
+        self.v += self.dt * self.acceleration()
+        self.x += self.dt * before
+
+
+class StifferByAMillionth(KickDrift):
+    """Has springs stiffer than told by 1e-6 of their stiffness."""
+
+    def stiffness(self) -> Array:
+        """Of all springs [N/m]."""
+        return (1 + 1e-6) * self.system.stiffness
+
+
+class ForgetsDrag(KickDrift):
+    """Has no drag, and does not say so."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        super().__init__(system.with_parameter("drag", 0.0), dt)
+
+
+class OneMassForAll(KickDrift):
+    """Gives all masses the first one's mass."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        super().__init__(system.with_parameter("mass", float(system.masses[0])), dt)
+
+
+class ResetsSilently(KickDrift):
+    """Starts anew when a spring is ten times as long as it should be, and goes on as if nothing had been."""
+
+    def step(self) -> None:
+        """Advance by dt."""
+        super().step()
+        if np.linalg.norm(np.diff(self.x, axis=0), axis=1).max() > 10 * self.system.rest_lengths.max():
+            self.x[:], self.v[:] = self.system.positions, self.system.velocities
+
+
+class FallsAsleep(KickDrift):
+    """Stops for good once no mass has been faster than 0.04 m/s for 2 s."""
+
+    slow = 0.0
+
+    def step(self) -> None:
+        """Advance by dt."""
+        if self.slow < 2:
+            super().step()
+        self.slow = self.slow + self.dt if np.linalg.norm(self.v, axis=1).max() < 0.04 else 0.0
+
+
+class IgnoresChanges(KickDrift):
+    """Accepts every change and makes none."""
+
+    def change(self, parameter: str, value: float) -> None:
+        """Nothing."""
+
+
+class HandsOutItsMemory(KickDrift):
+    """Answers with the very arrays it works on."""
+
+    def state(self) -> tuple[Array, Array]:
+        """Views."""
+        return self.x, self.v
+
+
+class StartsAtRest(KickDrift):
+    """Forgets the velocities at the start."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        super().__init__(system, dt)
+        self.v[:] = 0.0
+
+
+@dataclass(frozen=True)
+class Doctored:
+    """An engine of one of the classes above."""
+
+    simulation: type[KickDrift] = KickDrift
+    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    package: str = "numpy"
+    settings: Mapping[str, object] = field(default_factory=dict)
+    semantics: str = "everything is as given, so it says"
+    refuses: bool = True
+
+    @property
+    def name(self) -> str:
+        """The class's."""
+        return self.simulation.__name__
+
+    @property
+    def identified_as(self) -> Mapping[str, str]:
+        """Kick-drift, whatever it is."""
+        return dict.fromkeys(("plain", "damping", "drag"), "kick_drift")
+
+    def start(self, system: MassSpringSystem, dt: float) -> KickDrift:
+        """The simulation, for a system within the capabilities unless it takes all systems."""
+        if self.refuses:
+            refuse_beyond(self, system)
+        return self.simulation(system, dt)

@@ -1,0 +1,91 @@
+"""The suite's own checks, shown to pass an honest engine and to fail on every liar of `doctored`."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from tests.conformance import doctored, test_capabilities, test_changes, test_default_string
+from tests.conformance.checks import check_capability, check_change, check_follows, check_state, looks, outcomes
+from tests.conformance.doctored import Doctored, KickDrift
+from tests.conformance.strings import Case, for_each_capability, random_strings
+
+HONEST = Doctored()
+
+DEFAULT = test_default_string.CASES
+TOO_LARGE_A_STEP = Case("too large a step", DEFAULT["plain"].system, 0.02, 200)
+
+
+def follows(engine: Doctored, cases: list[Case]) -> None:
+    """check_follows on all cases."""
+    for case, outcome in zip(cases, outcomes(engine, cases), strict=True):
+        check_follows(engine, case, outcome)
+
+
+def test_the_honest_engine_follows_its_scheme_everywhere() -> None:
+    """On the default string with and without damping and drag, at too large a step, and on all random strings."""
+    follows(HONEST, [*DEFAULT.values(), TOO_LARGE_A_STEP, test_default_string.QUIET, *random_strings(rods=False)])
+
+
+@pytest.mark.parametrize(
+    ("liar", "case"),
+    [
+        (doctored.Euler, DEFAULT["plain"]),
+        (doctored.StifferByAMillionth, DEFAULT["plain"]),
+        (doctored.StifferByAMillionth, DEFAULT["damping 0.5, drag 0.02"]),
+        (doctored.ForgetsDrag, DEFAULT["drag 0.02"]),
+        (doctored.ForgetsDrag, DEFAULT["damping 0.5, drag 0.02"]),
+        (doctored.ResetsSilently, TOO_LARGE_A_STEP),
+        (doctored.FallsAsleep, test_default_string.QUIET),
+    ],
+)
+def test_identification_fails_on(liar: type[KickDrift], case: Case) -> None:
+    """The check of the default string refuses the liar."""
+    with pytest.raises(AssertionError):
+        follows(Doctored(liar), [case])
+
+
+@pytest.mark.parametrize("liar", [doctored.Euler, doctored.StifferByAMillionth, doctored.ForgetsDrag])
+def test_the_random_strings_fail_on(liar: type[KickDrift]) -> None:
+    """Not one string with drag is passed for an engine that lies about it, nor any at all for the other two."""
+    cases = [case for case in random_strings(rods=False) if case.system.drag]
+    for case, outcome in zip(cases, outcomes(Doctored(liar), cases), strict=True):
+        with pytest.raises(AssertionError):
+            check_follows(Doctored(liar), case, outcome)
+
+
+def test_the_honest_engine_changes_on_the_fly_and_the_liar_is_caught() -> None:
+    """The check of changes refuses an engine that ignores them, whatever the parameter."""
+    for name, case in test_changes.CASES.items():
+        (right,), (wrong,) = outcomes(HONEST, [case]), outcomes(Doctored(doctored.IgnoresChanges), [case])
+        check_change(HONEST, case, right)
+        with pytest.raises(AssertionError, match=name):
+            check_change(Doctored(doctored.IgnoresChanges), case, wrong)
+
+
+def test_a_capability_an_engine_only_says_it_has_is_caught() -> None:
+    """The check of capabilities passes the honest engine, and refuses one that gives all masses the same mass."""
+    case = test_capabilities.CASES["masses"]
+    for engine in (HONEST, replace(HONEST, capabilities=HONEST.capabilities - {"masses"})):
+        check_capability(engine, case, *outcomes(engine, [case]))
+    liar = Doctored(doctored.OneMassForAll)
+    with pytest.raises(AssertionError):
+        check_capability(liar, case, *outcomes(liar, [case]))
+
+
+def test_a_lack_that_is_not_said_is_caught() -> None:
+    """The check of capabilities refuses an engine that steps what it should refuse."""
+    case = test_capabilities.CASES["damping"]
+    engine = replace(HONEST, capabilities=HONEST.capabilities - {"damping"}, refuses=False)
+    with pytest.raises(AssertionError, match="lacks"):
+        check_capability(engine, case, *outcomes(engine, [case]))
+
+
+def test_the_check_of_states_fails_on_views_and_on_a_wrong_start() -> None:
+    """It passes the honest engine; it refuses one that hands out its memory, and one that starts at rest."""
+    system = for_each_capability()["velocities"]
+    check_state(system, *looks(HONEST, [system]))
+    for liar in (doctored.HandsOutItsMemory, doctored.StartsAtRest):
+        with pytest.raises(AssertionError):
+            check_state(system, *looks(Doctored(liar), [system]))

@@ -1,0 +1,18 @@
+"""What an engine answers about its state is the system's at the start, and belongs to whoever asked."""
+
+from __future__ import annotations
+
+from engines.engine import Engine, demands
+from tests.conformance.checks import check_state, looks
+from tests.conformance.strings import for_each_capability
+
+
+def test_the_state_at_the_start_is_the_systems_and_every_answer_an_array_of_its_own(engine: Engine) -> None:
+    """To 1e-14 of its largest number; overwriting an answer, or a step, changes no other answer.
+
+    On every system that the engine's capabilities allow: in motion, stretched, in three dimensions, a mesh, free.
+    """
+    systems = [s for s in for_each_capability().values() if engine.capabilities.issuperset(demands(s))]
+    assert systems
+    for system, seen in zip(systems, looks(engine, systems), strict=True):
+        check_state(system, seen)

@@ -1,0 +1,44 @@
+"""What all tests share: which engines the conformance suite runs, and what it does where one is missing."""
+
+from __future__ import annotations
+
+import pytest
+
+from engines.engine import Engine, find, registry, version
+from reference.errors import InputError
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add --engine."""
+    parser.addoption(
+        "--engine",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="Run the conformance suite for these engines only.",
+    )
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Refuse an unknown engine before anything runs."""
+    for name in config.getoption("--engine"):
+        try:
+            find(name)
+        except InputError as error:
+            raise pytest.UsageError(f"--engine: {error}") from None
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Give every test that asks for an `engine` each engine of the registry in turn."""
+    if "engine" in metafunc.fixturenames:
+        names = metafunc.config.getoption("--engine") or list(registry())
+        metafunc.parametrize("engine", names, indirect=True)
+
+
+@pytest.fixture
+def engine(request: pytest.FixtureRequest) -> Engine:
+    """One engine; the test is skipped where it is not installed."""
+    found = find(request.param)
+    if version(found) is None:
+        pytest.skip(f"{found.package} is not installed")
+    return found

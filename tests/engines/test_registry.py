@@ -1,0 +1,70 @@
+"""The registry knows all engines, imports none of them, and says which are not installed."""
+
+from __future__ import annotations
+
+import dataclasses
+import pickle
+import subprocess
+import sys
+
+import pytest
+
+from engines.engine import Engine, find, registry, version
+from engines.isolation import EngineStepper
+from reference.errors import InputError
+from reference.scenes import find as find_scene
+from tests.engines.misbehaving import Misbehaving, Still
+
+HEAVY = ("pymunk", "pybullet", "mujoco", "numba", "scipy", "matplotlib", "rich", "click")
+
+
+def imported_by(code: str) -> set[str]:
+    """Which of HEAVY a new interpreter has imported after running some code."""
+    program = f"{code}\nimport sys\nprint(*[name for name in {HEAVY!r} if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    return set(done.stdout.split())
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "from engines.engine import registry, version; [version(engine) for engine in registry().values()]",
+        "import engines.isolation",
+        "from reference.scenes import find; find('string').system({})",
+    ],
+)
+def test_looking_at_engines_imports_no_engine_and_nothing_heavy(code: str) -> None:
+    """So that an engine of another version can run in a bare environment, and every process starts at once."""
+    assert imported_by(code) == set()
+
+
+def test_the_look_at_imports_sees_what_is_imported() -> None:
+    """Shown to fail: a file that imports Numba at its top is seen to."""
+    assert "numba" in imported_by("import reference.forces")
+
+
+def test_every_engine_is_registered_under_its_name(engine: Engine) -> None:
+    """And travels to other processes as it is."""
+    assert registry()[engine.name] is engine
+    copy = pickle.loads(pickle.dumps(engine))
+    assert (copy, copy.settings, copy.identified_as) == (engine, engine.settings, engine.identified_as)
+
+
+def test_an_engine_is_frozen(engine: Engine) -> None:
+    """Its settings cannot change under a result that was recorded with them."""
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        engine.package = "another"  # type: ignore[misc]
+
+
+def test_an_unknown_engine_is_refused_with_a_suggestion() -> None:
+    """One line, as for every unknown name."""
+    with pytest.raises(InputError, match=r"unknown engine 'pymunk_spring': did you mean 'pymunk_springs'\?"):
+        find("pymunk_spring")
+
+
+def test_an_engine_that_is_not_installed_is_an_unsupported_run() -> None:
+    """The reason names the package."""
+    missing = Misbehaving(Still, package="no-such-engine")
+    assert version(missing) is None
+    outcome = EngineStepper(missing).run(find_scene("string").system({}), 1e-3, 10)
+    assert (outcome.ending, outcome.reason) == ("unsupported", "no-such-engine is not installed")

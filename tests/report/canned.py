@@ -1,0 +1,58 @@
+"""Results made for the purpose, so that figures and pages can be made of them at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from engines.isolation import EngineStepper
+from experiments import divergence
+from experiments.comparison import compare
+from experiments.experiment import Result, Table
+from reference.scenes import Setup, find
+from reference.stepper import Stepper
+from tests.conformance.doctored import Doctored, StifferByAMillionth
+from tests.engines.misbehaving import Misbehaving, Segfaults, Still
+
+SETUP = Setup("string", find("string").system({"masses": 3}), 1e-3, 0.02)
+
+
+def of(*steppers: Stepper) -> Result:
+    """The divergence experiment's answer for some steppers."""
+    return divergence.result_of(compare(SETUP, steppers))
+
+
+def engines_that_run() -> Result:
+    """One identified, one not, one that crashed."""
+    return of(*(EngineStepper(e) for e in (Doctored(), Doctored(StifferByAMillionth), Misbehaving(Segfaults))))
+
+
+def no_engine_installed() -> Result:
+    """All unsupported."""
+    return of(*(EngineStepper(Misbehaving(kind, package="no-such-engine")) for kind in (Still, Segfaults)))
+
+
+def stiff_limit(cable: float | None) -> Result:
+    """Distances as they should be, with or without the engine's."""
+    rows = [[k, 100 / k, None if cable is None else cable / k] for k in (2e2, 2e3, 2e4, 2e5, 2e6)]
+    table = Table("stiff_limit", ["stiffness [N/m]", "string to pendulum [m]", "string to cable [m]"], rows)
+    return Result(["It falls as 1/k."], [table], {"rows": rows, "slope": -1.0, "cable_error": cable})
+
+
+def errata() -> Result:
+    """Orders and the barrier's two rules."""
+    steps = [1e-3, 5e-4]
+    orders = {"heun": (steps, [4e-6, 1e-6], 2.0), "heun_aliased": (steps, [2e-3, 1e-3], 1.0)}
+    angles = np.linspace(0, 2 * math.pi, 9)
+    table = Table("errata", ["slide", "order"], [["7", 2.0], ["11", 1.0]])
+    return Result(["One < two."], [table], {"orders": orders, "barrier": (angles, -np.cos(2 * angles), np.ones(9))})
+
+
+#: By experiment, results to draw: as usual, and with what is missing.
+RESULTS: Mapping[str, Mapping[str, Callable[[], Result]]] = {
+    "divergence": {"usual": engines_that_run, "no engine": no_engine_installed, "nobody": lambda: of()},
+    "stiff_limit": {"usual": lambda: stiff_limit(100.0), "no engine": lambda: stiff_limit(None)},
+    "errata": {"usual": errata},
+}
