@@ -103,7 +103,8 @@ def steppers() -> Iterator[SchemeStepper | EngineStepper]:
             yield stepper
 
 
-def string(masses: int = 10) -> MassSpringSystem:
+@cache
+def string(masses: int = MASSES[0]) -> MassSpringSystem:
     """The default string, of so many masses."""
     return find("string").system({"masses": masses})
 
@@ -111,7 +112,7 @@ def string(masses: int = 10) -> MassSpringSystem:
 def scheme(stepper: SchemeStepper) -> Cost:
     """A scheme's cost: its kernel's, or that of stepping in Python."""
     time = _time_in_python if stepper.scheme.springs_only else _time_kernel
-    timings = [time(stepper.scheme, dt, _steps(dt)) for dt in DTS]
+    timings = least([partial(time, stepper.scheme, dt) for dt in DTS])
     points = _points(timings, SpringMotion)
     if stepper.scheme.springs_only:
         return Cost(stepper, "Python", stepper.name, points, Speeds([]))
@@ -148,19 +149,16 @@ def kernel(system: MassSpringSystem, scheme: Scheme, dt: float) -> Callable[[int
     return lambda steps: function(*values, dt, *joined, steps)
 
 
-def _time_kernel(scheme: Scheme, dt: float, steps: int) -> Timing:
+def _time_kernel(scheme: Scheme, dt: float) -> Timing:
     """A run is over in no time at all: what a step takes is measured on more of them."""
     per_step = seconds_per_step(kernel(string(), scheme, dt))
-    return Timing(steps * per_step, advance(string(), scheme, dt, steps).positions)
+    return Timing(_steps(dt) * per_step, advance(string(), scheme, dt, _steps(dt)).positions)
 
 
-def _time_in_python(scheme: Scheme, dt: float, steps: int) -> Timing:
-    def run() -> Timing:
-        begin = perf_counter()
-        trajectory = simulate(string(), scheme, dt, dt * steps)
-        return Timing(perf_counter() - begin, trajectory.positions[-1])
-
-    return least(run)
+def _time_in_python(scheme: Scheme, dt: float) -> Timing:
+    begin = perf_counter()
+    trajectory = simulate(string(), scheme, dt, DURATION)
+    return Timing(perf_counter() - begin, trajectory.positions[-1])
 
 
 def _points(timings: Sequence[Timing], equations: Callable[[MassSpringSystem], Motion]) -> list[Point]:

@@ -21,38 +21,43 @@ class End:
     color: str
 
 
-def label_ends(axes: Any, ends: Sequence[End], gap: float, fontsize: float = 9) -> None:
+def label_ends(axes: Any, ends: Sequence[End], line: float, fontsize: float = 9) -> None:
     """Write the texts to the right of the axes, each joined to its line's end. The axes' limits must be set.
 
     Args:
-        gap: between the middles of two texts, as a part of the axes' height.
+        line: the height of a line of text, as a part of the axes' height.
     """
+    if not ends:
+        return
     to_axes = axes.transData + axes.transAxes.inverted()
-    heights = [to_axes.transform((end.x, end.y))[1] for end in ends]
-    for end, height in zip(ends, spread(np.array(heights), gap).tolist(), strict=True):
+    heights = np.array([to_axes.transform((end.x, end.y))[1] for end in ends])
+    sizes = np.array([line * (1 + end.text.count("\n")) for end in ends])
+    for end, height in zip(ends, spread(heights, sizes).tolist(), strict=True):
         axes.annotate(
             end.text,
             (end.x, end.y),
-            (1.05, height),
+            (1.06, height),
             textcoords="axes fraction",
-            color=end.color,
+            color="#222222",
             fontsize=fontsize,
             va="center",
             annotation_clip=False,
-            arrowprops={"arrowstyle": "-", "color": end.color, "linewidth": 0.7, "shrinkA": 1, "shrinkB": 2},
+            arrowprops={"arrowstyle": "-", "color": end.color, "linewidth": 1.0, "shrinkB": 2, "relpos": (0, 0.5)},
         )
 
 
-def spread(heights: Array, gap: float) -> Array:
-    """Heights in the same order, at least a gap apart, each as near to where it was as that lets it be simply.
+def spread(heights: Array, sizes: Array) -> Array:
+    """Middles of boxes of these sizes between 0 and 1, none over another, in their order and near where they were.
 
-    Half-way between pushing upwards from below and pushing downwards from above: both keep order and gap.
+    Half-way between pushing upwards from below and pushing downwards from above: both keep the order and the sizes.
     """
     order = np.argsort(heights, kind="stable")
-    steps = gap * np.arange(len(heights))
-    sorted_heights = heights[order]
-    upwards = np.maximum.accumulate(sorted_heights - steps) + steps
-    downwards = np.minimum.accumulate((sorted_heights - steps)[::-1])[::-1] + steps
+    wanted, sizes = heights[order], sizes[order]
+    # Where each would be if they stood on one another from 0 on; less that, heights need only not fall.
+    stacked = np.cumsum(sizes) - sizes / 2
+    upwards = np.maximum.accumulate(wanted - stacked)
+    downwards = np.minimum.accumulate((wanted - stacked)[::-1])[::-1]
+    room = max(1 - float(sizes.sum()), 0.0)
     result = np.empty(len(heights))
-    result[order] = (upwards + downwards) / 2
+    result[order] = np.clip((upwards + downwards) / 2, 0, room) + stacked
     return result

@@ -14,15 +14,15 @@ from report.figures import Picture, look, new_figure
 from report.figures.labels import End, label_ends
 
 #: Slopes to compare with, each with an error [m] at the largest dt that keeps it off the lines.
-SLOPES = {1: 6e-2, 2: 6e-4, 4: 1e-9}
+SLOPES = {1: 6e-2, 2: 6e-4, 4: 3e-6}
 
-LOWEST, HIGHEST = 1e-15, 1e-1
+LOWEST, HIGHEST = 1e-16, 1e-1
 
 
 def draw(result: Result) -> Picture:
     """A panel for each family: lines are schemes, rings are engines."""
     rows: Sequence[Row] = result.data["rows"]
-    figure, axes = new_figure(nrows=2, ncols=2, sharex=True, sharey=True, figsize=(13, 9.5))
+    figure, axes = new_figure(nrows=2, ncols=2, sharex=True, sharey=True, figsize=(12.5, 9.5))
     for panel, (title, family) in zip(axes.flat, _families(rows).items(), strict=True):
         _panel(panel, title, family)
     for panel in axes[1]:
@@ -61,11 +61,11 @@ def _panel(axes: Any, title: str, rows: Sequence[Row]) -> None:
         axes.annotate(
             f"slope {slope}",
             (DTS[middle], error * (DTS[middle] / DTS[0]) ** slope),
-            (0, 6),
+            (-2, 4),
             textcoords="offset points",
             color="#555555",
             fontsize=9,
-            ha="center",
+            ha="right",
         )
     lines = [row for row in rows if row.stepper.kind != "engine" and np.isfinite(row.errors[0])]
     rings = [row for row in rows if row.stepper.kind == "engine"]
@@ -75,11 +75,11 @@ def _panel(axes: Any, title: str, rows: Sequence[Row]) -> None:
         axes.plot(DTS, row.errors, "-", markevery=(i % 3, 3), markersize=5, **look(i))
         ends.append(End(DTS[0], row.errors[0], _label(row, rings), look(i)["color"]))
     for row in rings:
-        axes.plot(DTS, row.errors, "o", fillstyle="none", color="#000000", markersize=10, markeredgewidth=1.1)
+        axes.plot(DTS, row.errors, "o", fillstyle="none", color="#000000", markersize=9, markeredgewidth=0.9)
     named = [row.stepper.name for row in lines]
     strangers = [row for row in rings if (row.scheme is None or row.scheme.name not in named)]
     ends += [End(DTS[0], r.errors[0], _label(r, []), "#000000") for r in strangers if np.isfinite(r.errors[0])]
-    label_ends(axes, ends, gap=0.062)
+    label_ends(axes, ends, line=0.05)
 
 
 def _label(row: Row, rings: Sequence[Row]) -> str:
