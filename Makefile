@@ -13,7 +13,7 @@ report: $(READY)  ## Run the lab's main job: every experiment, on one page in re
 	$(BIN)/springlab report
 
 test: $(READY)  ## Run all tests, with formatting and types
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses auto
 
 check: $(READY)  ## Formatting and types only
 	$(BIN)/ruff format --check .

@@ -94,7 +94,7 @@ def isolated(task: Callable[..., T], *arguments: Any, time_limit: float = TIME_L
     context = _context()
     ours, theirs = context.Pipe(duplex=False)
     with tempfile.TemporaryDirectory(prefix="springlab-") as scratch:
-        process = context.Process(target=_work, args=(theirs, scratch, task, arguments), daemon=True)
+        process = context.Process(target=_work, args=(theirs, scratch, task, arguments))
         process.start()
         theirs.close()
         try:

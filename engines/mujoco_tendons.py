@@ -132,6 +132,15 @@ class TendonSimulation:
         _write_numbers(self._mujoco, self._model, changed, self._nested)
         self._system = changed
 
+    def jacobian(self) -> Array | None:
+        """MuJoCo's mjd_transitionFD over (qpos, qvel), centred; None for RK4, which it refuses."""
+        mujoco, model = self._mujoco, self._model
+        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
+            return None
+        transition = np.zeros((2 * model.nv, 2 * model.nv))
+        mujoco.mjd_transitionFD(model, self._data, 1e-6, True, transition, None, None, None)
+        return transition
+
     def _coordinates(self, rows: Array) -> Array:
         return np.diff(rows, axis=0, prepend=0.0) if self._nested else rows
 

@@ -6,10 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from reference.changes import Change, changes_by_step
+from reference.changes import Change
 from reference.errors import InputError
 from reference.scenes import Setup, find
-from reference.simulate import whole_steps
 
 
 def parse_settings(words: Iterable[str]) -> dict[str, str]:
@@ -62,8 +61,5 @@ def setup_for(
         duration=setup.duration if duration is None else duration,
         changes=(*setup.changes, *changes),
     )
-    whole_steps(setup.dt, setup.duration)
-    changes_by_step(setup.changes, setup.dt)
-    for change in setup.changes:
-        setup.system.with_parameter(change.parameter, change.value)
+    setup.check()
     return setup

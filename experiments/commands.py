@@ -138,8 +138,8 @@ def identify_command(
     """Say which scheme of the catalogue reproduces STEPPER on SCENE to rounding."""
     from experiments.comparison import finite
     from experiments.steppers import find_steppers
+    from reference.changes import whole_steps
     from reference.identify import identify
-    from reference.simulate import whole_steps
 
     (found,) = find_steppers([stepper])
     setup = setup_for(scene, dt, duration, parse_settings(settings), parse_changes(changes))

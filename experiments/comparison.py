@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from engines.isolation import EngineStepper
+from reference.changes import whole_steps
 from reference.exact import exact
 from reference.identify import Identification, candidates, identify_run
 from reference.outcome import Outcome
 from reference.scenes import Setup
-from reference.simulate import whole_steps
 from reference.state import Array, Trajectory
 from reference.stepper import Stepper
 

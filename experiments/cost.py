@@ -23,6 +23,7 @@ from experiments.experiment import Experiment, Result, Table
 from experiments.steppers import all_steppers
 from experiments.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from reference.catalogue import Scheme
+from reference.errors import SolverError
 from reference.exact import exact
 from reference.forces import SpringMotion
 from reference.kernels import advance, arrays_of, compiled, lists, loops_for
@@ -65,7 +66,7 @@ class Cost:
 
     Attributes:
         runs_as: kernel, Python or engine.
-        identified_as: the scheme of an engine, or its own.
+        identified_as: the scheme that an engine is known to be, if it is; of a scheme its own name.
         points: one for each of DTS; empty where it could not run.
         speeds: of the strings of MASSES, as far as it came.
         failure: why it could not run; empty if it could.
@@ -73,7 +74,7 @@ class Cost:
 
     stepper: Stepper
     runs_as: str
-    identified_as: str
+    identified_as: str | None
     points: Sequence[Point]
     speeds: Speeds
     failure: str = ""
@@ -90,6 +91,11 @@ def run(progress: Progress) -> Result:
     for stepper in steppers():
         progress(stepper.name)
         costs.append(engine(stepper) if isinstance(stepper, EngineStepper) else scheme(stepper))
+    return result_of(costs)
+
+
+def result_of(costs: Sequence[Cost]) -> Result:
+    """Costs as findings and tables; the anchor's is among them."""
     failures = [f"{c.stepper.name}: {c.failure}" for c in costs if c.failure]
     failures += [f"{c.stepper.name}: {c.speeds.reason}" for c in costs if c.speeds.reason]
     tables = [_summary(costs), _errors(costs), _speeds(costs)]
@@ -111,19 +117,20 @@ def string(masses: int = MASSES[0]) -> MassSpringSystem:
 
 def scheme(stepper: SchemeStepper) -> Cost:
     """A scheme's cost: its kernel's, or that of stepping in Python."""
-    time = _time_in_python if stepper.scheme.springs_only else _time_kernel
-    timings = least([partial(time, stepper.scheme, dt) for dt in DTS])
-    points = _points(timings, SpringMotion)
     if stepper.scheme.springs_only:
-        return Cost(stepper, "Python", stepper.name, points, Speeds([]))
-    strings = [string(n) for n in (*MASSES, *MORE_MASSES)]
-    speeds = [seconds_per_step(kernel(s, stepper.scheme, DT)) for s in strings]
-    return Cost(stepper, "kernel", stepper.name, points, Speeds(speeds))
+        try:
+            timings = least([partial(_time_in_python, stepper.scheme, dt) for dt in DTS])
+        except SolverError as error:
+            return Cost(stepper, "Python", stepper.name, [], Speeds([]), f"diverged, {error}")
+        return Cost(stepper, "Python", stepper.name, points(timings, SpringMotion), Speeds([]))
+    timings = [_time_kernel(stepper.scheme, dt) for dt in DTS]
+    speeds = [seconds_per_step(kernel(string(n), stepper.scheme, DT)) for n in (*MASSES, *MORE_MASSES)]
+    return Cost(stepper, "kernel", stepper.name, points(timings, SpringMotion), Speeds(speeds))
 
 
 def engine(stepper: EngineStepper) -> Cost:
     """An engine's cost, measured in a process of its own."""
-    named = stepper.engine.identified_as["plain"]
+    named = stepper.engine.identified_as.get("plain")
     cost = partial(Cost, stepper, "engine", named)
     if stepper.version is None:
         return cost([], Speeds([]), f"unsupported, {stepper.engine.package} is not installed")
@@ -133,7 +140,8 @@ def engine(stepper: EngineStepper) -> Cost:
     if isinstance(answer, Outcome):
         return cost([], Speeds([]), f"{answer.ending}, {answer.reason}")
     timings, speeds = answer
-    return cost(_points(timings, catalogued()[named].equations), speeds)
+    equations = SpringMotion if named is None else catalogued()[named].equations
+    return cost(points(timings, equations), speeds)
 
 
 def _steps(dt: float) -> int:
@@ -150,7 +158,7 @@ def kernel(system: MassSpringSystem, scheme: Scheme, dt: float) -> Callable[[int
 
 
 def _time_kernel(scheme: Scheme, dt: float) -> Timing:
-    """A run is over in no time at all: what a step takes is measured on more of them."""
+    """A run is over in no time at all: what a step takes is measured on many more."""
     per_step = seconds_per_step(kernel(string(), scheme, dt))
     return Timing(_steps(dt) * per_step, advance(string(), scheme, dt, _steps(dt)).positions)
 
@@ -161,18 +169,19 @@ def _time_in_python(scheme: Scheme, dt: float) -> Timing:
     return Timing(perf_counter() - begin, trajectory.positions[-1])
 
 
-def _points(timings: Sequence[Timing], equations: Callable[[MassSpringSystem], Motion]) -> list[Point]:
-    points = []
+def points(timings: Sequence[Timing], equations: Callable[[MassSpringSystem], Motion]) -> list[Point]:
+    """Runs of DTS as points, the error taken from the true motion of a string of springs, or of rods."""
+    found = []
     for dt, timing in zip(DTS, timings, strict=True):
         with np.errstate(over="ignore", invalid="ignore"):
-            error = float(np.linalg.norm(timing.positions - _truth(equations), axis=1).max())
+            error = float(np.linalg.norm(timing.positions - truth(equations), axis=1).max())
         # Further off than the string is long, or no number: it has blown up.
-        points.append(Point(dt, timing.seconds, error if error < string().size else np.inf))
-    return points
+        found.append(Point(dt, timing.seconds, error if error < string().size else np.inf))
+    return found
 
 
 @cache
-def _truth(equations: Callable[[MassSpringSystem], Motion]) -> Array:
+def truth(equations: Callable[[MassSpringSystem], Motion]) -> Array:
     """Where the string is at the end [m]; that of rods where an engine's segments are rigid."""
     return exact(string(), DURATION, 1, equations=equations).positions[-1]
 
@@ -259,11 +268,11 @@ def _speed_findings(costs: Sequence[Cost]) -> list[str]:
 
 def _twin_findings(costs: Sequence[Cost]) -> list[str]:
     """How equal the errors of engines are to those of the schemes they are."""
-    schemes = {c.stepper.name: c for c in costs if c.runs_as != "engine"}
+    schemes = {c.stepper.name: c for c in costs if c.runs_as != "engine" and c.points}
     pairs = [
         (p.error, q.error)
         for c in costs
-        if c.runs_as == "engine" and c.identified_as in schemes
+        if c.runs_as == "engine" and c.points and c.identified_as in schemes
         for p, q in zip(c.points, schemes[c.identified_as].points, strict=True)
         if np.isfinite([p.error, q.error]).all()
     ]
@@ -286,6 +295,7 @@ EXPERIMENT = Experiment(
     question="What does an error cost in wall time, and how fast is each stepper on larger strings?",
     slides="6-8, 13",
     run=run,
+    timed=True,
 )
 
 if __name__ == "__main__":

@@ -189,10 +189,10 @@ def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tu
 
 
 def kind_of(errors: Array) -> Kind | None:
-    """What energy errors do: growing or decaying if their mean in each of PARTS parts is above or below the last one's.
+    """What energy errors do, evenly spaced in time: growing if their mean is larger in each of PARTS parts than before.
 
-    Growing, too, if they ever exceed what falling can release. What has no such trend is bounded, however large. None
-    for too few errors to tell.
+    Decaying if it is smaller each time. Growing, too, if an error ever exceeds what falling can release. What has no
+    such trend is bounded. None for too few errors to tell.
     """
     if len(errors) < 2 * PARTS:
         return None
@@ -254,6 +254,7 @@ def _findings(rows: Sequence[Row]) -> list[str]:
         *_exceptions(compared),
         *_engines(compared),
         *_momentum("momentum", {row: row.momentum for row in rows if row.momentum is not None}),
+        *_in_place(rows),
         *_momentum("angular momentum", {row: row.angular_momentum for row in rows if row.angular_momentum is not None}),
         "In the table energy errors are parts of what falling to rest would release; those of the free string's "
         "momentum are parts of sum m |v|, and of angular momentum of that times its size.",
@@ -296,12 +297,18 @@ def _momentum(what: str, lost: Mapping[Row, float]) -> list[str]:
     if losers:
         amounts = ", ".join(f"{row.stepper.name} {error:.1e}" for row, error in losers.items())
         sentences.append(f"The others are off by as much of it: {amounts}.")
-    if losers and {row.stepper.kind for row in losers} == {"in_place"}:
-        sentences.append(
-            f"In-place variants do not conserve {what}: they take the two forces of a spring from two different "
-            "states, and so the forces do not cancel."
-        )
     return sentences
+
+
+def _in_place(rows: Sequence[Row]) -> list[str]:
+    """The price of writing into the state that is still being read."""
+    losers = [row for row in rows if row.stepper.kind == "in_place" and (row.momentum or 0.0) > rounding()]
+    if not losers:
+        return []
+    return [
+        f"In-place variants do not conserve momentum ({_names(losers)}): they take the two forces of a spring from two "
+        "different states, and so the forces do not cancel."
+    ]
 
 
 def _names(rows: Sequence[Row]) -> str:

@@ -17,6 +17,8 @@ from reference.errors import unknown_name
 NAMES = (
     "divergence",
     "stability",
+    "order",
+    "energy",
     "stiff_limit",
     "less_damping",
     "first_order_instability",
@@ -70,6 +72,7 @@ class Experiment:
         slides: of the lecture.
         run: answers it, telling `progress` what it is at.
         in_report: whether `springlab report` runs it unasked.
+        timed: whether it measures times, and so must run alone.
     """
 
     name: str
@@ -78,6 +81,7 @@ class Experiment:
     slides: str
     run: Callable[[Progress], Result]
     in_report: bool = True
+    timed: bool = False
 
 
 def experiments() -> Mapping[str, Experiment]:

@@ -50,12 +50,12 @@ class Row:
 
     Attributes:
         damping: of the springs [N s/m].
-        predicted: from the scheme that it is, or is known to step by.
+        predicted: from the scheme that it is, or is known to step by; None where none is known.
     """
 
     stepper: Stepper
     damping: float
-    predicted: frozenset[str]
+    predicted: frozenset[str] | None
     renamed: Renamed
 
 
@@ -88,6 +88,11 @@ def run(progress: Progress) -> Result:
             rows += [Row(stepper, c, predicted(stepper, c), r) for c, r in zip(DAMPINGS, renamed, strict=True)]
         progress("Pymunk's rounds")
         convergences = rounds.result()
+    return result_of(rows, convergences)
+
+
+def result_of(rows: Sequence[Row], convergences: Sequence[Convergence]) -> Result:
+    """Rows as findings and tables."""
     tables = [_table(c, [row for row in rows if row.damping == c]) for c in DAMPINGS]
     data = {"rows": rows, "convergences": convergences, "rounding": rounding()}
     return Result(_findings(rows, convergences), [*tables, _rounds_table(convergences)], data, _failures(rows))
@@ -125,17 +130,20 @@ def _in_a_process(stepper: EngineStepper, runs: Sequence[tuple[Engine, MassSprin
     return [Renamed.nothing(f"{answer.ending}, {answer.reason}")] * len(runs)
 
 
-def predicted(stepper: Stepper, damping: float) -> frozenset[str]:
+def predicted(stepper: Stepper, damping: float) -> frozenset[str] | None:
     """Whose order should show, by the scheme that a stepper is, or that an engine is known to step by."""
     scheme = _scheme(stepper, damping)
+    if scheme is None:
+        return None
     if scheme.kind == "in_place":
         return frozenset({"masses"})
     return frozenset({"springs"}) if scheme.name in SPRING_AFTER_SPRING and damping else frozenset()
 
 
-def _scheme(stepper: Stepper, damping: float) -> Scheme:
+def _scheme(stepper: Stepper, damping: float) -> Scheme | None:
     if isinstance(stepper, EngineStepper):
-        return catalogued()[stepper.engine.identified_as["damping" if damping else "plain"]].scheme
+        named = stepper.engine.identified_as.get("damping" if damping else "plain")
+        return None if named is None else catalogued()[named].scheme
     assert isinstance(stepper, SchemeStepper)
     return stepper.scheme
 
@@ -190,8 +198,10 @@ def _table(damping: float, rows: Sequence[Row]) -> Table:
     return Table(f"numbering_damping_{damping:g}", columns, cells)
 
 
-def names(orders: frozenset[str]) -> str:
-    """Whose order shows, in words."""
+def names(orders: frozenset[str] | None) -> str | None:
+    """Whose order shows, in words; None where that is not known."""
+    if orders is None:
+        return None
     return " and ".join(name for name in CHANGES.values() if name in orders) or "none"
 
 
@@ -217,9 +227,10 @@ def _findings(rows: Sequence[Row], convergences: Sequence[Convergence]) -> list[
         if seen:
             distances = [row.renamed.distances[change] for row in seen]
             sentences.append(f"With {change} {_list(seen)} differ by {min(distances):.1e} to {max(distances):.1e} m.")
-    wrong = [row for row in ran if row.renamed.sees(rounding()) != row.predicted]
+    known = [row for row in ran if row.predicted is not None]
+    wrong = [row for row in known if row.renamed.sees(rounding()) != row.predicted]
     sentences.append(
-        f"Whose order shows is as predicted from the scheme in {len(ran) - len(wrong)} of {len(ran)} runs"
+        f"Whose order shows is as predicted from the scheme in {len(known) - len(wrong)} of {len(known)} runs"
         + (f"; not for {_list(wrong)}." if wrong else ".")
     )
     partly = [row for row in rows if row.renamed.reasons and row.renamed.tried]
@@ -249,7 +260,7 @@ def _rounds_finding(c: Convergence) -> str:
     return (
         f"Damped with {c.damping:g} N s/m, Pymunk's string with its springs reversed differs by {first:.1e} m with "
         f"{few} round in a step and by {usual:.1e} m with the default of {default}; each further round leaves "
-        f"{c.measured:.2f} of that (predicted for the straight string: {c.predicted:.2f})."
+        f"{c.measured:.2f} of that (predicted in the long run: {c.predicted:.2f})."
     )
 
 

@@ -219,6 +219,7 @@ EXPERIMENT = Experiment(
     slides="8",
     run=run,
     in_report=False,
+    timed=True,
 )
 
 if __name__ == "__main__":

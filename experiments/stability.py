@@ -15,6 +15,8 @@ import numpy as np
 
 from engines.engine import Engine
 from engines.isolation import EngineStepper, isolated
+from engines.jacobian import spectral_radius
+from engines.jacobian import step_jacobian as step_jacobian_of_engine
 from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
 from experiments.steppers import all_steppers
@@ -40,6 +42,9 @@ from reference.state import Array, State, Trajectory
 from reference.stepper import SchemeStepper, Stepper
 from reference.system import MassSpringSystem
 
+#: An engine's limit, and the spectral radii of its step below and above it.
+Measured = tuple[Limit, tuple[float, float] | None]
+
 #: The cases of spring damping [N s/m] and drag [N s/m] that the report shows.
 CASES: tuple[Mapping[str, float], ...] = ({}, {"damping": 0.1}, {"damping": 0.5}, {"drag": 0.1})
 
@@ -55,7 +60,11 @@ IDENTIFYING_STEPS = 200
 
 @dataclass(frozen=True)
 class Row:
-    """One stepper on one system: predicted and measured limit, each with the reason where there is none."""
+    """One stepper on one system: predicted and measured limit, each with the reason where there is none.
+
+    Attributes:
+        radii: spectral radii of an engine's own step, measured at 0.99 and 1.01 of its measured limit.
+    """
 
     stepper: str
     kind: str
@@ -63,6 +72,7 @@ class Row:
     predicted: Limit
     measured: Limit
     outcome: str = "done"
+    radii: tuple[float, float] | None = None
 
     @property
     def relative_difference(self) -> float | None:
@@ -155,15 +165,16 @@ def _engine_row(
     rest: Equilibrium,
     dt: float,
     known: Mapping[str, Trajectory],
-    measurement: Future[Limit | Outcome],
+    measurement: Future[Measured | Outcome],
 ) -> Row:
     outcome = stepper.run(system, 0.1 * dt, IDENTIFYING_STEPS)
     identification = identify_run(stepper.name, outcome, system, known)
     predicted = _predict(identification, system, rest)
-    measured = measurement.result()
-    if isinstance(measured, Outcome):
-        return Row(stepper.name, stepper.kind, system, predicted, Limit(None, measured.reason), measured.ending)
-    return Row(stepper.name, stepper.kind, system, predicted, measured)
+    answer = measurement.result()
+    if isinstance(answer, Outcome):
+        return Row(stepper.name, stepper.kind, system, predicted, Limit(None, answer.reason), answer.ending)
+    measured, radii = answer
+    return Row(stepper.name, stepper.kind, system, predicted, measured, radii=radii)
 
 
 def _predict(identification: Identification, system: MassSpringSystem, rest: Equilibrium) -> Limit:
@@ -179,7 +190,9 @@ def scheme_named(name: str) -> tuple[Scheme, bool]:
     return catalogue.find(name.removeprefix("pendulum_")), name.startswith("pendulum_")
 
 
-def _measure_engine(stepper: EngineStepper, system: MassSpringSystem, rest: Equilibrium, dt: float) -> Limit | Outcome:
+def _measure_engine(
+    stepper: EngineStepper, system: MassSpringSystem, rest: Equilibrium, dt: float
+) -> Measured | Outcome:
     """An engine's limit, measured in one process of its own, from random pushes about the equilibrium it can have."""
     if stepper.version is None:
         return Outcome("unsupported", f"{stepper.engine.package} is not installed")
@@ -210,10 +223,16 @@ def at_rest_and_pushed(system: MassSpringSystem, rest: Equilibrium) -> tuple[Arr
     return still, replace(system, positions=pushed, velocities=np.zeros_like(pushed))
 
 
-def limit_of_engine(engine: Engine, still: Array, pushed: MassSpringSystem, dt: float) -> Limit | Outcome:
-    """Run an engine again and again, in this very process, until its limit is found."""
+def limit_of_engine(engine: Engine, still: Array, pushed: MassSpringSystem, dt: float) -> Measured | Outcome:
+    """Run an engine again and again, in this very process, until its limit is found; then look at its step there."""
     try:
-        return Limit(*measured_limit(lambda h, steps: growth_of_engine(engine, still, pushed, h, steps), dt, PRECISION))
+        found = measured_limit(lambda h, steps: growth_of_engine(engine, still, pushed, h, steps), dt, PRECISION)
+        limit = Limit(*found)
+        if limit.dt is None or not {"stretched", "velocities"} <= engine.capabilities:
+            return limit, None
+        rest = replace(pushed, positions=still)
+        below, above = (spectral_radius(step_jacobian_of_engine(engine, rest, f * limit.dt)) for f in (0.99, 1.01))
+        return limit, (below, above)
     except Unsupported as error:
         return Outcome("unsupported", str(error))
 
@@ -247,8 +266,9 @@ def result_of(rows: Sequence[Row]) -> Result:
     documents = [row.document for row in rows]
     columns = ["stepper", "damping [N s/m]", "drag [N s/m]", "predicted dt [s]", "measured dt [s]"]
     columns += ["relative difference", "outcome", "reason"]
+    columns += ["engine's own spectral radius at 0.99 of it", "at 1.01"]
     failures = [f"{d['stepper']}: {d['outcome']}, {d['reason']}" for d in documents if d["outcome"] != "done"]
-    table = Table("stability", columns, [list(d.values()) for d in documents])
+    table = Table("stability", columns, [[*row.document.values(), *(row.radii or (None, None))] for row in rows])
     return Result(_findings(rows), [table], {"rows": rows}, failures)
 
 

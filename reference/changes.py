@@ -1,4 +1,4 @@
-"""Parameters that change on the fly, while the system moves (lecture slide 12)."""
+"""Steps and what happens at them: how many there are, and parameters that change on the fly (lecture slide 12)."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from reference.errors import InputError
+
+#: A trajectory keeps every step: beyond this many it would fill the memory.
+MOST_STEPS = 10_000_000
 
 
 @dataclass(frozen=True)
@@ -41,3 +44,20 @@ def changes_by_step(changes: Sequence[Change], dt: float) -> dict[int, list[Chan
             raise InputError(f"change time = {change.time:g}: expected a finite number >= 0 [s]")
         by_step.setdefault(change.step(dt), []).append(change)
     return by_step
+
+
+def whole_steps(dt: float, duration: float) -> int:
+    """The number of steps of dt [s] nearest to a duration [s].
+
+    Raises:
+        InputError: unless both are positive numbers and there is at least one step.
+    """
+    for name, value in (("dt", dt), ("duration", duration)):
+        if not (np.isfinite(value) and value > 0):
+            raise InputError(f"{name} = {value:g}: expected a finite number > 0 [s]")
+    steps = round(min(duration / dt, 2.0 * MOST_STEPS))
+    if steps < 1:
+        raise InputError(f"duration = {duration:g}: expected at least one step of dt = {dt:g} s")
+    if steps > MOST_STEPS:
+        raise InputError(f"duration = {duration:g}: expected at most {MOST_STEPS:,} steps of dt = {dt:g} s")
+    return steps

@@ -105,9 +105,11 @@ def load(path: Path, settings: Mapping[str, Any]) -> Setup:
     except (msgspec.DecodeError, RecursionError) as error:
         raise InputError(f"scene file {path}: {error}") from None
     try:
-        return _setup(path, content, settings)
+        setup = _setup(path, content, {})
     except InputError as error:
         raise InputError(f"scene file {path}{_line(text, str(error))}: {error}") from None
+    # What is set otherwise is not the file's fault.
+    return _setup(path, content, settings) if settings else setup
 
 
 def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup:
@@ -128,7 +130,9 @@ def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup
         system, dt, duration = scene.system({**content.parameters, **settings}), scene.dt, scene.duration
     dt = dt if content.dt is None else content.dt
     duration = duration if content.duration is None else content.duration
-    return Setup(path.stem, system, dt, duration, changes)
+    setup = Setup(path.stem, system, dt, duration, changes)
+    setup.check()
+    return setup
 
 
 def _plain(message: str) -> str:

@@ -9,22 +9,18 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from math import cos, isfinite, radians, sin
+from math import cos, radians, sin
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from reference.changes import Change
+from reference.changes import Change, changes_by_step, whole_steps
 from reference.errors import InputError, unknown_name
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, check_parameter
 
 #: One number for all, or one for each.
 PerItem = float | Sequence[float]
-
-#: What scenes agree on about their parameters' ranges.
-ABOVE_ZERO = ("masses", "mass", "rest_length")
-NOT_BELOW_ZERO = ("stiffness", "damping", "drag")
 
 #: More masses than that are a slip of the finger, and would fill the memory.
 MOST_MASSES = 10_000_000
@@ -95,6 +91,13 @@ class Setup:
     dt: float
     duration: float
     changes: tuple[Change, ...] = ()
+
+    def check(self) -> None:
+        """Refuse now what would only be met midway in a run. Raises InputError."""
+        whole_steps(self.dt, self.duration)
+        changes_by_step(self.changes, self.dt)
+        for change in self.changes:
+            self.system.with_parameter(change.parameter, change.value)
 
 
 def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., MassSpringSystem]], Any]:
@@ -170,8 +173,8 @@ def string(
     It hangs from an anchor at (x0, y0), which is mass 0 of the system and fixed; spring j joins masses j and j + 1.
     mass, rest_length, stiffness and damping are one number, or one for each of the masses.
     """
-    if masses < 1:
-        raise InputError(f"masses = {masses}: expected a whole number >= 1")
+    if not 1 <= masses <= MOST_MASSES:
+        raise InputError(f"masses = {masses:g}: expected a whole number from 1 to {MOST_MASSES:,}")
     lengths = _each("rest_length", rest_length, masses)
     reach = np.concatenate([[0.0], np.cumsum(lengths)])
     if np.ptp(lengths) == 0:
@@ -211,22 +214,12 @@ def _converted(name: str, value: Any, default: Any, several: bool) -> Any:
         expected = "a whole number" if whole else "a number"
         raise InputError(f"{name} = {value!r}: expected {expected}") from None
     for number in numbers:
-        _check(name, number)
+        check_parameter(name, number)
     if len(numbers) == 1 and not isinstance(value, list):
         return numbers[0]
     if not several:
         raise InputError(f"{name} = {value!r}: expected one number")
     return numbers
-
-
-def _check(name: str, number: float) -> None:
-    """Refuse here what the system would refuse under its own, plural name."""
-    if not isfinite(number):
-        raise InputError(f"{name} = {number:g}: expected a finite number")
-    if name == "masses" and number > MOST_MASSES:
-        raise InputError(f"{name} = {number:g}: expected at most {MOST_MASSES:,}")
-    if (name in ABOVE_ZERO and number <= 0) or (name in NOT_BELOW_ZERO and number < 0):
-        raise InputError(f"{name} = {number:g}: expected a number {'>' if name in ABOVE_ZERO else '>='} 0")
 
 
 def _whole(part: Any) -> int:

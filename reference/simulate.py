@@ -7,8 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from reference.catalogue import Scheme
-from reference.changes import Change, changes_by_step
-from reference.errors import InputError
+from reference.changes import Change, changes_by_step, whole_steps
 from reference.forces import SpringMotion
 from reference.motion import Motion
 from reference.state import State, Trajectory
@@ -54,18 +53,3 @@ def simulate(
             if not (np.isfinite(state.positions).all() and np.isfinite(state.velocities).all()):
                 break
         return motion.trajectory(states)
-
-
-def whole_steps(dt: float, duration: float) -> int:
-    """The number of steps of dt [s] nearest to a duration [s].
-
-    Raises:
-        InputError: unless both are positive numbers and there is at least one step.
-    """
-    for name, value in (("dt", dt), ("duration", duration)):
-        if not (np.isfinite(value) and value > 0):
-            raise InputError(f"{name} = {value:g}: expected a finite number > 0 [s]")
-    steps = round(duration / dt)
-    if steps < 1:
-        raise InputError(f"duration = {duration:g}: expected at least one step of dt = {dt:g} s")
-    return steps

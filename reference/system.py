@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields, replace
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,11 @@ PARAMETERS = {
     "drag": "N s/m, on every mass",
     "gravity": "m/s^2, downwards",
 }
+
+
+#: Which of them cannot be zero, or less.
+ABOVE_ZERO = ("mass", "rest_length")
+NOT_BELOW_ZERO = ("stiffness", "damping", "drag")
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +126,7 @@ class MassSpringSystem:
         """
         if name not in PARAMETERS:
             raise unknown_name("parameter", name, PARAMETERS)
+        check_parameter(name, value)
         attribute = {"mass": "masses", "rest_length": "rest_lengths"}.get(name, name)
         changed: dict[str, Any] = {attribute: value}
         return replace(self, **changed)
@@ -138,9 +145,9 @@ class MassSpringSystem:
         )
 
     def with_springs_reversed(self) -> MassSpringSystem:
-        """The same system with its springs listed from the last to the first, and each named from its other end."""
-        backwards = {name: getattr(self, name)[::-1] for name in ("rest_lengths", "stiffness", "damping")}
-        return replace(self, springs=self.springs[::-1, ::-1], **backwards)
+        """The same system with its springs listed from the last to the first."""
+        backwards = {name: getattr(self, name)[::-1] for name in ("springs", "rest_lengths", "stiffness", "damping")}
+        return replace(self, **backwards)
 
     def with_ends_swapped(self) -> MassSpringSystem:
         """The same system with each spring named from its other end."""
@@ -150,6 +157,19 @@ class MassSpringSystem:
         """Plain lists and numbers, the fields by name: what a digest or a JSON file is made of."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
+
+
+def check_parameter(name: str, value: float) -> None:
+    """Refuse a number that one of PARAMETERS cannot be, by the parameter's name. Other names take any finite number.
+
+    Raises:
+        InputError: with the name, the value and what was expected.
+    """
+    unit = f" [{PARAMETERS[name].partition(',')[0]}]" if name in PARAMETERS else ""
+    if not isfinite(value):
+        raise InputError(f"{name} = {value:g}: expected a finite number{unit}")
+    if (name in ABOVE_ZERO and value <= 0) or (name in NOT_BELOW_ZERO and value < 0):
+        raise InputError(f"{name} = {value:g}: expected a number {'>' if name in ABOVE_ZERO else '>='} 0{unit}")
 
 
 def _finite(name: str, value: npt.ArrayLike, unit: str) -> Array:

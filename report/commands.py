@@ -130,17 +130,14 @@ def run_command(names: tuple[str, ...], out: Path) -> int:
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "report", show_default=True)
 def report_command(names: Sequence[str], out: Path) -> int:
     """Run the experiments and write one self-contained page, OUT/index.html. Exit code 1 if an experiment failed."""
-    from report.page import page, section
+    from report.page import all_sections, page
 
     wanted = [find(name) for name in names or NAMES]
     if not names:
         wanted = [experiment for experiment in wanted if experiment.in_report]
     out.mkdir(parents=True, exist_ok=True)
-    sections = []
     with progress("report") as tell:
-        for experiment in wanted:
-            tell(experiment.name)
-            sections.append(section(experiment, out / experiment.name, tell))
+        sections = all_sections(wanted, out, tell)
     (out / "index.html").write_text(page(sections), encoding="utf-8")
     for answer in sections:
         first = answer.failure if answer.result is None else answer.result.findings[0]

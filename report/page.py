@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import base64
+import os
 from collections.abc import Sequence
-from dataclasses import dataclass
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+from engines.isolation import isolated
 from experiments.comparison import Progress
 from experiments.console import plain
 from experiments.environment import environment
-from experiments.experiment import Experiment, Result, write_tables
+from experiments.experiment import Experiment, Result, find, write_tables
 from report.figures import draw
+
+#: An experiment may take so long [s].
+TIME_LIMIT = 900.0
 
 
 @dataclass(frozen=True)
@@ -39,6 +45,36 @@ def section(experiment: Experiment, folder: Path, progress: Progress) -> Section
     except Exception as error:
         return Section(experiment, failure=f"{type(error).__name__}: {error}")
     return Section(experiment, result, svg, picture.alt, [(file.name, _embedded(file)) for file in files])
+
+
+def all_sections(experiments: Sequence[Experiment], folder: Path, progress: Progress) -> list[Section]:
+    """A section for every experiment, in their order, each with a folder of its own.
+
+    Experiments run beside one another, each in a process of its own; those that measure times run alone, at the end.
+    """
+    crowd = [experiment for experiment in experiments if not experiment.timed]
+    alone = [experiment for experiment in experiments if experiment.timed]
+    done: dict[str, Section] = {}
+    for group, workers in ((crowd, os.cpu_count()), (alone, 1)):
+        with ThreadPoolExecutor(workers) as pool:
+            running = {pool.submit(_isolated_section, experiment, folder): experiment for experiment in group}
+            for future in as_completed(running):
+                done[running[future].name] = future.result()
+                left = [experiment.name for experiment in running.values() if experiment.name not in done]
+                progress(f"{len(done)} of {len(experiments)} done; next: {', '.join(left)}")
+    return [done[experiment.name] for experiment in experiments]
+
+
+def _isolated_section(experiment: Experiment, folder: Path) -> Section:
+    own = (folder / experiment.name).resolve()
+    made = isolated(section_by_name, experiment.name, own, time_limit=TIME_LIMIT)
+    return made if isinstance(made, Section) else Section(experiment, failure=f"{made.ending}: {made.reason}")
+
+
+def section_by_name(name: str, folder: Path) -> Section:
+    """As `section`, with what travels between processes: the page needs no more of a result than its words."""
+    made = section(find(name), folder, lambda _: None)
+    return made if made.result is None else replace(made, result=replace(made.result, data={}))
 
 
 def page(sections: Sequence[Section]) -> str:

@@ -48,7 +48,7 @@ def _line(axes: Any, points: Sequence[tuple[float, float]], cost: Cost, i: int, 
 
 def _label(cost: Cost) -> str:
     if cost.runs_as == "engine":
-        return f"{cost.stepper.name}\n= {cost.identified_as}"
+        return f"{cost.stepper.name}\n= {cost.identified_as or 'not known'}"
     return f"{cost.stepper.name} ({cost.runs_as})"
 
 

@@ -44,7 +44,7 @@ def _dots(axes: Any, rows: list[Row], rounding: float) -> None:
     beside = {"transform": axes.get_yaxis_transform(), "va": "center", "color": "#333333"}
     axes.text(1.02, -1.5, "predicted:\norder of", **beside)
     for y, row in enumerate(rows):
-        axes.text(1.02, y, names(row.predicted), fontweight="bold" if row.predicted else None, **beside)
+        axes.text(1.02, y, names(row.predicted) or "-", fontweight="bold" if row.predicted else None, **beside)
     axes.set_title(f"Measured: springs damped with {DAMPINGS[0]:g} N s/m", loc="left", fontsize=11, pad=28)
     axes.legend(
         loc="lower left",

@@ -41,7 +41,9 @@ def _families(rows: Sequence[Row]) -> dict[str, list[Row]]:
         "Schemes, and their measured slopes": [row for row in rows if row.stepper.kind == "scheme"],
         "Written in place, and the lecture's listings": [r for r in rows if r.stepper.kind in ("in_place", "lecture")],
         "Engines (rings) on the lines of their schemes": [
-            row for row in rows if row.stepper.kind == "engine_scheme" or row.stepper.name in theirs or row in on_springs
+            row
+            for row in rows
+            if row.stepper.kind == "engine_scheme" or row.stepper.name in theirs or row in on_springs
         ],
         "With rods for springs: the pendulum, and a cable (rings)": [
             row for row in rows if row.stepper.kind == "pendulum" or (row in engines and row not in on_springs)

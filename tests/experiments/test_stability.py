@@ -34,7 +34,7 @@ def quiet(_: object) -> None:
 
 
 def check_measured_as_predicted(scheme: Scheme, run: Scheme, case: dict[str, float]) -> None:
-    """|measured - predicted| < 1e-3 predicted, or neither has a limit: theory's eigenvalues against a run of the scheme."""
+    """|measured - predicted| < 1e-3 predicted, or neither has a limit: theory's eigenvalues against a run."""
     rest = spring_equilibrium(find("string").system({"masses": 4, **case}))
     predicted, measured = stability_limit(scheme, rest), measure_scheme(run, rest)
     assert (predicted.dt is None) == (measured.dt is None)
@@ -74,7 +74,7 @@ def growth_of(map_matrix: np.ndarray, steps: int) -> float:
 
 
 def test_random_pushes_find_a_limit_known_in_closed_form() -> None:
-    """z -> [[1 - h^2, h], [-h, 1]] z is kick-drift of x'' = -x, stable for h < 2."""
+    """Z -> [[1 - h^2, h], [-h, 1]] z is kick-drift of x'' = -x, stable for h < 2."""
     limit, reason = measured_limit(lambda h, n: growth_of(np.array([[1 - h * h, h], [-h, 1.0]]), n), 1.0, 1e-4)
     assert reason == ""
     assert limit == pytest.approx(2, rel=TOLERANCE)

@@ -77,6 +77,14 @@ def test_after_its_iterations_it_returns_the_best_it_had() -> None:
     assert not solve(matrix, right, iterations=0).any()
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_what_it_returns_never_gets_worse_with_more_iterations(seed: int) -> None:
+    """The largest component rises now and then from one iteration to the next: the best so far is kept."""
+    matrix, right = problem(seed, 30, condition=1e4)
+    sizes = [residual(matrix, right, solve(matrix, right, 1e-14, n)) for n in range(1, 25)]
+    assert all(later <= earlier * (1 + 1e-9) for earlier, later in pairwise(sizes))
+
+
 def test_each_iteration_comes_nearer_in_the_norm_it_minimises() -> None:
     """Each minimises |b - A x| over a space that holds the one before (with P = 1; Saad 6.8): it can only fall."""
     matrix, right = problem(3, 20)

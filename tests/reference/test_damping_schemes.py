@@ -238,7 +238,7 @@ def test_rounds_converge_to_the_exponential_solve(damping: float) -> None:
     mass = effective_masses(system)
     coefficients = mass * np.expm1(1e-3 * system.damping / mass)
     solved = slowed(SpringMotion(system), system.start, coefficients).velocities
-    backwards = replace(system, springs=system.springs[::-1])
+    backwards = system.with_springs_reversed()
     assert np.abs(impulses(system, 1e-3, 2000) - solved).max() < 1e-13
     assert np.abs(impulses(backwards, 1e-3, 2000) - solved).max() < 1e-13
     one, two = (np.abs(impulses(system, 1e-3, rounds) - solved).max() for rounds in (1, 2))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
@@ -164,6 +164,18 @@ def test_a_run_that_blows_up_is_identified_by_its_first_steps(name: str) -> None
     assert stepper.run(system, 0.03, 60).ending == "diverged"
     found = identify(stepper, system, 0.03, 60)
     assert found.identified_as == name
+
+
+def test_a_run_that_blows_up_is_compared_only_until_it_does() -> None:
+    """Rounding grows with the positions: with noise of 1e-15 in every number it is still known by its first steps."""
+    system = moving_string(6)
+    outcome = SchemeStepper(find("heun")).run(system, 0.03, 40)
+    assert outcome.ending == "diverged"
+    assert outcome.trajectory is not None
+    noise = 1 + 1e-15 * np.random.default_rng(0).normal(size=outcome.trajectory.positions.shape)
+    noisy = replace(outcome.trajectory, positions=outcome.trajectory.positions * noise)
+    found = identify(Recorded(replace(outcome, trajectory=noisy)), system, 0.03, 40)
+    assert found.identified_as == "heun"
 
 
 @settings(property_test, max_examples=20)

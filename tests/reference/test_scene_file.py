@@ -205,7 +205,7 @@ def test_an_empty_list_of_springs_is_a_heap_of_masses(tmp_path: Path) -> None:
         ),
         (WRITTEN_OUT.replace("[0, 2]", "[0, 5]"), ", line 13", "fixed[1] = 5: expected a mass from 0 to 2"),
         (WRITTEN_OUT.replace("[0, 2]", "[-1]"), ", line 13", "fixed[0] = -1: expected a mass from 0 to 2"),
-        ('scene = "string"\n[parameters]\nmass = -1.0\n', ", line 3", "mass = -1: expected a number > 0"),
+        ('scene = "string"\n[parameters]\nmass = -1.0\n', ", line 3", "mass = -1: expected a number > 0 [kg]"),
         ('scene = "string"\n[parameters]\nmasses = 2.5\n', ", line 3", "masses = 2.5: expected a whole number"),
         (
             'scene = "string"\n[parameters]\n  stiffness = [1.0, 2.0]\n',
@@ -257,10 +257,11 @@ def test_settings_cannot_change_a_system_written_out(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("text", [NAMED, WRITTEN_OUT])
-def test_a_step_of_zero_is_kept_for_the_run_to_refuse(tmp_path: Path, text: str) -> None:
-    """It is not taken for one that was left out."""
+def test_a_step_of_zero_is_not_taken_for_one_left_out(tmp_path: Path, text: str) -> None:
+    """It is refused, with file and line."""
     lines = ["dt = 0.0" if line.startswith("dt") else line for line in text.splitlines()]
-    assert loaded(tmp_path, "\n".join(lines)).dt == 0.0
+    with pytest.raises(InputError, match=r"line \d+: dt = 0: expected a finite number > 0"):
+        loaded(tmp_path, "\n".join(lines))
 
 
 # --- Files that nobody meant ---

@@ -12,11 +12,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.catalogue import Scheme, find, schemes
-from reference.changes import Change, changes_by_step
+from reference.changes import Change, changes_by_step, whole_steps
 from reference.errors import InputError
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
-from reference.simulate import simulate, whole_steps
+from reference.simulate import simulate
 from reference.state import Trajectory
 from reference.system import MassSpringSystem
 from tests import wrong
@@ -31,7 +31,7 @@ def test_a_run_is_its_steps() -> None:
     """The start, then every step after the one before, at times that are multiples of dt to the bit."""
     system = moving_string(3)
     run = simulate(system, find("heun"), 1e-3, 0.007)
-    assert run.times.tolist() == [i * 1e-3 for i in range(8)]
+    assert simulate(system, find("heun"), 1e-3, 0.1).times.tolist() == [i * 1e-3 for i in range(101)]
     assert run.positions[0].tolist() == system.positions.tolist()
     again = simulate(
         replace(system, positions=run.positions[3], velocities=run.velocities[3]), find("heun"), 1e-3, 0.004
@@ -208,13 +208,15 @@ def test_a_change_acts_on_the_first_step_that_begins_then_or_later(time: float, 
 
 
 def test_changes_take_effect_in_order_of_time() -> None:
-    """Given in any order; of two at the same time, the one given later holds."""
+    """Given in any order. Of two at the same time the one given later holds, of two in one step the later one."""
     system = moving_string(2)
     late, early, later = Change(0.002, "drag", 0.5), Change(0.001, "drag", 0.1), Change(0.002, "drag", 0.9)
     assert changes_by_step((late, early, later), 1e-3) == {1: [early], 2: [late, later]}
     one = simulate(system, find("euler"), 1e-3, 0.005, [late, early, later])
     other = simulate(system, find("euler"), 1e-3, 0.005, [early, later])
     assert one.positions.tolist() == other.positions.tolist()
+    second, first = Change(0.0019, "drag", 0.1), Change(0.0011, "drag", 0.5)
+    assert changes_by_step((second, first), 1e-3) == {2: [first, second]}
 
 
 def test_changes_at_or_after_the_end_change_nothing() -> None:
@@ -231,7 +233,7 @@ def test_changes_at_or_after_the_end_change_nothing() -> None:
         (Change(0.001, "drgg", 0.1), "unknown parameter 'drgg': did you mean 'drag'?"),
         (Change(0.001, "masses", 0.1), "unknown parameter 'masses': did you mean 'mass'?"),
         (Change(0.001, "drag", -0.1), "drag = -0.1: expected a number >= 0 [N s/m]"),
-        (Change(0.001, "mass", 0.0), "masses = 0: expected a number > 0 [kg]"),
+        (Change(0.001, "mass", 0.0), "mass = 0: expected a number > 0 [kg]"),
         (Change(0.001, "stiffness", float("nan")), "stiffness = nan: expected a finite number [N/m]"),
         (Change(-0.001, "drag", 0.1), "change time = -0.001: expected a finite number >= 0 [s]"),
         (Change(float("nan"), "drag", 0.1), "change time = nan: expected a finite number >= 0 [s]"),

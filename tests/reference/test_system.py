@@ -277,6 +277,22 @@ def test_renumbering_by_hand() -> None:
 
 @property_test
 @given(made=meshes)
+def test_springs_listed_backwards_or_from_their_other_ends_are_the_same_springs(made: MassSpringSystem) -> None:
+    """Each keeps its two masses and its parameters."""
+
+    def springs(system: MassSpringSystem) -> list[Any]:
+        """What each spring is, in an order of its own."""
+        values = np.column_stack([np.sort(system.springs), system.rest_lengths, system.stiffness, system.damping])
+        return sorted(values.tolist())
+
+    assert springs(made.with_springs_reversed()) == springs(made)
+    assert springs(made.with_ends_swapped()) == springs(made)
+    assert made.with_springs_reversed().springs.tolist() == made.springs[::-1].tolist()
+    assert made.with_ends_swapped().springs.tolist() == made.springs[:, ::-1].tolist()
+
+
+@property_test
+@given(made=meshes)
 def test_a_dictionary_of_plain_values_makes_the_same_system(made: MassSpringSystem) -> None:
     """Through JSON and back, to the bit."""
     document = made.to_dict()

@@ -1,0 +1,131 @@
+"""The energy error of every stepper over time, and what each does to a free string's momentum."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from experiments.energy import DURATION, KINDS, Row
+from experiments.experiment import Result
+from reference.pendulum import PendulumMotion
+from reference.state import Array
+from report.figures import COLOURS, Picture, new_figure
+from report.figures.labels import End, label_ends
+
+#: Each kind of energy's colour and marker, none if it was not told.
+LOOKS: dict[str | None, dict[str, str]] = {
+    "bounded": {"color": COLOURS[2], "marker": "o"},
+    "growing": {"color": COLOURS[1], "marker": "^"},
+    "decaying": {"color": COLOURS[0], "marker": "v"},
+    None: {"color": COLOURS[6], "marker": ""},
+}
+
+#: The largest error is drawn of each of so many spans of time.
+SPANS = 30
+
+LOWEST, HIGHEST = 1e-9, 1e5
+
+#: What a kind of stepper is called in a label, where that is not its own word.
+WORDS = {"engine_scheme": "engine scheme", "lecture": "lecture listing"}
+
+#: Where no error at all is drawn: a logarithm has no place for it.
+FLOOR = 1e-17
+
+
+def draw(result: Result) -> Picture:
+    """Energy above, one line for all steppers that do the same; momentum below, two dots for each."""
+    rows: Sequence[Row] = result.data["rows"]
+    free = [row for row in rows if row.momentum is not None]
+    figure, (above, below) = new_figure(nrows=2, figsize=(11, 12.5), height_ratios=[1.25, 1])
+    _energy(above, rows)
+    _momentum(below, free, result.data["rounding"])
+    return Picture(figure, _alt(rows, free))
+
+
+def _energy(axes: Any, rows: Sequence[Row]) -> None:
+    axes.set_yscale("log")
+    axes.set_xlim(0, DURATION)
+    axes.set_ylim(LOWEST, HIGHEST)
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("largest energy error in a second [of what falling to rest releases]")
+    axes.set_title(
+        "Measured: energy of an undamped string (dashed: with rods for springs; rings: engines)",
+        loc="left",
+        fontsize=11,
+    )
+    ends: list[End] = []
+    torn: list[End] = []
+    for group in _groups(rows):
+        times, errors = _largest(group[0].times, group[0].errors)
+        look, line = LOOKS[group[0].measured], "--" if _on_rods(group[0]) else "-"
+        axes.plot(times, errors, line, markersize=5, markevery=3, **look)
+        if any(row.stepper.kind == "engine" for row in group):
+            axes.plot(times, errors, "o", fillstyle="none", color="#000000", markersize=9, markevery=(1, 7))
+        end = End(float(times[-1]), float(errors[-1]), _label(group), look["color"])
+        (ends if group[0].outcome.ending == "done" else torn).append(end)
+    label_ends(axes, ends, line=0.031)
+    beside = max((end.x for end in torn), default=0.0) / DURATION + 0.04
+    for i, end in enumerate(torn):
+        place = {"textcoords": "axes fraction", "fontsize": 9, "color": "#222222", "va": "center"}
+        leader = {"arrowstyle": "-", "color": end.color, "relpos": (0, 0.5)}
+        text = f"{end.text}, torn at {end.x:.2g} s"
+        axes.annotate(text, (end.x, end.y), (beside, 0.9 - 0.035 * i), arrowprops=leader, **place)
+
+
+def _groups(rows: Sequence[Row]) -> list[list[Row]]:
+    """Steppers that are the same without damping, and whose energy did the same; those with an error to draw."""
+    groups: dict[tuple[str, str | None], list[Row]] = {}
+    for row in rows:
+        if len(row.times) > 1:
+            groups.setdefault((row.alike or row.stepper.name, row.measured), []).append(row)
+    return list(groups.values())
+
+
+def _label(group: Sequence[Row]) -> str:
+    first, others = group[0], Counter(WORDS.get(row.stepper.kind, row.stepper.kind) for row in group[1:])
+    names = [first.stepper.name, *(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in others.items())]
+    predicted = f" (predicted {first.predicted})" if first.predicted not in (None, first.measured) else ""
+    return f"{', '.join(names)}: {first.measured or 'not told'}{predicted}"
+
+
+def _on_rods(row: Row) -> bool:
+    return row.scheme is not None and row.scheme.equations is PendulumMotion
+
+
+def _largest(times: Array, errors: Array) -> tuple[Array, Array]:
+    """The largest error of each span, at the span's end; of the last one, at the last time."""
+    span = np.minimum(times / DURATION * SPANS, SPANS - 1).astype(int)
+    filled = np.unique(span)
+    largest = np.array([np.abs(errors[span == i]).max() for i in filled])
+    return np.minimum((filled + 1) * DURATION / SPANS, times[-1]), np.clip(largest, LOWEST, HIGHEST)
+
+
+def _momentum(axes: Any, rows: Sequence[Row], rounding: float) -> None:
+    """Dots for the two momenta, on a line for each stepper."""
+    for y, row in enumerate(rows):
+        linear, angular = (max(value or 0.0, FLOOR) for value in (row.momentum, row.angular_momentum))
+        axes.plot([linear, angular], [y, y], "-", color="#bbbbbb", linewidth=1)
+        axes.plot(linear, y, "o", color=COLOURS[6], markersize=6)
+        axes.plot(angular, y, "D", color=COLOURS[3], markersize=6, fillstyle="none", markeredgewidth=1.6)
+    axes.axvline(rounding, color="#777777", linewidth=1)
+    axes.text(rounding, -1.1, " rounding up to here", fontsize=9, color="#555555", va="center")
+    axes.set_xscale("log")
+    axes.set_xlim(FLOOR / 2, 5)
+    axes.set_ylim(len(rows) - 0.4, -1.8)
+    axes.set_yticks(range(len(rows)), [row.stepper.name for row in rows], fontsize=9)
+    axes.set_xlabel("largest error: dots, momentum [of sum m |v|]; diamonds, angular momentum [of that times size]")
+    axes.set_title("Measured: momentum of a free string", loc="left", fontsize=11)
+
+
+def _alt(rows: Sequence[Row], free: Sequence[Row]) -> str:
+    kinds = "; ".join(
+        f"{kind}: {', '.join(row.stepper.name for row in rows if row.measured == kind) or 'none'}" for kind in KINDS
+    )
+    momenta = ", ".join(f"{row.stepper.name} {row.momentum:.0e} and {row.angular_momentum:.0e}" for row in free)
+    return (
+        f"Above: energy errors over time, on a logarithmic axis. {kinds}. Below: what a free string's momentum and "
+        f"angular momentum are off: {momenta}."
+    )

@@ -1,0 +1,336 @@
+"""The energy experiment: energies by their closed forms, kinds as theory says, and who keeps momentum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from engines.engine import Engine, demands
+from engines.isolation import EngineStepper
+from experiments.energy import (
+    DT,
+    EVERY,
+    FREE_DURATION,
+    PARTS,
+    STRING,
+    Bench,
+    Row,
+    bench,
+    change,
+    energy_errors,
+    kind_of,
+    measure,
+    predicted_kind,
+    result_of,
+    rounding,
+)
+from reference.catalogue import Scheme, find
+from reference.conserved import angular_momentum, momentum
+from reference.outcome import first_torn
+from reference.pendulum import PendulumMotion
+from reference.scenes import find as find_scene
+from reference.simulate import simulate
+from reference.state import Array, State
+from reference.stepper import SchemeStepper, Stepper, catalogued
+from reference.system import MassSpringSystem
+from report.figures import draw
+from tests import wrong
+from tests.conformance.doctored import Doctored, Euler
+from tests.engines.misbehaving import Misbehaving, Segfaults
+from tests.reference.systems import IN_PLACE, WHOLE_STATE, label
+
+TURNED_SIDEWAYS = wrong.stepped(wrong.sideways, find("kick_drift"))
+ONE_SIDED = wrong.stepped(wrong.one_sided, find("kick_drift"))
+
+
+@pytest.fixture(scope="module")
+def on() -> Bench:
+    """The experiment's own."""
+    return bench()
+
+
+# --- Energy, in closed form ---
+
+#: |R(i z)|^2 of the schemes whose step multiplies an undamped oscillator's complex amplitude by R(i z), z = dt w: its
+#: energy, m w^2 |amplitude|^2 / 2, is multiplied by that (Hairer and Wanner II, IV.2).
+AMPLIFICATION: dict[str, Callable[[float], float]] = {
+    "euler": lambda z: 1 + z**2,
+    "heun": lambda z: 1 + z**4 / 4,
+    "rk4": lambda z: 1 - z**6 / 72 + z**8 / 576,
+    "backward_euler": lambda z: 1 / (1 + z**2),
+    "implicit_midpoint": lambda z: 1.0,
+}
+
+
+def check_energy_of_an_oscillator(scheme: Scheme, name: str) -> None:
+    """E(n dt) / E(0) = |R(i dt w)|^2n for one mass on one spring without weight, let go 1 cm from rest; n is 400.
+
+    Steps round the energy by some eps each, and the errors are taken every 8 steps: 400 eps times 10 is 1e-12.
+    """
+    system = find_scene("spring").system({"gravity": 0.0, "stiffness": 10.0})
+    times, errors = energy_errors(system, simulate(system, scheme, DT, 400 * DT))
+    energies = AMPLIFICATION[name](DT * np.sqrt(10.0 / 0.02)) ** (times / DT)
+    assert np.abs((1 + errors) / energies - 1).max() < 1e-12
+
+
+@pytest.mark.parametrize("name", AMPLIFICATION)
+def test_energy_of_an_oscillator_is_multiplied_at_each_step(name: str) -> None:
+    """What the experiment calls the energy error is that of theory, as a part of the energy there is."""
+    check_energy_of_an_oscillator(find(name), name)
+
+
+@pytest.mark.parametrize(
+    ("scheme", "name"),
+    [
+        (wrong.heun_without_half, "heun"),
+        (wrong.rk4_equally_weighted, "rk4"),
+        (wrong.explicit_in_place_of_backward, "backward_euler"),
+        (find("velocity_verlet"), "implicit_midpoint"),
+        (find("heun"), "euler"),
+    ],
+    ids=label,
+)
+def test_energy_of_an_oscillator_fails_on_wrong_schemes(scheme: Scheme, name: str) -> None:
+    """Each multiplies it by something else, or lets it swing."""
+    with pytest.raises(AssertionError):
+        check_energy_of_an_oscillator(scheme, name)
+
+
+def test_energy_after_a_string_is_torn_is_not_counted() -> None:
+    """Euler tears the soft string: the last time is before that, by less than the EVERY steps between two times."""
+    system = find_scene("string").system(STRING)
+    trajectory = catalogued()["euler"].run(system, DT, 2000).trajectory
+    assert trajectory is not None
+    times, errors = energy_errors(system, trajectory)
+    torn = trajectory.times[first_torn(system, trajectory, strain=100.0)]
+    assert times[-1] < torn <= times[-1] + EVERY * DT
+    assert np.isfinite(errors).all()
+
+
+# --- Its kind ---
+
+
+def check_kind(scheme: Scheme, on: Bench, kind: str) -> None:
+    """By theory and by measurement the energy of the undamped string is of that kind."""
+    row = measure(SchemeStepper(scheme), on)
+    assert (row.predicted, row.measured) == (kind, kind)
+
+
+#: By |R(i z)| above, and for the symplectic ones by HLW IX.8. In place, one mass alone would do as Euler and Heun.
+KINDS = {
+    "euler": "growing",
+    "heun": "growing",
+    "rk4": "decaying",
+    "backward_euler": "decaying",
+    "kick_drift": "bounded",
+    "drift_kick": "bounded",
+    "velocity_verlet": "bounded",
+    "implicit_midpoint": "bounded",
+    **{scheme.name: "growing" for scheme in IN_PLACE},
+}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_energy_is_of_the_kind_that_theory_says(name: str, on: Bench) -> None:
+    """Bounded for symplectic schemes; the others gain or lose."""
+    check_kind(find(name), on, KINDS[name])
+
+
+@pytest.mark.parametrize(
+    ("scheme", "kind"),
+    [
+        (wrong.kick_drift_gaining_energy, "bounded"),
+        (wrong.verlet_with_one_force, "bounded"),
+        (wrong.in_order_of_number, "bounded"),
+        (wrong.explicit_in_place_of_backward, "growing"),
+        (wrong.heun_without_half, "decaying"),
+    ],
+    ids=label,
+)
+def test_the_kind_of_energy_fails_on_wrong_schemes(scheme: Scheme, kind: str, on: Bench) -> None:
+    """Even growth by a part in a million a step is told from a swing of some percent."""
+    with pytest.raises(AssertionError):
+        check_kind(scheme, on, kind)
+
+
+T = np.linspace(0, 30, 800)
+SWING = 0.05 * np.sin(17 * T)
+
+
+@pytest.mark.parametrize(
+    ("errors", "kind"),
+    [
+        (SWING, "bounded"),
+        (np.zeros_like(T), "bounded"),
+        (SWING + 0.03 * np.sin(T / 3), "bounded"),
+        (SWING + 0.002 * T, "growing"),
+        (SWING - 0.002 * T, "decaying"),
+        (1e-9 * np.exp(T / 3), "growing"),
+        (np.exp(-T) - 1, "decaying"),
+        (np.where(T < 15, T, 30 - T), "growing"),
+        (T[: 2 * PARTS - 1], None),
+    ],
+    ids=["swing", "none", "slow", "up", "down", "exponential", "to rest", "beyond all there is", "too short"],
+)
+def test_kinds_of_made_up_errors(errors: Array, kind: str | None) -> None:
+    """A swing, fast or slow, is none; a trend is one, however small against the swing; no more errors, no kind."""
+    assert kind_of(errors) == kind
+
+
+def in_momenta(motion: Any, state: State, dt: float) -> State:
+    """Semi-implicit Euler of a pendulum in its angles q and their momenta p = M(q) q', momenta first (HLW VI.3).
+
+    p1 = p0 - dt dH/dq(q0, p1), by iteration; q1 = q0 + dt M(q0)^-1 p1. With w = M(q)^-1 p, and as Lagrange's equations
+    say, -dH/dq = p' = M w' + (dM/dt) w with w' the acceleration at (q, w).
+    """
+    q, lengths = state.positions, motion.system.rest_lengths
+    hanging = np.cumsum(motion.system.masses[:0:-1])[::-1]
+    longest = np.maximum.outer(np.arange(len(q)), np.arange(len(q)))
+    inertia = np.outer(lengths, lengths) * hanging[longest]
+    between = q[:, None] - q[None, :]
+    mass = inertia * np.cos(between)
+    start = mass @ state.velocities
+    momenta = start
+    for _ in range(100):
+        w = np.linalg.solve(mass, momenta)
+        turning = -inertia * np.sin(between) * (w[:, None] - w[None, :])
+        before, momenta = momenta, start + dt * (mass @ motion.acceleration(State(0.0, q, w)) + turning @ w)
+        if np.abs(momenta - before).max() < 1e-15 * np.abs(momenta).max():
+            break
+    moved = q + dt * np.linalg.solve(mass, momenta)
+    return State(state.time + dt, moved, np.linalg.solve(inertia * np.cos(moved[:, None] - moved[None, :]), momenta))
+
+
+def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
+    """In angles and rates kick-drift is not symplectic; in angles and momenta the same idea is, and stays bounded.
+
+    So what MuJoCo's cable gains is not in its equations, nor in its dt.
+    """
+    right = Scheme(in_momenta, 1, "scheme", springs_only=False)
+    kinds = [measure(SchemeStepper(s, PendulumMotion), on).measured for s in (right, find("kick_drift"))]
+    assert kinds == ["bounded", "growing"]
+
+
+def test_engines_do_with_energy_what_their_schemes_do(engine: Engine, on: Bench) -> None:
+    """An engine is identified, and its energy is of its scheme's kind; theirs differ by chaos, from rounding on."""
+    row = measure(EngineStepper(engine), on)
+    assert row.scheme is not None
+    assert row.measured == measure(row.scheme, on).measured
+    assert row.predicted == predicted_kind(row.scheme, on.at_rest[row.scheme.equations])
+
+
+# --- Momentum ---
+
+
+def lost(scheme: Scheme, on: Bench, quantity: Callable[[MassSpringSystem, State], Array]) -> float:
+    """How far a quantity gets from its start on the free string."""
+    trajectory = SchemeStepper(scheme).run(on.free, DT, round(FREE_DURATION / DT)).trajectory
+    assert trajectory is not None
+    return change(on.free, trajectory, quantity)
+
+
+def check_momentum(scheme: Scheme, on: Bench) -> None:
+    """d/dt sum m v = 0 without outer forces, to one rounding in each step at most."""
+    assert lost(scheme, on, momentum) < rounding()
+
+
+def check_angular_momentum(scheme: Scheme, on: Bench) -> None:
+    """d/dt sum m x cross v = 0 without outer forces, to one rounding in each step at most."""
+    assert lost(scheme, on, angular_momentum) < rounding() * on.free.size
+
+
+@pytest.mark.parametrize("scheme", WHOLE_STATE, ids=label)
+def test_whole_state_schemes_keep_momentum(scheme: Scheme, on: Bench) -> None:
+    """The two forces of a spring are taken from one state, and cancel."""
+    check_momentum(scheme, on)
+
+
+@pytest.mark.parametrize("scheme", [*IN_PLACE, wrong.in_order_of_number, ONE_SIDED], ids=label)
+def test_momentum_fails_in_place_and_one_sided(scheme: Scheme, on: Bench) -> None:
+    """The finding that belongs in words: in-place variants do not conserve momentum."""
+    with pytest.raises(AssertionError):
+        check_momentum(scheme, on)
+
+
+@pytest.mark.parametrize("name", ["kick_drift", "drift_kick", "velocity_verlet", "implicit_midpoint"])
+def test_symplectic_schemes_keep_angular_momentum(name: str, on: Bench) -> None:
+    """It is quadratic in positions and velocities, and they keep what is (HLW VI.4, IV.2)."""
+    check_angular_momentum(find(name), on)
+
+
+@pytest.mark.parametrize(
+    "scheme", [*(find(n) for n in ("euler", "heun", "rk4", "backward_euler")), *IN_PLACE, TURNED_SIDEWAYS], ids=label
+)
+def test_angular_momentum_fails_on_others(scheme: Scheme, on: Bench) -> None:
+    """Each mixes positions and forces of two times, or has forces that are not along the springs."""
+    with pytest.raises(AssertionError):
+        check_angular_momentum(scheme, on)
+
+
+def test_engines_fly_free_if_they_say_so(engine: Engine, on: Bench) -> None:
+    """Momentum to rounding; or unsupported with a reason, if and only if the string demands what they cannot do."""
+    outcome = EngineStepper(engine).run(on.free, DT, round(FREE_DURATION / DT))
+    if set(demands(on.free)) <= engine.capabilities:
+        assert outcome.trajectory is not None
+        assert change(on.free, outcome.trajectory, momentum) < rounding()
+    else:
+        assert outcome.ending == "unsupported"
+        assert "cannot do" in outcome.reason
+
+
+# --- What is said of it ---
+
+
+@pytest.fixture(scope="module")
+def mixed(on: Bench) -> list[Row]:
+    """Two schemes, one in place, an engine that claims kick-drift and does Euler, one that crashes."""
+    names = ("kick_drift", "rk4", "heun_link_by_link", "pendulum_kick_drift")
+    steppers: list[Stepper] = [catalogued()[name] for name in names]
+    steppers += [EngineStepper(engine) for engine in (Doctored(), Doctored(Euler), Misbehaving(Segfaults))]
+    return [measure(stepper, on) for stepper in steppers]
+
+
+def test_findings_follow_the_kinds(mixed: list[Row]) -> None:
+    """Who does what; who not as predicted, and why with rods; who loses momentum, and why in place."""
+    said = " ".join(result_of(mixed).findings)
+    assert "bounded in 2, growing in 3, decaying in 1 steppers: as predicted in 5 of 6." in said
+    assert "Predicted bounded, measured growing: pendulum_kick_drift. The prediction is for small swings" in said
+    assert "Of the engines, energy is bounded in KickDrift; growing in Euler." in said
+    assert "4 of 5 steppers keep a free string's momentum" in said
+    assert "In-place variants do not conserve momentum (heun_link_by_link)" in said
+
+
+def test_findings_are_not_written_for_one_outcome(mixed: list[Row]) -> None:
+    """Without rods, in-place variants and engines not a word of them; other kinds are other exceptions; nobody."""
+    said = " ".join(result_of(mixed[:2]).findings)
+    assert "as predicted in 2 of 2" in said
+    for word in ("small swings", "In-place", "engines"):
+        assert word not in said
+    turned = replace(mixed[1], measured="growing")
+    said = " ".join(result_of([mixed[0], turned]).findings)
+    assert "Predicted decaying, measured growing: rk4." in said
+    assert "small swings" not in said
+    assert result_of([]).findings == ["No stepper has both a predicted and a measured kind of energy."]
+
+
+def test_failures_have_their_reasons(mixed: list[Row]) -> None:
+    """A crash, a blow-up; and on the free string, what cannot fly."""
+    result = result_of(mixed)
+    said = "; ".join(result.failures)
+    assert "Segfaults: crashed, killed by SIGSEGV" in said
+    assert "Euler: diverged, spring" in said
+    assert "pendulum_kick_drift on the free string: unsupported, expected a string" in said
+    (crashed,) = (row for row in result.tables[0].rows if row[0] == "Segfaults")
+    assert crashed[1:6] == [None] * 5
+
+
+@pytest.mark.parametrize("count", [0, 1, 7])
+def test_the_figure_is_drawn_with_what_there_is(mixed: list[Row], count: int) -> None:
+    """The words that stand for it name the kinds."""
+    picture = draw("energy", result_of(mixed[:count]))
+    assert picture.svg().startswith("<svg")
+    assert ("bounded: kick_drift" if count else "bounded: none") in picture.alt
