@@ -233,11 +233,7 @@ def _speeds(costs: Sequence[Cost]) -> Table:
 
 
 def _findings(costs: Sequence[Cost]) -> list[str]:
-    sentences = [
-        f"On {processor()}, a step of the string of {MASSES[0]} masses takes the {ANCHOR} kernel "
-        f"{1e9 * anchor(costs):.0f} ns.",
-        *_speed_findings(costs),
-    ]
+    sentences = []
     for what, runs_as in (("scheme", ("kernel", "Python")), ("engine", ("engine",))):
         met = [(p.seconds, p.dt, c) for c in costs if c.runs_as in runs_as for p in c.points if p.error <= GOAL]
         if met:
@@ -246,7 +242,11 @@ def _findings(costs: Sequence[Cost]) -> list[str]:
                 f"The cheapest {what} that ends within {GOAL:g} m of the truth is {cost.stepper.name}, with "
                 f"dt = {dt:g} s: {1e3 * seconds:.2g} ms for {DURATION:g} s of motion."
             )
-    return [*sentences, *_twin_findings(costs)]
+    sentences.append(
+        f"On {processor()}, a step of the string of {MASSES[0]} masses takes the {ANCHOR} kernel "
+        f"{1e9 * anchor(costs):.0f} ns."
+    )
+    return [*sentences, *_speed_findings(costs), *_twin_findings(costs)]
 
 
 def _speed_findings(costs: Sequence[Cost]) -> list[str]:
@@ -260,8 +260,8 @@ def _speed_findings(costs: Sequence[Cost]) -> list[str]:
         slower = {c.stepper.name: 1 / dict(c.steps_per_second)[masses] / anchor(costs, masses) for c in engines}
         quickest, slowest = min(slower, key=slower.__getitem__), max(slower, key=slower.__getitem__)
         sentences.append(
-            f"With {masses} masses engines take {_rounded(slower[quickest])} ({quickest}) to "
-            f"{_rounded(slower[slowest])} ({slowest}) times as long as that kernel."
+            f"With {masses} masses engines take {rounded(slower[quickest])} ({quickest}) to "
+            f"{rounded(slower[slowest])} ({slowest}) times as long as that kernel."
         )
     return sentences
 
@@ -285,7 +285,8 @@ def _twin_findings(costs: Sequence[Cost]) -> list[str]:
     ]
 
 
-def _rounded(ratio: float) -> str:
+def rounded(ratio: float) -> str:
+    """To two figures, as people write it."""
     return f"{float(f'{ratio:.2g}'):,g}"
 
 

@@ -37,7 +37,7 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 
 #: A soft string: with this dt [s], dt w is at most 0.20, so that slow growth and decay are slow.
 STRING: Mapping[str, float] = {"masses": 3, "stiffness": 10, "angle": 60}
-DT, DURATION = 5e-3, 30.0
+DT, DURATION = 5e-3, 20.0
 
 #: Every so many steps the energy is looked at.
 EVERY = 8

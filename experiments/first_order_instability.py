@@ -170,7 +170,7 @@ def _over_time(true: Trajectory, fates: Sequence[Fate]) -> Table:
 
 
 def _findings(fates: Sequence[Fate]) -> list[str]:
-    return [_ends(fates), *(_grows(fate) for fate in fates)]
+    return [*(_grows(fate) for fate in fates), _ends(fates)]
 
 
 def _ends(fates: Sequence[Fate]) -> str:

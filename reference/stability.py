@@ -143,6 +143,7 @@ def spectral_radius(jacobian: Array) -> float:
     return float(np.abs(np.linalg.eigvals(jacobian)).max()) if np.isfinite(jacobian).all() else np.inf
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def growth(scheme: Scheme, rest: Equilibrium, dt: float) -> float:
     """The spectral radius of a scheme's step."""
     try:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.cost import ANCHOR, DT, DURATION, MASSES, Cost, anchor
+from experiments.cost import ANCHOR, DT, DURATION, MASSES, Cost, anchor, rounded
 from experiments.experiment import Result
 from report.figures import Picture, look, new_figure
 
@@ -57,7 +57,7 @@ def _alt(costs: list[Cost]) -> str:
     for cost in costs:
         point = next(p for p in cost.points if p.dt == DT)
         slower = point.seconds / round(DURATION / DT) / anchor(costs)
-        parts.append(f"{cost.stepper.name} ({cost.runs_as}) {point.error:.1e} m, {slower:.1f}")
+        parts.append(f"{cost.stepper.name} ({cost.runs_as}) {point.error:.1e} m, {rounded(slower)}")
     return (
         "Left: logarithmic plot of error against wall time. Right: steps per second against masses. Of each stepper "
         f"its error at dt = {DT:g} s and the time of a step in steps of the {ANCHOR} kernel: {'; '.join(parts)}."

@@ -24,7 +24,7 @@ LOOKS: dict[str | None, dict[str, str]] = {
 }
 
 #: The largest error is drawn of each of so many spans of time.
-SPANS = 30
+SPANS = 20
 
 LOWEST, HIGHEST = 1e-9, 1e5
 
