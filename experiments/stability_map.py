@@ -86,7 +86,7 @@ def stability_map(
     x: Axis,
     y: Axis,
     progress: Progress = lambda _: None,
-    points: int | None = None,
+    resolution: int | None = None,
 ) -> StabilityMap:
     """Measure growth over a plane and predict its boundary.
 
@@ -94,7 +94,7 @@ def stability_map(
         stepper: a scheme or an engine.
         system_at: the system for given values of the axes.
         dt: the step where no axis is dt [s].
-        points: along each axis; left out, as many as the stepper's speed allows.
+        resolution: points along each axis; left out, as many as the stepper's speed allows.
 
     Raises:
         InputError: for axes that make no sense, or a stepper that is neither scheme nor engine.
@@ -108,7 +108,7 @@ def stability_map(
     middle = {axis.name: (axis.low + axis.high) / 2 for axis in (x, y) if axis.name != "dt"}
     scheme, on_rods = _scheme_of(stepper, system_at(middle))
     swept = isinstance(stepper, SchemeStepper) and scheme is not None and not scheme.springs_only and not on_rods
-    count = points or (SWEPT if swept else ENGINE)
+    count = resolution or (SWEPT if swept else ENGINE)
     xs, ys = x.values(count), y.values(count)
     points = [{x.name: float(a), y.name: float(b)} for b in ys for a in xs]
     if swept:

@@ -109,7 +109,7 @@ def test_an_engine_has_a_map_too() -> None:
     engine = next(e for e in registry().values() if EngineStepper(e).version and "stretched" in e.capabilities)
     system_at, dt = system_maker("string", {"masses": "3"})
     x, y = axes_for(("dt", "damping"), ["damping=0.1:0.5"], system_at({}))
-    found = stability_map(EngineStepper(engine), system_at, dt, x, y, points=6)
+    found = stability_map(EngineStepper(engine), system_at, dt, x, y, resolution=6)
     limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])[:, None]
     assert not np.isfinite(found.growth[found.x_values > 1.1 * limit]).any()
     assert (found.growth[(found.x_values < 0.9 * limit)] < 3e-3).all()
