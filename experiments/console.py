@@ -45,7 +45,7 @@ def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]
         numbers = any(isinstance(row[i], float) for row in rows)
         # Names stay whole; only sentences are folded.
         table.add_column(
-            escape(column), justify="right" if numbers else "left", no_wrap=max(map(len, cells), default=0) < 32
+            escape(column), justify="right" if numbers else "left", no_wrap=max(map(len, cells), default=0) < 40
         )
     for row in rows:
         table.add_row(*(escape(plain(value)) for value in row))

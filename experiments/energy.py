@@ -217,7 +217,7 @@ def rounding() -> float:
 
 
 def _summary(rows: Sequence[Row]) -> Table:
-    columns = ["stepper", "predicted", "measured", "energy error [rel.]", "momentum [rel.]", "angular [rel.]"]
+    columns = ["stepper", "predicted", "measured", "energy [1]", "momentum [1]", "angular [1]"]
     cells = []
     for row in rows:
         errors = [finite(value) for value in (row.error, row.momentum, row.angular_momentum)]
@@ -233,7 +233,7 @@ def _reason(row: Row) -> str | None:
 
 
 def _over_time(rows: Sequence[Row]) -> Table:
-    columns = ["stepper", "identified as", "time [s]", "energy error [rel.]"]
+    columns = ["stepper", "identified as", "time [s]", "energy error [1]"]
     cells = [
         [row.stepper.name, row.alike, time, finite(error)]
         for row in rows

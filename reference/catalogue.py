@@ -68,7 +68,13 @@ def schemes() -> Mapping[str, Scheme]:
     """All schemes by name, the simplest first: where two do the same, the first is the one to name."""
     for file in _FILES:
         importlib.import_module(file)
-    return MappingProxyType(_SCHEMES)
+    # By file, whichever was imported first: sorting is stable, and keeps the order within each.
+    return MappingProxyType(dict(sorted(_SCHEMES.items(), key=lambda entry: _place(entry[1]))))
+
+
+def _place(entry: Scheme) -> int:
+    module = entry.step.__module__
+    return _FILES.index(module) if module in _FILES else len(_FILES)
 
 
 def find(name: str) -> Scheme:

@@ -205,7 +205,7 @@ class LectureListing:
 def why_no_string(system: MassSpringSystem) -> str | None:
     """Why a system is not the lecture's string, or None if it is."""
     if system.dimension != 2 or not system.is_string:
-        return "the lecture's listings step strings in 2D only"
+        return "the lecture's listings step strings only, in 2D and hung at their first mass"
     if system.damping.any():
         return "the lecture's listings have drag, but no damping along the springs"
     if system.gravity[0]:

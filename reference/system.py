@@ -225,12 +225,18 @@ def _springs(value: npt.ArrayLike, positions: Array) -> IntArray:
     if springs.ndim != 2 or springs.shape[1] != 2 or not np.issubdtype(springs.dtype, np.integer):
         raise InputError(f"springs has shape {springs.shape} of {springs.dtype}: expected (s, 2) whole numbers")
     n = len(positions)
-    for j, (a, b) in enumerate(springs.tolist()):
-        if not (0 <= a < n and 0 <= b < n):
-            raise InputError(f"springs[{j}] = {[a, b]}: expected masses from 0 to {n - 1}")
-        if a == b:
-            raise InputError(f"springs[{j}] = {[a, b]}: expected two different masses")
-        if np.array_equal(positions[a], positions[b]):
-            at = positions[a].tolist()
-            raise InputError(f"springs[{j}] = {[a, b]}: expected a length > 0, both masses start at {at}")
+    outside = ((springs < 0) | (springs >= n)).any(axis=1)
+    _refuse_spring(springs, outside, f"expected masses from 0 to {n - 1}")
+    a, b = springs.T
+    _refuse_spring(springs, np.equal(a, b), "expected two different masses")
+    together = (positions[a] == positions[b]).all(axis=1)
+    if together.any():
+        at = positions[a[np.argmax(together)]].tolist()
+        _refuse_spring(springs, together, f"expected a length > 0, both masses start at {at}")
     return springs.astype(np.int64)
+
+
+def _refuse_spring(springs: npt.NDArray[Any], bad: BoolArray, expected: str) -> None:
+    if bad.any():
+        j = int(np.argmax(bad))
+        raise InputError(f"springs[{j}] = {springs[j].tolist()}: {expected}")

@@ -135,7 +135,7 @@ def test_a_sweep_tells_which_systems_blew_up() -> None:
         ({"stiffness": np.ones(3)}, "stiffness has shape (3,): expected (2,), one for each system"),
         ({"stiffness": np.array([1.0, -1.0])}, "stiffness = -1: expected a number >= 0 [N/m]"),
         ({"stifness": np.ones(2)}, "unknown parameter 'stifness': did you mean 'stiffness'?"),
-        ({"mass": np.array([0.1, np.nan])}, "masses = nan: expected a finite number [kg]"),
+        ({"mass": np.array([0.1, np.nan])}, "mass = nan: expected a finite number [kg]"),
     ],
 )
 def test_a_sweep_of_nonsense_is_refused(parameters: dict[str, Array], message: str) -> None:

@@ -141,8 +141,8 @@ def test_listings_change_parameters_on_the_fly(listing: LectureListing) -> None:
 @pytest.mark.parametrize(
     ("system", "reason"),
     [
-        (random_mesh(1, 5, 2), "the lecture's listings step strings in 2D only"),
-        (random_mesh(1, 5, 3), "the lecture's listings step strings in 2D only"),
+        (random_mesh(1, 5, 2), "the lecture's listings step strings only, in 2D and hung at their first mass"),
+        (random_mesh(1, 5, 3), "the lecture's listings step strings only, in 2D and hung at their first mass"),
         (moving_string(3, damping=0.1), "the lecture's listings have drag, but no damping along the springs"),
         (
             replace(moving_string(3), gravity=np.array([1.0, -9.0])),
