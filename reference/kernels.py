@@ -25,8 +25,8 @@ from reference.state import Array, State
 from reference.system import MassSpringSystem
 from reference.tracing import trace
 
-#: From this many masses on, threads are worth their waking.
-THREADS_FROM = 20_000
+#: From this many springs on, threads are worth their waking (`springlab run speed` shows where).
+THREADS_FROM = 300_000
 
 
 def advance(system: MassSpringSystem, scheme: Scheme, dt: float, steps: int, threads: int | None = None) -> State:
@@ -51,7 +51,7 @@ class Kernel:
 
     def __init__(self, system: MassSpringSystem, scheme: Scheme, threads: int | None = None) -> None:
         if threads is None:
-            threads = (os.cpu_count() or 1) if len(system.masses) >= THREADS_FROM else 1
+            threads = (os.cpu_count() or 1) if len(system.springs) >= THREADS_FROM else 1
         self._threads = threads
         self._loops = loops_for(scheme, system, threads=threads > 1)
         self._arrays = arrays_of(system, self._loops)
