@@ -117,7 +117,7 @@ def _barrier_remarks() -> list[Remark]:
     """Slide 17's rule on masses that slide along a circle, and so should keep their velocity."""
     _, printed, projected = _barrier()
     what = "v_x *= t_x, v_y *= t_y keeps the tangential velocity"
-    places = {"at the side": printed[0], "half-way up": printed[9], "at the top": printed[18]}
+    places = {"at the right": printed[0], "half-way up": printed[9], "at the top": printed[18]}
     rows = [("17", what, f"of 1 m/s along the circle, left {place}", float(v), "m/s") for place, v in places.items()]
     return [*rows, ("17", "meant: v = (v.t) t", "of 1 m/s, left anywhere", float(projected.min()), "m/s")]
 

@@ -225,10 +225,10 @@ def _springs(value: npt.ArrayLike, positions: Array) -> IntArray:
     if springs.ndim != 2 or springs.shape[1] != 2 or not np.issubdtype(springs.dtype, np.integer):
         raise InputError(f"springs has shape {springs.shape} of {springs.dtype}: expected (s, 2) whole numbers")
     n = len(positions)
-    outside = ((springs < 0) | (springs >= n)).any(axis=1)
+    outside = np.asarray(((springs < 0) | (springs >= n)).any(axis=1))
     _refuse_spring(springs, outside, f"expected masses from 0 to {n - 1}")
     a, b = springs.T
-    _refuse_spring(springs, (springs[:, :1] == springs[:, 1:]).all(axis=1), "expected two different masses")
+    _refuse_spring(springs, np.asarray(a == b), "expected two different masses")
     together = (positions[a] == positions[b]).all(axis=1)
     if together.any():
         at = positions[a[np.argmax(together)]].tolist()

@@ -62,6 +62,15 @@ def new_figure(figsize: tuple[float, float], **options: Any) -> tuple[Any, Any]:
         return figure, figure.subplots(**options)
 
 
+def few_ticks(axes: Any) -> None:
+    """Label 1, 2 and 5 of every decade of a logarithmic axis of dt, in plain numbers that do not run into one another."""
+    from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+    axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+
+
 def look(i: int) -> dict[str, str]:
     """Colour and marker of the i-th thing in a figure."""
     return {"color": COLOURS[i % len(COLOURS)], "marker": MARKERS[i % len(MARKERS)]}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from experiments.experiment import Result
-from report.figures import Picture, look, new_figure
+from report.figures import Picture, few_ticks, look, new_figure
 
 
 def draw(result: Result) -> Picture:
@@ -17,20 +17,21 @@ def draw(result: Result) -> Picture:
     left.set_xlabel("dt [s]")
     left.set_ylabel("error after 0.1 s [m]")
     left.set_title("Advanced link by link, Heun is of first order", loc="left", fontsize=11)
-    left.legend(loc="lower right")
+    few_ticks(left)
+    left.legend(loc="center left", bbox_to_anchor=(0, 0.42))
     angles, printed, projected = result.data["barrier"]
     right.plot(np.degrees(angles), projected, "-", color=look(2)["color"])
     right.plot(np.degrees(angles), printed, "--", color=look(1)["color"])
     right.axhline(0, color="#888888", linewidth=0.8)
-    right.annotate("projected, v = (v.t) t", (100, 1), (0, -16), textcoords="offset points", color=look(2)["color"])
+    right.annotate("projected, v = (v.t) t", (0, 1), (4, 6), textcoords="offset points", color=look(2)["color"])
     right.annotate(
         "as printed, v = (v_x t_x, v_y t_y)", (0, -1), (16, -3), textcoords="offset points", color=look(1)["color"]
     )
-    right.set_xticks([0, 90, 180, 270, 360], ["side", "top", "side", "bottom", "side"])
-    right.set_ylim(-1.2, 1.2)
+    right.set_xticks([0, 90, 180, 270, 360], ["right", "top", "left", "bottom", "right"])
+    right.set_ylim(-1.3, 1.3)
     right.set_xlabel("place on the circle")
     right.set_ylabel("velocity along it that is kept [m/s of 1 m/s]")
-    right.set_title("The barrier's printed rule turns motion round at the sides", loc="left", fontsize=11)
+    right.set_title("The barrier's printed rule turns motion round on half the circle", loc="left", fontsize=11)
     found = ", ".join(f"{name} {order:.2f}" for name, (_, _, order) in orders.items())
     return Picture(
         figure,

@@ -19,7 +19,9 @@ def draw(result: Result) -> Picture:
     rows: Sequence[Row] = result.data["rows"]
     cases = list(dict.fromkeys(_case(row) for row in rows))
     names = list(dict.fromkeys(row.stepper for row in rows))
-    figure, panels = new_figure(ncols=len(cases), sharey=True, figsize=(11, 1.4 + 0.26 * len(names)), squeeze=False)
+    figure, panels = new_figure(
+        ncols=len(cases), sharex=True, sharey=True, figsize=(11, 1.4 + 0.26 * len(names)), squeeze=False
+    )
     for panel, case in zip(panels[0], cases, strict=True):
         _panel(panel, case, [row for row in rows if _case(row) == case], names)
     panels[0][0].set_yticks(range(len(names)), names)
@@ -29,6 +31,8 @@ def draw(result: Result) -> Picture:
 
 
 def _panel(panel: object, case: str, rows: Sequence[Row], names: Sequence[str]) -> None:
+    from matplotlib.ticker import NullFormatter
+
     axes: object = panel
     for row in rows:
         y = names.index(row.stepper)
@@ -40,6 +44,7 @@ def _panel(panel: object, case: str, rows: Sequence[Row], names: Sequence[str]) 
             word = _short(row)
             axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), va="center", fontsize=8, color="#555555")  # type: ignore[attr-defined]
     axes.set_xscale("log")  # type: ignore[attr-defined]
+    axes.xaxis.set_minor_formatter(NullFormatter())  # type: ignore[attr-defined]
     axes.set_title(case, fontsize=10, loc="left")  # type: ignore[attr-defined]
     axes.set_xlabel("dt [s]")  # type: ignore[attr-defined]
 
