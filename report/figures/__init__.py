@@ -63,7 +63,7 @@ def new_figure(figsize: tuple[float, float], **options: Any) -> tuple[Any, Any]:
 
 
 def few_ticks(axes: Any) -> None:
-    """Label 1, 2 and 5 of every decade of a logarithmic axis of dt, in plain numbers that do not run into one another."""
+    """Label 1, 2 and 5 of every decade of a logarithmic axis, in plain numbers that do not run into one another."""
     from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
