@@ -25,6 +25,9 @@ from reference.system import BoolArray, MassSpringSystem
 #: An eigenvalue this little over 1 may be rounding.
 MARGIN = 1e-9
 
+#: An eigenvalue this near to 1 is of motion that nothing resists.
+UNRESISTED = 1e-6
+
 #: How often dt is doubled or halved in search of a limit. Far beyond 1/w, eigenvalues near -1 are lost in rounding.
 UP, DOWN = 5, 22
 
@@ -139,8 +142,15 @@ def _by_differences(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
 
 
 def spectral_radius(jacobian: Array) -> float:
-    """The largest modulus of an eigenvalue: by how much the worst push grows in a step, in the long run."""
-    return float(np.abs(np.linalg.eigvals(jacobian)).max()) if np.isfinite(jacobian).all() else np.inf
+    """The largest modulus of an eigenvalue: by how much the worst push grows in a step, in the long run.
+
+    Eigenvalues of 1 are left out. They are of motion that no force resists, which goes on as it is pushed; they come in
+    pairs, and rounding tears a pair apart by its own root.
+    """
+    if not np.isfinite(jacobian).all():
+        return np.inf
+    values = np.linalg.eigvals(jacobian)
+    return float(np.abs(values[np.abs(values - 1) > UNRESISTED]).max(initial=1.0 - UNRESISTED))
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
