@@ -7,7 +7,7 @@ upright on the plane and pull on nothing that moves in it.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -71,6 +71,10 @@ class SoftString:
             velocities = self._world.velocities(self._body)
             self._world.set_velocities(self._body, velocities - self._drag * velocities)
         self._world.step()
+
+    def bare_step(self) -> Callable[[], object]:
+        """The world's step, without what drag takes off."""
+        return self._world.bare_step()
 
     def state(self) -> tuple[Array, Array]:
         """Positions [m] and velocities [m/s], each (n, 2)."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import ctypes
 import tempfile
 import weakref
+from collections.abc import Callable
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
@@ -89,6 +90,11 @@ class World:
         """Advance by dt."""
         client = self._client
         self._submit(client, self._advance(client))
+
+    def bare_step(self) -> Callable[[], object]:
+        """As `step`, for a loop that does nothing else."""
+        client, submit, advance = self._client, self._submit, self._advance
+        return lambda: submit(client, advance(client))
 
     def positions(self, body: int) -> Array:
         """Of all nodes [m], shape (nodes, 3)."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import metadata
 from typing import Protocol
@@ -41,6 +41,9 @@ class Simulation(Protocol):
 
     def step(self) -> None:
         """Let the engine advance by the dt it was started with."""
+
+    def bare_step(self) -> Callable[[], object]:
+        """The engine's own step and nothing else, to measure what the adapter adds to it."""
 
     def state(self) -> tuple[Array, Array]:
         """Positions [m] and velocities [m/s] of all masses in the system's order, each (n, d), as new arrays."""

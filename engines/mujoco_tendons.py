@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from types import ModuleType
 from typing import Any, Literal
 
@@ -119,6 +120,10 @@ class TendonSimulation:
     def step(self) -> None:
         """One mj_step."""
         self._mujoco.mj_step(self._model, self._data)
+
+    def bare_step(self) -> Callable[[], object]:
+        """mj_step."""
+        return partial(self._mujoco.mj_step, self._model, self._data)
 
     def state(self) -> tuple[Array, Array]:
         """Positions and velocities, read from the coordinates alone: nothing is computed in the engine."""

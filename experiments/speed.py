@@ -7,21 +7,25 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
 
+from engines.engine import Engine, registry
+from engines.isolation import isolated
 from experiments.comparison import Progress
 from experiments.environment import processor
 from experiments.experiment import Experiment, Result, Table
+from experiments.timing import adapter_overhead
 from experiments.tuned import TunedHeun
 from reference import catalogue
 from reference.errors import Unsupported
 from reference.forces import SpringMotion
 from reference.kernels import Kernel
 from reference.loops import LANES
+from reference.outcome import Outcome
 from reference.scenes import find
 from reference.state import State
 from reference.sweep import sweep
@@ -53,6 +57,18 @@ class Timing:
     def ratio(self) -> float | None:
         """Our time over tuned C's, for the same work."""
         return None if self.tuned is None else self.tuned / self.ours
+
+
+def time_adapter(engine: Engine) -> list[list[object]]:
+    """What an adapter adds to the engine's own step: engine, masses, seconds of both, their ratio."""
+    rows: list[list[object]] = []
+    for masses in (10, 100):
+        found = isolated(adapter_overhead, engine, find("string").system({"masses": masses}), DT)
+        if isinstance(found, Outcome):
+            rows.append([engine.name, masses, None, None, None, found.reason])
+        else:
+            rows.append([engine.name, masses, *found, found[0] / found[1], ""])
+    return rows
 
 
 def lattice(shape: Sequence[int], offsets: Sequence[tuple[int, ...]], spacing: float = 0.1) -> MassSpringSystem:
@@ -102,6 +118,8 @@ def run(progress: Progress) -> Result:
     rows += time_mesh("string 200, renumbered at random", string(200).renumbered(order))
     progress("sweep")
     rows += time_sweep()
+    progress("adapters")
+    adapters = [row for engine in registry().values() for row in time_adapter(engine)]
     progress("NumPy arrays")
     rows.append(time_numpy())
     columns = [
@@ -119,7 +137,10 @@ def run(progress: Progress) -> Result:
         columns,
         [[r.what, r.threads, r.masses, r.springs, r.ours, r.tuned, r.ratio, r.bytes_per_mass] for r in rows],
     )
-    return Result(_findings(rows), [table], {"rows": rows})
+    columns = ["engine", "masses", "step [s]", "engine's own step [s]", "ratio", "reason"]
+    ratios = {str(row[0]): row[4] for row in adapters if isinstance(row[4], float) and row[1] == 100}
+    findings = [*_findings(rows), _adapter_finding(ratios)]
+    return Result(findings, [table, Table("adapters", columns, adapters)], {"rows": rows})
 
 
 def time_mesh(name: str, system: MassSpringSystem) -> list[Timing]:
@@ -210,6 +231,13 @@ def _findings(rows: Sequence[Timing]) -> list[str]:
         if r.ratio
     ]
     return sentences
+
+
+def _adapter_finding(ratios: Mapping[str, float]) -> str:
+    if not ratios:
+        return "No engine could be timed."
+    worst = max(ratios, key=lambda name: ratios[name])
+    return f"On 100 masses an adapter adds at most {ratios[worst] - 1:.1%} to the engine's own step ({worst})."
 
 
 EXPERIMENT = Experiment(

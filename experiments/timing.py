@@ -125,3 +125,27 @@ def _extrapolated(sizes: Sequence[int], seconds: Sequence[float], size: int) -> 
         return 0.0
     power = log(seconds[-1] / seconds[-2]) / log(sizes[-1] / sizes[-2])
     return seconds[-1] * (size / sizes[-1]) ** power
+
+
+def adapter_overhead(engine: Engine, system: MassSpringSystem, dt: float) -> tuple[float, float] | Outcome:
+    """Seconds of a step through the adapter, and of the engine's own step alone, in this very process.
+
+    Two simulations take turns; of each the least of many tries is kept.
+    """
+    try:
+        through, bare = engine.start(system, dt), engine.start(system, dt)
+    except Unsupported as error:
+        return Outcome("unsupported", str(error))
+    loops = (_loop(through.step), _loop(bare.bare_step()))
+    steps = max(10, int(2e-2 / seconds_per_step(loops[1])))
+    tries = [[seconds_of(partial(loop, steps)) / steps for loop in loops] for _ in range(25)]
+    step, alone = (min(column) for column in zip(*tries, strict=True))
+    return step, alone
+
+
+def _loop(step: Callable[[], object]) -> Callable[[int], None]:
+    def loop(steps: int) -> None:
+        for _ in range(steps):
+            step()
+
+    return loop

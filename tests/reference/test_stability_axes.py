@@ -47,9 +47,9 @@ def test_limits_on_the_imaginary_axis(name: str, limit: float) -> None:
     check_limit(find(name), one_mass(1.0, 0.0), limit)
 
 
-@pytest.mark.parametrize("scheme", [wrong.heun_without_half, wrong.rk4_equally_weighted], ids=lambda s: s.name)
+@pytest.mark.parametrize("scheme", [wrong.heun_of_the_wrong_pair, wrong.rk4_equally_weighted], ids=lambda s: s.name)
 def test_limits_on_the_axes_fail_on_wrong_schemes(scheme: Scheme) -> None:
-    """Twice the step, and equal weights, have limits elsewhere."""
+    """The wrong pair of slopes, and equal weights, have limits elsewhere."""
     with pytest.raises(AssertionError):
         check_limit(scheme, one_mass(0.0, 1.0), 2.0 if scheme.order == 2 else RK4_REAL)
 
