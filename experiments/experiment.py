@@ -17,6 +17,7 @@ from reference.errors import unknown_name
 NAMES = (
     "divergence",
     "stability",
+    "maps",
     "order",
     "energy",
     "stiff_limit",

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from experiments.stability_map import Axis, StabilityMap
@@ -13,17 +15,20 @@ MOST, LEAST = 0.05, 1e-3
 
 
 def draw_map(found: StabilityMap) -> Picture:
-    """The field from blue (dying away) over white to red (growing), with the boundary in black."""
+    """One map with its scale."""
+    figure, axes = new_figure(figsize=(8, 5.4))
+    add_scale(figure, axes, draw_field(axes, found))
+    return Picture(figure, words(found))
+
+
+def draw_field(axes: Any, found: StabilityMap) -> Any:
+    """The field from blue (dying away) to red (growing), the boundary in black; returns what the scale is of."""
     from matplotlib.colors import SymLogNorm
 
-    figure, axes = new_figure(figsize=(8, 5.4))
     norm = SymLogNorm(LEAST, vmin=-MOST, vmax=MOST)
     field = axes.pcolormesh(
         found.x_values, found.y_values, np.clip(found.growth, -MOST, MOST), cmap="RdBu_r", norm=norm, rasterized=True
     )
-    bar = figure.colorbar(field, ax=axes, label="measured growth in a step [1]")
-    bar.set_ticks([-MOST, -0.01, -LEAST, 0, LEAST, 0.01, MOST])
-    bar.set_ticklabels(["-5 %", "-1 %", "-0.1 %", "0", "0.1 %", "1 %", "5 % or more"])
     if len(found.boundary):
         axes.plot(*found.boundary.T, "-", color="black", linewidth=2)
     if found.predicted_growth is not None:
@@ -35,14 +40,26 @@ def draw_map(found: StabilityMap) -> Picture:
     axes.set_xlabel(_label(found.x))
     axes.set_ylabel(_label(found.y))
     axes.set_title(f"{found.stepper}\n{_prediction(found)}", loc="left", fontsize=11)
+    return field
+
+
+def add_scale(figure: Any, axes: Any, field: Any) -> None:
+    """What the colours mean."""
+    bar = figure.colorbar(field, ax=axes, label="measured growth in a step [1]")
+    bar.set_ticks([-MOST, -0.01, -LEAST, 0, LEAST, 0.01, MOST])
+    bar.set_ticklabels(["-5 %", "-1 %", "-0.1 %", "0", "0.1 %", "1 %", "5 % or more"])
+
+
+def words(found: StabilityMap) -> str:
+    """The map for those who cannot see it."""
     stable = float(np.mean(found.growth <= LEAST))
     plane = f"{found.x.name} and {found.y.name}"
-    return Picture(figure, f"Map of growth over {plane} for {found.stepper}: {stable:.0%} of it is stable.")
+    return f"Map of growth over {plane} for {found.stepper}: {stable:.0%} of it is stable."
 
 
 def _prediction(found: StabilityMap) -> str:
     if len(found.boundary) or found.predicted_growth is not None:
-        return f"black: predicted limit of {found.predicted_by}"
+        return f"black: predicted limit of\n{found.predicted_by}"
     return f"{found.predicted_by}: predicted to have no limit here, being stable or unstable at any dt"
 
 

@@ -1,0 +1,93 @@
+"""Where in a plane of two parameters do pushes grow, and is that where theory says?
+
+`python -m experiments.maps`
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from experiments.comparison import Progress
+from experiments.experiment import Experiment, Result, Table
+from experiments.map_arguments import axes_for, system_maker
+from experiments.stability_map import StabilityMap, stability_map
+from experiments.steppers import all_steppers
+from reference.errors import InputError
+from reference.state import Array
+
+#: Stepper, masses of the string, second axis beside dt and its range, points along each axis (`springlab stability --map`
+#: takes more).
+MAPS = (
+    ("heun", 20, "drag", ("drag=0:1",), 128),
+    ("rk4", 20, "damping", ("damping=0:1",), 128),
+    ("pymunk_springs", 6, "damping", ("damping=0.02:1",), 12),
+)
+
+#: Growth in a step from which on a point counts as unstable; between its negative and it, as on the border.
+SURE = 5e-3
+
+
+def run(progress: Progress) -> Result:
+    """Every map, with the part of its plane where measured and predicted agree."""
+    maps, failures = [], []
+    for name, masses, other, ranges, resolution in MAPS:
+        progress(name)
+        system_at, dt = system_maker("string", {"masses": str(masses)})
+        x, y = axes_for(("dt", other), ranges, system_at({}))
+        try:
+            maps.append(stability_map(all_steppers()[name], system_at, dt, x, y, progress, resolution))
+        except InputError as error:
+            failures.append(str(error))
+    rows = [[m.stepper, m.y.name, m.growth.size, m.predicted_by, _beyond(m), agreement(m)] for m in maps]
+    columns = ["stepper", "dt and", "runs", "predicted by", "part predicted unstable [1]", "part that agrees [1]"]
+    return Result(_findings(maps), [Table("maps", columns, rows)], {"maps": maps}, failures)
+
+
+def predicted_unstable(found: StabilityMap) -> Array:
+    """Which points lie beyond the predicted limit; all, where no limit is predicted."""
+    if not len(found.boundary):
+        return np.ones(found.growth.shape, dtype=bool)
+    limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])
+    return np.asarray(found.x_values[None, :] > limit[:, None])
+
+
+def agreement(found: StabilityMap) -> float | None:
+    """The part of the surely measured points, growing or not, that lie on the side of the boundary they should."""
+    growing = found.growth > SURE
+    calm = found.growth < 0.1 * SURE
+    sure = (growing | calm) & np.isfinite(np.where(growing, 0.0, found.growth))
+    if not sure.any():
+        return None
+    return float((growing == predicted_unstable(found))[sure].mean())
+
+
+def _beyond(found: StabilityMap) -> float:
+    return float(predicted_unstable(found).mean())
+
+
+def _findings(maps: Sequence[StabilityMap]) -> list[str]:
+    sentences = []
+    for found in maps:
+        part = agreement(found)
+        if part is not None:
+            sentences.append(
+                f"{found.stepper}, dt and {found.y.name}: of {found.growth.size} runs, {part:.1%} of those that surely "
+                f"grow or surely do not lie where they should beside {found.predicted_by}'s predicted limit."
+            )
+    return sentences or ["No map could be made."]
+
+
+EXPERIMENT = Experiment(
+    name="maps",
+    title="Maps of stability",
+    question="Where in a plane of dt and damping do pushes grow, and is that where theory says?",
+    slides="12, 15",
+    run=run,
+)
+
+if __name__ == "__main__":
+    from experiments.console import main
+
+    main(EXPERIMENT)
