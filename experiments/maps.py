@@ -17,7 +17,7 @@ from experiments.steppers import all_steppers
 from reference.errors import InputError
 from reference.state import Array
 
-#: Stepper, masses of the string, second axis beside dt and its range, points along each axis (`springlab stability --map`
+#: Stepper, masses of the string, second axis beside dt and its range, points along each axis (`stability --map` itself
 #: takes more).
 MAPS = (
     ("heun", 20, "drag", ("drag=0:1",), 128),

@@ -191,7 +191,7 @@ def test_errata_shows_the_barriers_rule_and_the_two_forces(errata: dict[tuple[st
     Slide 4's force at rest is -2 k D0 = -50 N where it should vanish; slide 9's function leaves the lower spring out,
     so that of a string at rest the top link accelerates by the weight below it, (n - 1) g = 88.29 m/s^2 upwards.
     """
-    assert errata["17", "of 1 m/s along the circle, left at the side"] == -1
+    assert errata["17", "of 1 m/s along the circle, left at the right"] == -1
     assert errata["17", "of 1 m/s, left anywhere"] == pytest.approx(1, abs=1e-15)
     assert errata["4", "force at rest"] == pytest.approx(-2 * 200 * 0.125)
     assert errata["4", "force at rest, repaired"] == pytest.approx(0, abs=1e-12)
