@@ -85,6 +85,8 @@ class Row:
     def document(self) -> dict[str, Any]:
         """The row as the command line's JSON has it."""
         reasons = {"predicted": self.predicted.reason, "measured": self.measured.reason}
+        if self.predicted.reason == self.measured.reason:
+            reasons = {"predicted and measured": self.predicted.reason}
         return {
             "stepper": self.stepper,
             "damping": float(self.system.damping.max()),
