@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -20,16 +21,25 @@ RESULTS = Path("results")
 
 @contextmanager
 def progress(title: str) -> Iterator[Progress]:
-    """A line on standard error with what is being done and for how long; nothing is left of it, nor shown in a file."""
-    from rich.console import Console
-    from rich.progress import Progress as Bar
-    from rich.progress import SpinnerColumn, TextColumn, TimeElapsedColumn
+    """A line on standard error with what is being done and for how long; nothing is left of it, nor shown in a file.
 
-    columns = (SpinnerColumn(), TextColumn("{task.description}"), TimeElapsedColumn())
+    Where what is told begins with "N of M", the bar is as full as that.
+    """
+    from rich.console import Console
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
     console = Console(stderr=True)
     with Bar(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
-        task = bar.add_task(title)
-        yield lambda what: bar.update(task, description=f"{title}: {what}")
+        task = bar.add_task(title, total=None)
+
+        def tell(what: str) -> None:
+            count = re.match(r"(\d+) of (\d+)\b", what)
+            done, total = map(int, count.groups()) if count else (0, None)
+            bar.update(task, description=f"{title}: {what}", completed=done, total=total)
+
+        yield tell
 
 
 def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:

@@ -11,9 +11,9 @@ from reference.stability import fastest_rate, spring_equilibrium
 from reference.system import PARAMETERS, MassSpringSystem
 
 
-def system_maker(scene: str, settings: Mapping[str, str]) -> tuple[SystemAt, float]:
-    """A function from the axes' values to the scene's system with these set, and the scene's dt [s]."""
-    setup = setup_for(scene, settings=settings)
+def system_maker(scene: str, settings: Mapping[str, str], dt: float | None = None) -> tuple[SystemAt, float]:
+    """A function from the axes' values to the scene's system with these set, and dt [s], by default the scene's."""
+    setup = setup_for(scene, dt, settings=settings)
 
     def system_at(values: Mapping[str, float]) -> MassSpringSystem:
         system = setup.system

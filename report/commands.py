@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 @click.option("--stepper", "names", multiple=True, metavar="NAME", help="Only these; see `springlab list`.")
 @click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Set a parameter of the scene.")
 @click.option("--map", "axes", nargs=2, metavar="X Y", help="Map growth over two of dt, masses, damping, stiffness ...")
+@click.option("--dt", type=float, help="The step of a map that has no dt axis [s]; the scene's own where left out.")
 @click.option("--range", "ranges", multiple=True, metavar="KEY=LOW:HIGH", help="The range of a map's axis.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option(
@@ -33,6 +34,7 @@ def stability_command(
     names: tuple[str, ...],
     settings: tuple[str, ...],
     axes: tuple[str, str] | None,
+    dt: float | None,
     ranges: tuple[str, ...],
     as_json: bool,
     out: Path,
@@ -47,7 +49,7 @@ def stability_command(
     given = parse_settings(settings)
     steppers = find_steppers(names) if names else [s for s in all_steppers().values() if s.kind != "lecture"]
     if axes:
-        _map(scene, given, axes, ranges, steppers if names else find_steppers(["heun"]), out)
+        _map(scene, given, dt, axes, ranges, steppers if names else find_steppers(["heun"]), out)
         return
     rows = _rows(scene, given, steppers if names else [s for s in steppers if s.kind != "pendulum"])
     _write_stability(rows, as_json, out)
@@ -84,6 +86,7 @@ def _write_stability(rows: Sequence[Row], as_json: bool, out: Path) -> None:
 def _map(
     scene: str,
     settings: Mapping[str, str],
+    dt: float | None,
     names: tuple[str, str],
     ranges: Sequence[str],
     steppers: Sequence[Stepper],
@@ -93,12 +96,12 @@ def _map(
     from experiments.stability_map import stability_map, write_map
     from report.figures.stability_map import draw_map
 
-    system_at, dt = system_maker(scene, settings)
+    system_at, step = system_maker(scene, settings, dt)
     x, y = axes_for(names, ranges, system_at({}))
     out.mkdir(parents=True, exist_ok=True)
     for stepper in steppers:
         with progress(f"map of {stepper.name}") as tell:
-            found = stability_map(stepper, system_at, dt, x, y, tell)
+            found = stability_map(stepper, system_at, step, x, y, tell)
         name = f"{stepper.name}-{x.name}-{y.name}"
         (out / f"{name}.svg").write_text(draw_map(found).svg(), encoding="utf-8")
         write_map(found, out / f"{name}.csv")
