@@ -18,7 +18,7 @@ from reference.errors import InputError, Unsupported
 from reference.identify import identify
 from reference.outcome import Outcome
 from reference.probe import GROWN, PUSH
-from reference.stability import fastest_rate, growth, pendulum_equilibrium, spring_equilibrium, stability_limit
+from reference.stability import fastest_rate, pendulum_equilibrium, spring_equilibrium, stability_limit
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper
 from reference.sweep import CHUNK, sweep
@@ -26,6 +26,9 @@ from reference.system import PARAMETERS, MassSpringSystem
 
 #: Points along each axis: of a scheme that can be swept, of an engine (and any other scheme), of the prediction.
 SWEPT, ENGINE, PREDICTED = 256, 16, 25
+
+#: The same of the prediction where no axis is dt, and every point needs a search.
+PREDICTED_PLANE = 13
 
 #: Steps of every point's run, for a scheme and for an engine.
 SWEPT_STEPS, ENGINE_STEPS = 2000, 400
@@ -64,7 +67,7 @@ class StabilityMap:
         x, y: the axes, and their values where growth was measured.
         growth: per step, logarithmic (0.01 is 1 % a step), shape (y, x); not a number where nothing could be run.
         boundary: predicted: the points (x, y) of the limit where one axis is dt, shape (p, 2); else empty.
-        predicted_growth: predicted: (x values, y values, spectral radius), where no axis is dt; else None.
+        predicted_limit: predicted: (x values, y values, largest stable dt over dt), where no axis is dt; else None.
         predicted_by: the scheme the prediction is of.
     """
 
@@ -75,7 +78,7 @@ class StabilityMap:
     y_values: Array
     growth: Array
     boundary: Array
-    predicted_growth: tuple[Array, Array, Array] | None
+    predicted_limit: tuple[Array, Array, Array] | None
     predicted_by: str
 
 
@@ -122,7 +125,7 @@ def stability_map(
         progress("predicted boundary")
         boundary = _boundary(scheme, on_rods, system_at, x, y)
     elif scheme is not None:
-        progress("predicted growth")
+        progress("predicted limits")
         predicted = _predicted_field(scheme, on_rods, system_at, dt, x, y)
     named = scheme.name if scheme else "no scheme it is identified with"
     return StabilityMap(stepper.name, x, y, xs, ys, field.reshape(len(ys), len(xs)), boundary, predicted, named)
@@ -258,12 +261,13 @@ def _boundary(scheme: Scheme, on_rods: bool, system_at: SystemAt, x: Axis, y: Ax
 def _predicted_field(
     scheme: Scheme, on_rods: bool, system_at: SystemAt, dt: float, x: Axis, y: Axis
 ) -> tuple[Array, Array, Array]:
-    """The spectral radius over the plane."""
-    xs, ys = x.values(PREDICTED), y.values(PREDICTED)
+    """The largest stable dt over dt, 1 on the boundary; 0 stands for unstable and 10 for stable at any dt."""
+    xs, ys = x.values(PREDICTED_PLANE), y.values(PREDICTED_PLANE)
     field = np.empty((len(ys), len(xs)))
     for j, b in enumerate(ys):
         for i, a in enumerate(xs):
             system = system_at({x.name: float(a), y.name: float(b)})
-            rest = pendulum_equilibrium(system) if on_rods else spring_equilibrium(system)
-            field[j, i] = growth(scheme, rest, dt)
+            limit = stability_limit(scheme, pendulum_equilibrium(system) if on_rods else spring_equilibrium(system))
+            never = 0.0 if limit.growth is not None else 10.0
+            field[j, i] = never if limit.dt is None else min(limit.dt / dt, 10.0)
     return xs, ys, field

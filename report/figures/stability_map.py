@@ -31,9 +31,9 @@ def draw_field(axes: Any, found: StabilityMap) -> Any:
     )
     if len(found.boundary):
         axes.plot(*found.boundary.T, "-", color="black", linewidth=2)
-    if found.predicted_growth is not None:
-        xs, ys, radius = found.predicted_growth
-        axes.contour(xs, ys, np.clip(radius - 1, -1e-3, 1e-3), levels=[1e-6], colors="black", linewidths=2)
+    if found.predicted_limit is not None:
+        xs, ys, limit = found.predicted_limit
+        axes.contour(xs, ys, limit, levels=[1.0], colors="black", linewidths=2)
     axes.set_xlim(found.x_values[0], found.x_values[-1])
     axes.set_ylim(found.y_values[0], found.y_values[-1])
     axes.grid(visible=False)
@@ -58,7 +58,7 @@ def words(found: StabilityMap) -> str:
 
 
 def _prediction(found: StabilityMap) -> str:
-    if len(found.boundary) or found.predicted_growth is not None:
+    if len(found.boundary) or found.predicted_limit is not None:
         return f"black: predicted limit of\n{found.predicted_by}"
     return f"{found.predicted_by}: predicted to have no limit here, being stable or unstable at any dt"
 
