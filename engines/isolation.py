@@ -33,6 +33,9 @@ TIME_LIMIT = 60.0
 
 T = TypeVar("T")
 
+#: Once it has answered, a process has so long [s] to tidy up and end by itself.
+GRACE = 1.0
+
 #: Where, in its scratch folder, a process's output is kept.
 OUTPUT = "output.txt"
 
@@ -133,7 +136,9 @@ def _answer(process: BaseProcess, answer: Connection, scratch: Path, time_limit:
         return Outcome("timed out", f"no answer within {time_limit:g} s")
     try:
         if answer.poll():
-            return answer.recv()
+            received = answer.recv()
+            process.join(GRACE)
+            return received
     except (EOFError, OSError):  # no answer, or half of one
         pass
     process.join()
