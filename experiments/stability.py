@@ -120,6 +120,9 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
                 rows.append(_scheme_row(stepper, system, rest))
             elif isinstance(stepper, EngineStepper):
                 rows.append(_engine_row(stepper, system, rest, dt, known, measured[stepper.name]))
+            else:
+                none = Limit(None, "stability is of schemes and engines; identify says which scheme this is")
+                rows.append(Row(stepper.name, stepper.kind, system, none, none, "unsupported"))
     return rows
 
 

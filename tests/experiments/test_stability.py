@@ -125,6 +125,16 @@ def test_json_rows_have_the_promised_keys(tmp_path: Path) -> None:
     assert (tmp_path / "stability.csv").exists()
 
 
+def test_a_listing_is_a_row_that_says_why_not(tmp_path: Path) -> None:
+    """The lecture's listings are neither schemes nor engines: unsupported, with the reason, and nothing breaks."""
+    words = ("--stepper", "lecture_heun_loops", "--set", "drag=0.1", "--json", "--out", str(tmp_path))
+    done = springlab("stability", "string", *words)
+    assert done.code == 0
+    (row,) = json.loads(done.out)
+    assert row["outcome"] == "unsupported"
+    assert "schemes and engines" in row["reason"]
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
