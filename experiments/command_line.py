@@ -19,6 +19,8 @@ COMMANDS = {
     ),
     "identify": ("experiments.commands:identify_command", "Say which scheme a stepper is."),
     "stability": ("report.commands:stability_command", "Predict and measure the largest stable dt; map growth."),
+    "sweep": ("experiments.sweep_commands:sweep_command", "Run steppers over a grid of parameters; nothing is lost."),
+    "results": ("experiments.sweep_commands:results_command", "Show or export what is in the store."),
     "run": ("report.commands:run_command", "Run experiments, and write their figures and tables."),
     "report": ("report.commands:report_command", "Write the report: every experiment on one page."),
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from engines.engine import Engine
-from engines.isolation import EngineStepper, isolated, run_engine
+from engines.isolation import EngineStepper, run_engine
 from reference.outcome import Outcome
 from reference.system import MassSpringSystem
 
@@ -18,7 +18,7 @@ def engine_ladder(
     One process does for all of them; where it breaks, each gets its own, so that it is known which one broke it.
     """
     if stepper.version is not None:
-        answer = isolated(run_ladder, stepper.engine, system, duration, steps, time_limit=stepper.time_limit)
+        answer = stepper.isolate(run_ladder, stepper.engine, system, duration, steps, time_limit=stepper.time_limit)
         if isinstance(answer, list):
             return answer
     return [stepper.run(system, duration / n, n) for n in steps]

@@ -15,12 +15,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engines.engine import Engine
-from engines.isolation import EngineStepper, isolated
+from engines.isolation import EngineStepper
 from engines.pymunk_springs import PymunkSprings
 from experiments.comparison import Progress, finite
 from experiments.experiment import Experiment, Result, Table
-from experiments.renaming import CHANGES, Renamed, differences, differences_in_engines
+from experiments.renaming import CHANGES, Renamed, differences
+from experiments.runner import answer
 from experiments.steppers import default_steppers
 from reference.catalogue import Scheme
 from reference.identify import TOLERANCE
@@ -114,20 +114,8 @@ def rounding() -> float:
 
 
 def renamed_by(stepper: Stepper) -> list[Renamed]:
-    """A stepper under every change of names, for each of DAMPINGS; an engine in a process of its own."""
-    systems = [string(damping) for damping in DAMPINGS]
-    if isinstance(stepper, EngineStepper):
-        return _in_a_process(stepper, [(stepper.engine, system) for system in systems])
-    return [differences(lambda s: stepper.run(s, DT, STEPS), system) for system in systems]
-
-
-def _in_a_process(stepper: EngineStepper, runs: Sequence[tuple[Engine, MassSpringSystem]]) -> list[Renamed]:
-    if stepper.version is None:
-        return [Renamed.nothing(f"unsupported, {stepper.engine.package} is not installed")] * len(runs)
-    answer = isolated(differences_in_engines, runs, DT, STEPS, time_limit=stepper.time_limit)
-    if isinstance(answer, list):
-        return answer
-    return [Renamed.nothing(f"{answer.ending}, {answer.reason}")] * len(runs)
+    """A stepper under every change of names, for each of DAMPINGS."""
+    return [differences(lambda s: stepper.run(s, DT, STEPS), string(damping)) for damping in DAMPINGS]
 
 
 def predicted(stepper: Stepper, damping: float) -> frozenset[str] | None:
@@ -149,10 +137,13 @@ def _scheme(stepper: Stepper, damping: float) -> Scheme | None:
 
 
 def _pymunk_rounds() -> list[Convergence]:
-    cases = [(PymunkSprings(rounds=n), string(damping)) for damping in ROUNDS_DAMPINGS for n in ROUNDS]
-    renamed = _in_a_process(EngineStepper(PymunkSprings()), cases)
-    distances = np.array([r.distances.get("springs reversed", np.nan) for r in renamed]).reshape(-1, len(ROUNDS))
-    return [convergence(c, row) for c, row in zip(ROUNDS_DAMPINGS, distances.tolist(), strict=True)]
+    steppers = [EngineStepper(PymunkSprings(rounds=n), isolate=answer) for n in ROUNDS]
+    return [convergence(c, [reversal(stepper, c) for stepper in steppers]) for c in ROUNDS_DAMPINGS]
+
+
+def reversal(stepper: Stepper, damping: float) -> float:
+    """What reversing the springs of a string changes [m]; NaN where it cannot be run."""
+    return differences(lambda s: stepper.run(s, DT, STEPS), string(damping)).distances.get("springs reversed", np.nan)
 
 
 def convergence(damping: float, distances: Sequence[float]) -> Convergence:

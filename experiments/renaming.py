@@ -1,15 +1,12 @@
-"""The same system under other names, and how much that changes. Needs NumPy only: engines' processes import it."""
+"""The same system under other names, and how much that changes."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 
-from engines.engine import Engine
-from engines.isolation import run_engine
 from reference.outcome import Outcome
 from reference.system import IntArray, MassSpringSystem
 
@@ -71,8 +68,3 @@ def differences(run: Callable[[MassSpringSystem], Outcome], system: MassSpringSy
         else:
             reasons[change] = f"{outcome.ending}, {outcome.reason}"
     return Renamed(distances, reasons)
-
-
-def differences_in_engines(runs: Sequence[tuple[Engine, MassSpringSystem]], dt: float, steps: int) -> list[Renamed]:
-    """The same of engines, each with its system, one after the other in this very process."""
-    return [differences(partial(run_engine, engine, dt=dt, steps=steps), system) for engine, system in runs]

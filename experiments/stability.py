@@ -14,23 +14,22 @@ from typing import Any
 import numpy as np
 
 from engines.engine import Engine
-from engines.isolation import EngineStepper, isolated
-from engines.jacobian import spectral_radius
-from engines.jacobian import step_jacobian as step_jacobian_of_engine
+from engines.isolation import EngineStepper
+from engines.limits import limit_of_engine
 from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
 from experiments.steppers import all_steppers
-from reference import catalogue
 from reference.catalogue import Scheme
-from reference.errors import SolverError, Unsupported
+from reference.errors import SolverError
 from reference.identify import Identification, candidates, identify_run
 from reference.outcome import Outcome
-from reference.pendulum import PendulumMotion, why_no_pendulum
-from reference.probe import PUSH, measured_limit, mode_growth, random_growth
+from reference.pendulum import why_no_pendulum
+from reference.probe import PUSH, mode_growth
 from reference.scenes import find
 from reference.stability import (
     Equilibrium,
     Limit,
+    equilibrium,
     fastest_rate,
     find_limit,
     pendulum_equilibrium,
@@ -39,7 +38,7 @@ from reference.stability import (
     step_jacobian,
 )
 from reference.state import Array, State, Trajectory
-from reference.stepper import SchemeStepper, Stepper
+from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
 
 #: An engine's limit, and the spectral radii of its step below and above it.
@@ -111,7 +110,7 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
     dt = 1 / fastest_rate(rest)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         engines = [s for s in steppers if isinstance(s, EngineStepper)]
-        measured = {s.name: pool.submit(_measure_engine, s, system, rest, dt) for s in engines}
+        measured = {s.name: pool.submit(measure_engine, s, system, rest, dt) for s in engines}
         known = candidates(system, 0.1 * dt, IDENTIFYING_STEPS) if engines else {}
         rows = []
         for stepper in steppers:
@@ -127,8 +126,8 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
 
 
 def _scheme_row(stepper: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Row:
-    if stepper.equations is PendulumMotion:
-        rest = pendulum_equilibrium(system)
+    if stepper.on_rods:
+        rest = equilibrium(stepper.equations, system)
     predicted, measured = stability_limit(stepper.scheme, rest), measure_scheme(stepper.scheme, rest)
     return Row(stepper.name, stepper.kind, system, predicted, measured)
 
@@ -186,31 +185,34 @@ def _predict(identification: Identification, system: MassSpringSystem, rest: Equ
     """The limit of the scheme an engine was identified with."""
     if identification.identified_as is None:
         return Limit(None, str(identification).partition(": ")[2])
-    scheme, on_rods = scheme_named(identification.identified_as)
-    return stability_limit(scheme, pendulum_equilibrium(system) if on_rods else rest)
+    named = catalogued()[identification.identified_as]
+    return stability_limit(named.scheme, equilibrium(named.equations, system) if named.on_rods else rest)
 
 
-def scheme_named(name: str) -> tuple[Scheme, bool]:
-    """The scheme an identification names, and whether it is on the rods of a pendulum."""
-    return catalogue.find(name.removeprefix("pendulum_")), name.startswith("pendulum_")
-
-
-def _measure_engine(
-    stepper: EngineStepper, system: MassSpringSystem, rest: Equilibrium, dt: float
+def measure_engine(
+    stepper: EngineStepper, system: MassSpringSystem, rest: Equilibrium, dt: float, precision: float = PRECISION
 ) -> Measured | Outcome:
-    """An engine's limit, measured in one process of its own, from random pushes about the equilibrium it can have."""
+    """An engine's limit, measured in a process of its own, from random pushes about the equilibrium it can have."""
     if stepper.version is None:
         return Outcome("unsupported", f"{stepper.engine.package} is not installed")
     own_rest = rest_of_engine(stepper.engine, system, rest)
     if isinstance(own_rest, Outcome):
         return own_rest
     still, pushed = at_rest_and_pushed(system, own_rest)
-    return isolated(limit_of_engine, stepper.engine, still, pushed, dt, time_limit=2 * stepper.time_limit)
+    answer = stepper.isolate(
+        limit_of_engine, stepper.engine, still, pushed, dt, precision, time_limit=2 * stepper.time_limit
+    )
+    if isinstance(answer, Outcome):
+        return answer
+    below, above = answer["radius_below"], answer["radius_above"]
+    return Limit(answer["dt"], answer["reason"]), None if below is None or above is None else (below, above)
 
 
 def rest_of_engine(engine: Engine, system: MassSpringSystem, rest: Equilibrium) -> Equilibrium | Outcome:
     """The equilibrium an engine can be started at: with stretched springs, or as rods for one that has no others."""
-    if "stretched" in engine.capabilities:
+    named = catalogued().get(engine.identified_as.get("plain", ""))
+    on_rods = named is not None and named.on_rods
+    if "stretched" in engine.capabilities and not on_rods:
         return rest
     reason = why_no_pendulum(system)
     if reason:
@@ -226,30 +228,6 @@ def at_rest_and_pushed(system: MassSpringSystem, rest: Equilibrium) -> tuple[Arr
     states = [rest.state, State(0.0, x, np.zeros_like(x))]
     still, pushed = rest.motion.trajectory(states).positions
     return still, replace(system, positions=pushed, velocities=np.zeros_like(pushed))
-
-
-def limit_of_engine(engine: Engine, still: Array, pushed: MassSpringSystem, dt: float) -> Measured | Outcome:
-    """Run an engine again and again, in this very process, until its limit is found; then look at its step there."""
-    try:
-        found = measured_limit(lambda h, steps: growth_of_engine(engine, still, pushed, h, steps), dt, PRECISION)
-        limit = Limit(*found)
-        if limit.dt is None or not {"stretched", "velocities"} <= engine.capabilities:
-            return limit, None
-        rest = replace(pushed, positions=still)
-        below, above = (spectral_radius(step_jacobian_of_engine(engine, rest, f * limit.dt)) for f in (0.99, 1.01))
-        return limit, (below, above)
-    except Unsupported as error:
-        return Outcome("unsupported", str(error))
-
-
-def growth_of_engine(engine: Engine, still: Array, pushed: MassSpringSystem, dt: float, steps: int) -> float:
-    """What becomes of a push in an engine, per step, in this very process."""
-    simulation = engine.start(pushed, dt)
-    offsets = [pushed.positions - still]
-    for _ in range(steps):
-        simulation.step()
-        offsets.append(simulation.state()[0] - still)
-    return random_growth(np.array(offsets))
 
 
 def run(progress: Progress) -> Result:

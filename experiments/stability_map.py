@@ -9,16 +9,16 @@ from pathlib import Path
 
 import numpy as np
 
-from engines.engine import Engine
-from engines.isolation import EngineStepper, isolated
+from engines.isolation import EngineStepper
+from engines.limits import growths_of_engine
 from experiments.comparison import Progress
-from experiments.stability import IDENTIFYING_STEPS, at_rest_and_pushed, growth_of_engine, rest_of_engine, scheme_named
+from experiments.stability import IDENTIFYING_STEPS, at_rest_and_pushed, rest_of_engine
 from reference.catalogue import Scheme
-from reference.errors import InputError, Unsupported
+from reference.errors import InputError
 from reference.identify import identify
 from reference.outcome import Outcome
 from reference.probe import GROWN, PUSH
-from reference.stability import fastest_rate, pendulum_equilibrium, spring_equilibrium, stability_limit
+from reference.stability import equilibrium, fastest_rate, spring_equilibrium, stability_limit
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper
 from reference.sweep import CHUNK, sweep
@@ -109,25 +109,25 @@ def stability_map(
             raise InputError(f"map axis {axis.name} from {axis.low:g} to {axis.high:g}: expected a rising range")
     # In the middle of the plane, where nothing that an axis is about is switched off.
     middle = {axis.name: (axis.low + axis.high) / 2 for axis in (x, y) if axis.name != "dt"}
-    scheme, on_rods = _scheme_of(stepper, system_at(middle))
-    swept = isinstance(stepper, SchemeStepper) and scheme is not None and not scheme.springs_only and not on_rods
+    known = _scheme_of(stepper, system_at(middle))
+    swept = isinstance(stepper, SchemeStepper) and not stepper.scheme.springs_only and not stepper.on_rods
     count = resolution or (SWEPT if swept else ENGINE)
     xs, ys = x.values(count), y.values(count)
     points = [{x.name: float(a), y.name: float(b)} for b in ys for a in xs]
     if swept:
-        assert scheme is not None
-        field = _swept(scheme, system_at, dt, points, progress)
+        assert isinstance(stepper, SchemeStepper)
+        field = _swept(stepper.scheme, system_at, dt, points, progress)
     else:
         progress(f"{len(points)} runs")
-        field = _run_one_by_one(stepper, scheme, system_at, dt, points)
+        field = _run_one_by_one(stepper, system_at, dt, points)
     boundary, predicted = np.empty((0, 2)), None
-    if scheme is not None and "dt" in (x.name, y.name):
+    if known is not None and "dt" in (x.name, y.name):
         progress("predicted boundary")
-        boundary = _boundary(scheme, on_rods, system_at, x, y)
-    elif scheme is not None:
+        boundary = _boundary(known, system_at, x, y)
+    elif known is not None:
         progress("predicted limits")
-        predicted = _predicted_field(scheme, on_rods, system_at, dt, x, y)
-    named = scheme.name if scheme else "no scheme it is identified with"
+        predicted = _predicted_field(known, system_at, dt, x, y)
+    named = known.scheme.name if known else "no scheme it is identified with"
     return StabilityMap(stepper.name, x, y, xs, ys, field.reshape(len(ys), len(xs)), boundary, predicted, named)
 
 
@@ -140,13 +140,13 @@ def write_map(found: StabilityMap, file: Path) -> None:
             writer.writerows([a, b, value] for a, value in zip(found.x_values, row, strict=True))
 
 
-def _scheme_of(stepper: Stepper, system: MassSpringSystem) -> tuple[Scheme | None, bool]:
+def _scheme_of(stepper: Stepper, system: MassSpringSystem) -> SchemeStepper | None:
     """The scheme whose theory holds for a stepper: its own, or the one it is identified with."""
     if isinstance(stepper, SchemeStepper):
-        return stepper.scheme, stepper.name.startswith("pendulum_")
+        return stepper
     dt = 0.1 / fastest_rate(spring_equilibrium(system))
     name = identify(stepper, system, dt, IDENTIFYING_STEPS).identified_as
-    return scheme_named(name) if name else (None, False)
+    return catalogued()[name] if name else None
 
 
 def _swept(
@@ -232,34 +232,26 @@ def _run_one_by_one(
         if isinstance(rest, Outcome):
             raise InputError(rest.reason)
         cases.append((*at_rest_and_pushed(system, rest), point.get("dt", dt)))
-    field = isolated(growths_of_engine, stepper.engine, cases, time_limit=5 * stepper.time_limit)
-    if isinstance(field, Outcome):
-        raise InputError(f"{stepper.name} {field.ending}: {field.reason}")
-    return field
+    answer = stepper.isolate(growths_of_engine, stepper.engine, cases, ENGINE_STEPS, time_limit=5 * stepper.time_limit)
+    if isinstance(answer, Outcome):
+        raise InputError(f"{stepper.name} {answer.ending}: {answer.reason}")
+    return answer["growth"]
 
 
-def growths_of_engine(engine: Engine, cases: Sequence[tuple[Array, MassSpringSystem, float]]) -> Array | Outcome:
-    """Growth per step of many pushed systems in an engine, in this very process."""
-    try:
-        return np.array([growth_of_engine(engine, still, pushed, dt, ENGINE_STEPS) for still, pushed, dt in cases])
-    except Unsupported as error:
-        return Outcome("unsupported", str(error))
-
-
-def _boundary(scheme: Scheme, on_rods: bool, system_at: SystemAt, x: Axis, y: Axis) -> Array:
+def _boundary(known: SchemeStepper, system_at: SystemAt, x: Axis, y: Axis) -> Array:
     """The predicted limit along the axis that is not dt."""
     other = y if x.name == "dt" else x
     found = []
     for value in other.values(PREDICTED):
         system = system_at({other.name: float(value)})
-        limit = stability_limit(scheme, pendulum_equilibrium(system) if on_rods else spring_equilibrium(system))
+        limit = stability_limit(known.scheme, equilibrium(known.equations, system))
         if limit.dt is not None:
             found.append((limit.dt, value) if x.name == "dt" else (value, limit.dt))
     return np.array(found).reshape(-1, 2)
 
 
 def _predicted_field(
-    scheme: Scheme, on_rods: bool, system_at: SystemAt, dt: float, x: Axis, y: Axis
+    known: SchemeStepper, system_at: SystemAt, dt: float, x: Axis, y: Axis
 ) -> tuple[Array, Array, Array]:
     """The largest stable dt over dt, 1 on the boundary; 0 stands for unstable and 10 for stable at any dt."""
     xs, ys = x.values(PREDICTED_PLANE), y.values(PREDICTED_PLANE)
@@ -267,7 +259,7 @@ def _predicted_field(
     for j, b in enumerate(ys):
         for i, a in enumerate(xs):
             system = system_at({x.name: float(a), y.name: float(b)})
-            limit = stability_limit(scheme, pendulum_equilibrium(system) if on_rods else spring_equilibrium(system))
+            limit = stability_limit(known.scheme, equilibrium(known.equations, system))
             never = 0.0 if limit.growth is not None else 10.0
             field[j, i] = never if limit.dt is None else min(limit.dt / dt, 10.0)
     return xs, ys, field

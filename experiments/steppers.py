@@ -6,6 +6,7 @@ from collections.abc import Iterable
 
 from engines.engine import registry
 from engines.isolation import EngineStepper
+from experiments.runner import answer
 from reference.errors import InputError, unknown_name
 from reference.lecture import listings
 from reference.stepper import Stepper, catalogued
@@ -13,7 +14,7 @@ from reference.stepper import Stepper, catalogued
 
 def all_steppers() -> dict[str, Stepper]:
     """All of them, in the order they are shown."""
-    engines = {name: EngineStepper(engine) for name, engine in registry().items()}
+    engines = {name: EngineStepper(engine, isolate=answer) for name, engine in registry().items()}
     return {**catalogued(), **listings(), **engines}
 
 

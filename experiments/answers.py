@@ -1,0 +1,71 @@
+"""What a task answered, as JSON and arrays, and back: how the store keeps it.
+
+An answer is made of numbers, words, None, arrays, outcomes, and lists and mappings of such.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from reference.outcome import Outcome
+from reference.state import Array, Trajectory
+
+#: In place of an array, an outcome, or a number that JSON does not know, stands a mapping with one of these alone.
+ARRAY, OUTCOME, NUMBER = "<array>", "<outcome>", "<number>"
+
+
+def encode(answer: Any) -> tuple[Any, dict[str, Array]]:
+    """An answer as what JSON can hold, and its arrays by name.
+
+    Raises:
+        TypeError: for an answer made of anything else.
+    """
+    arrays: dict[str, Array] = {}
+    return _encode(answer, "answer", arrays), arrays
+
+
+def _encode(value: Any, name: str, arrays: dict[str, Array]) -> Any:
+    if value is None or isinstance(value, str | bool | int):
+        return value
+    if isinstance(value, np.generic):
+        return _encode(value.item(), name, arrays)
+    if isinstance(value, float):
+        return value if math.isfinite(value) else {NUMBER: repr(value)}
+    if isinstance(value, np.ndarray):
+        arrays[name] = value
+        return {ARRAY: name}
+    if isinstance(value, Outcome):
+        fields = {"ending": value.ending, "reason": value.reason, "trajectory": _fields(value.trajectory)}
+        return {OUTCOME: _encode(fields, name, arrays)}
+    if isinstance(value, Mapping):
+        return {key: _encode(item, f"{name}.{key}", arrays) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_encode(item, f"{name}.{i}", arrays) for i, item in enumerate(value)]
+    raise TypeError(f"an answer with a {type(value).__name__} cannot be kept")
+
+
+def _fields(trajectory: Trajectory | None) -> dict[str, Array] | None:
+    if trajectory is None:
+        return None
+    return {"times": trajectory.times, "positions": trajectory.positions, "velocities": trajectory.velocities}
+
+
+def decode(document: Any, arrays: Mapping[str, Array]) -> Any:
+    """The answer that was encoded; a tuple comes back as a list."""
+    if isinstance(document, list):
+        return [decode(item, arrays) for item in document]
+    if not isinstance(document, dict):
+        return document
+    if ARRAY in document:
+        return arrays[document[ARRAY]]
+    if NUMBER in document:
+        return float(document[NUMBER])
+    if OUTCOME in document:
+        fields = decode(document[OUTCOME], arrays)
+        trajectory = fields["trajectory"]
+        return Outcome(fields["ending"], fields["reason"], None if trajectory is None else Trajectory(**trajectory))
+    return {key: decode(item, arrays) for key, item in document.items()}

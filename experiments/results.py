@@ -1,0 +1,97 @@
+"""What is in a store, for people and other programs: rows, filtered."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sqlite3
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TextIO
+
+from experiments.store import JSON_COLUMNS, check_format
+from reference.errors import InputError, unknown_name
+
+#: What every row has.
+COLUMNS = ("task", "stepper", "version", "dt", "steps", "outcome", "reason")
+
+#: And where one asks for everything.
+MORE_COLUMNS = ("settings", "system", "seconds", "finished", "key", "arrays", "environment")
+
+
+def rows(store: Path, filters: Mapping[str, str], retired: bool = False) -> list[dict[str, Any]]:
+    """The runs in a store, oldest first, parameters and numbers of the answer as columns of their own.
+
+    Args:
+        filters: what columns must be equal to; numbers as numbers.
+        retired: whether to show also those that were started over.
+
+    Raises:
+        InputError: if there is no store, it is none, or nothing in it has a column that is asked for.
+    """
+    found = [_flat(row) for row in _read(store) if retired or not row["retired"]]
+    known = {name: None for row in found for name in row}
+    for name in filters:
+        if found and name not in known:
+            raise unknown_name("column", name, known)
+    return [row for row in found if all(_equal(row.get(name), value) for name, value in filters.items())]
+
+
+def parse_filters(words: Iterable[str]) -> dict[str, str]:
+    """COLUMN=VALUE as a dictionary."""
+    filters = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        if not (name and equals):
+            raise InputError(f"filter {word!r}: expected COLUMN=VALUE")
+        filters[name] = value
+    return filters
+
+
+def write_csv(found: Sequence[Mapping[str, Any]], file: TextIO) -> None:
+    """Rows as CSV, with a column for everything that any of them has."""
+    columns = list({name: None for row in found for name in row})
+    writer = csv.DictWriter(file, columns)
+    writer.writeheader()
+    writer.writerows({name: "" if value is None else value for name, value in row.items()} for row in found)
+
+
+def _read(store: Path) -> Iterator[sqlite3.Row]:
+    if not store.is_file():
+        raise InputError(f"store {store}: there is none; `springlab run` and `springlab sweep` make one")
+    # In a folder that cannot be written, a store can be read only if nobody is writing to it, which is then for sure.
+    for how in ("mode=ro", "immutable=1"):
+        sql = sqlite3.connect(f"{store.resolve().as_uri()}?{how}", uri=True)
+        sql.row_factory = sqlite3.Row
+        try:
+            check_format(store, sql)
+            yield from sql.execute("SELECT * FROM runs ORDER BY finished, key")
+            return
+        except sqlite3.OperationalError as error:
+            problem = error
+        except sqlite3.DatabaseError as error:
+            raise InputError(f"store {store}: is no store of springlab's ({error})") from None
+        finally:
+            sql.close()
+    raise InputError(f"store {store}: cannot be read ({problem})")
+
+
+def _flat(row: sqlite3.Row) -> dict[str, Any]:
+    """A row with what a sweep varied after the stepper, and the answer's numbers and words after the reason."""
+    values = dict(row)
+    parsed = {name: json.loads(values.pop(name)) for name in JSON_COLUMNS}
+    flat = {name: values[name] for name in COLUMNS[:3]} | (parsed["parameters"] or {})
+    flat |= {name: values[name] for name in COLUMNS[3:]}
+    if isinstance(parsed["answer"], dict):
+        flat |= {k: v for k, v in parsed["answer"].items() if v is None or isinstance(v, str | int | float)}
+    flat["settings"] = json.dumps(parsed["settings"])
+    return flat | {name: values[name] for name in MORE_COLUMNS[1:]}
+
+
+def _equal(value: Any, wanted: str) -> bool:
+    if isinstance(value, int | float):
+        try:
+            return float(wanted) == value
+        except ValueError:
+            return False
+    return str(value) == wanted if value is not None else wanted in ("", "-")

@@ -1,0 +1,102 @@
+"""The commands for many runs: sweep, results."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from time import perf_counter
+
+import click
+
+from experiments.console import progress, show_table
+from experiments.runner_options import chosen_runner, runner_options, store_option
+
+#: Rows of results that are shown in the terminal.
+SHOWN = 40
+
+
+@click.command("sweep")
+@click.argument("scene", default="string")
+@click.option("--stepper", "names", multiple=True, required=True, metavar="NAME", help="See `springlab list`.")
+@click.option("--over", "axes", multiple=True, required=True, metavar="KEY=LOW:HIGH:COUNT", help="Or KEY=A,B,C.")
+@click.option("--set", "settings", multiple=True, metavar="KEY=VALUE", help="Set a parameter of the scene.")
+@click.option("--dt", type=float, help="Step [s], where it is not varied; the scene's own where left out.")
+@click.option("--duration", type=float, help="How long [s].")
+@click.option("--identify", is_flag=True, help="Find the scheme of every run: a second each.")
+@click.option("--keep", is_flag=True, help="Keep trajectories.")
+@click.option("--time-limit", type=float, default=60.0, show_default=True, help="Of a run [s].")
+@click.option("--memory-limit", type=float, default=4.0, show_default=True, help="Of a run's process [GiB].")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@runner_options
+def sweep_command(
+    scene: str,
+    names: tuple[str, ...],
+    axes: tuple[str, ...],
+    settings: tuple[str, ...],
+    dt: float | None,
+    duration: float | None,
+    identify: bool,
+    keep: bool,
+    time_limit: float,
+    memory_limit: float,
+    as_json: bool,
+    resume: bool,
+    store: Path,
+    jobs: int | None,
+    cluster: str | None,
+) -> None:
+    """Run steppers on SCENE over a grid of its parameters (and dt), every run in the store as soon as it is done.
+
+    --over KEY=LOW:HIGH:COUNT spaces values evenly; KEY=LOW:HIGH:COUNT:log by equal factors.
+    """
+    from experiments.arguments import parse_settings
+    from experiments.steppers import find_steppers
+    from experiments.store import outcome_of_answer
+    from experiments.sweeps import Sweep, count, parse_axes, tally
+
+    steppers, values = find_steppers(names), parse_axes(axes)
+    limits = (time_limit, memory_limit * 2**30)
+    sweep = Sweep(scene, steppers, values, parse_settings(settings), dt, duration, identify, keep, *limits)
+    tallies, begin, done = tally(steppers), perf_counter(), 0
+    with chosen_runner(resume, store, jobs, cluster) as runner, progress("sweep") as tell:
+        if not resume:
+            runner.start_over(sweep.jobs())
+        for job, answer in runner.answers(sweep.jobs()):
+            done += 1
+            count(tallies, job.labels["stepper"], outcome_of_answer(answer))
+            tell(f"{done} of {len(sweep)} runs")
+    seconds = perf_counter() - begin
+    if as_json:
+        endings = {name: dict(found.endings) for name, found in tallies.items()}
+        click.echo(
+            json.dumps({"runs": done, "run_now": runner.done, "seconds": seconds, "outcomes": endings}, indent=2)
+        )
+        return
+    show_table("", ["stepper", "runs", "most frequent reason"], [found.row for found in tallies.values()])
+    click.echo(f"{done} runs, {runner.done} of them now, in {seconds:.3g} s; `springlab results` shows them")
+
+
+@click.command("results")
+@click.argument("filters", nargs=-1, metavar="[COLUMN=VALUE]...")
+@store_option
+@click.option("--csv", "as_csv", is_flag=True, help="Print CSV.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.option("--all", "retired", is_flag=True, help="Also those that were started over.")
+def results_command(filters: tuple[str, ...], store: Path, as_csv: bool, as_json: bool, retired: bool) -> None:
+    """Show or export what is in the store: all of it, or rows with COLUMN=VALUE (stepper=heun outcome=crashed ...)."""
+    from experiments.results import MORE_COLUMNS, parse_filters, rows, write_csv
+
+    found = rows(store, parse_filters(filters), retired)
+    if as_json:
+        click.echo(json.dumps(found, indent=2))
+        return
+    if as_csv:
+        write_csv(found, sys.stdout)
+        return
+    columns = [name for name in {n: None for row in found for n in row} if name not in MORE_COLUMNS]
+    columns = [name for name in columns if any(row.get(name) not in (None, "") for row in found[:SHOWN])]
+    if found:
+        show_table("", columns, [[row.get(name) for name in columns] for row in found[:SHOWN]])
+    more = f"; shown are {SHOWN}: name columns, or ask for --csv" if len(found) > SHOWN else ""
+    click.echo(f"{len(found)} runs in {store}{more}")
