@@ -142,7 +142,7 @@ def _compile(mujoco: ModuleType, system: MassSpringSystem) -> Any:
         spec = mujoco.MjSpec.from_string(xml)
         # pairs of bodies not to be tested for contact, which is off; with two segments MuJoCo gets their names wrong
         for pair in list(spec.excludes):
-            spec.delete(pair)
+            spec.delete(pair) if hasattr(spec, "delete") else pair.delete()  # the second in MuJoCo 3.2
         return spec.compile()
     except ValueError as error:
         raise Unsupported("MuJoCo: " + " ".join(str(error).split())) from None

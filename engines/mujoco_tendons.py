@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import partial
 from types import ModuleType
 from typing import Any, Literal
 
@@ -12,7 +11,7 @@ import numpy as np
 
 from engines.engine import CAPABILITIES, Unsupported
 from engines.mujoco_common import OFF, check_inertia, mujoco_module, update_constants, without
-from reference.state import Array
+from engines.mujoco_masses import SlidingMasses, three
 from reference.system import MassSpringSystem
 
 Integrator = Literal["Euler", "RK4", "implicit"]
@@ -98,56 +97,18 @@ class MujocoTendons:
         return TendonSimulation(mujoco, model, system, self.nested)
 
 
-class TendonSimulation:
-    """A system in MuJoCo. The coordinates are positions, or with nested bodies the steps from each to the next."""
+class TendonSimulation(SlidingMasses):
+    """A system whose springs are tendons."""
 
     def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, nested: bool) -> None:
-        self._mujoco, self._model, self._system, self._nested = mujoco, model, system, nested
         _write_numbers(mujoco, model, system, nested)
-        self._data = mujoco.MjData(model)
-        # MuJoCo's own memory seen as one row per free mass
-        self._q = self._data.qpos.reshape(-1, system.dimension)
-        self._v = self._data.qvel.reshape(-1, system.dimension)
-        free, fixed = np.flatnonzero(~system.fixed), np.flatnonzero(system.fixed)
-        self._q[:] = self._coordinates(system.positions[free])
-        self._v[:] = self._coordinates(system.velocities[free])
-        # what a state is read from: the free masses first, then the fixed; in order only once taken out
-        order = np.concatenate([free, fixed])
-        self._order = np.argsort(order)
-        self._positions, self._velocities = system.positions[order], system.velocities[order]
-        self._free_positions, self._free_velocities = self._positions[: len(free)], self._velocities[: len(free)]
-
-    def step(self) -> None:
-        """One mj_step."""
-        self._mujoco.mj_step(self._model, self._data)
-
-    def bare_step(self) -> Callable[[], object]:
-        """mj_step."""
-        return partial(self._mujoco.mj_step, self._model, self._data)
-
-    def state(self) -> tuple[Array, Array]:
-        """Positions and velocities, read from the coordinates alone: nothing is computed in the engine."""
-        self._free_positions[:] = self._q.cumsum(axis=0) if self._nested else self._q
-        self._free_velocities[:] = self._v.cumsum(axis=0) if self._nested else self._v
-        return self._positions.take(self._order, axis=0), self._velocities.take(self._order, axis=0)
+        super().__init__(mujoco, model, system, nested)
 
     def change(self, parameter: str, value: float) -> None:
         """Every parameter can change between two steps; the state stays where it is, to the last bit."""
         changed = self._system.with_parameter(parameter, value)
         _write_numbers(self._mujoco, self._model, changed, self._nested)
         self._system = changed
-
-    def jacobian(self) -> Array | None:
-        """MuJoCo's mjd_transitionFD over (qpos, qvel), centred; None for RK4, which it refuses."""
-        mujoco, model = self._mujoco, self._model
-        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
-            return None
-        transition = np.zeros((2 * model.nv, 2 * model.nv))
-        mujoco.mjd_transitionFD(model, self._data, 1e-6, True, transition, None, None, None)
-        return transition
-
-    def _coordinates(self, rows: Array) -> Array:
-        return np.diff(rows, axis=0, prepend=0.0) if self._nested else rows
 
 
 def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool) -> Any:
@@ -159,7 +120,7 @@ def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool) -> Any:
     parent = spec.worldbody
     for i, fixed in enumerate(system.fixed):
         if fixed:
-            spec.worldbody.add_site(name=f"mass {i}", pos=_three(system.positions[i]))
+            spec.worldbody.add_site(name=f"mass {i}", pos=three(system.positions[i]))
             continue
         # every body at the origin, so that coordinates are positions
         body = parent.add_body(mass=1.0, inertia=[1.0, 1.0, 1.0], explicitinertial=True)
@@ -183,16 +144,12 @@ def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem, nes
     model.tendon_stiffness[:] = system.stiffness
     model.tendon_damping[:] = system.damping
     model.tendon_lengthspring[:] = system.rest_lengths[:, None]  # no slack: from the rest length to the rest length
-    model.opt.gravity[:] = _three(system.gravity)
+    model.opt.gravity[:] = three(system.gravity)
     if nested:
         model.opt.viscosity = system.drag / (3 * np.pi * CUBE)
     else:
         model.dof_damping[:] = system.drag
     update_constants(mujoco, model)
-
-
-def _three(vector: Array) -> Array:
-    return np.pad(vector, (0, 3 - len(vector)))
 
 
 ENGINES = (

@@ -32,17 +32,17 @@ class Supervisor:
         self._lock = threading.Lock()
         self._idle: list[Worker] = []
         self._busy: set[Worker] = set()
-        self._closed = False
+        self._stops = 0
 
     def run(self, task: Callable[..., Any], arguments: tuple[Any, ...], time_limit: float, memory_limit: float) -> Any:
         """What a task in a process of its own returns, or the outcome that says why it did not.
 
         Raises:
-            InterruptedError: if the supervisor was closed meanwhile.
+            InterruptedError: if the supervisor was stopped meanwhile.
         """
-        kills, fresh = 0, False
+        kills, fresh, stops = 0, False, self._stops
         while True:
-            worker = self._take(fresh)
+            worker = self._take(fresh, stops)
             try:
                 answer = worker.do(task, arguments, time_limit, memory_limit)
             except NoAnswerError as failure:
@@ -58,13 +58,13 @@ class Supervisor:
                 self._end(worker)
                 raise
             else:
-                self._give_back(worker)
+                self._give_back(worker, stops)
                 return answer
 
-    def close(self) -> None:
+    def stop(self) -> None:
         """End all processes, whatever they are at. Those who wait for an answer are interrupted."""
         with self._lock:
-            self._closed = True
+            self._stops += 1
             for worker in self._busy:
                 worker.kill()
             while self._idle:
@@ -75,19 +75,19 @@ class Supervisor:
         with self._lock:
             return [worker.pid for worker in (*self._idle, *self._busy) if worker.pid is not None]
 
-    def _take(self, fresh: bool) -> Worker:
+    def _take(self, fresh: bool, stops: int) -> Worker:
         """An idle worker, or a new one."""
         with self._lock:
-            if self._closed:
-                raise InterruptedError("the supervisor is closed")
+            if self._stops != stops:
+                raise InterruptedError("stopped")
             worker = self._idle.pop() if self._idle and not fresh else Worker(self._python)
             self._busy.add(worker)
             return worker
 
-    def _give_back(self, worker: Worker) -> None:
+    def _give_back(self, worker: Worker, stops: int) -> None:
         with self._lock:
             self._busy.remove(worker)
-            if not self._closed:
+            if self._stops == stops:
                 self._idle.append(worker)
                 return
         worker.end()
@@ -111,8 +111,8 @@ def supervisor(python: Path | None = None) -> Supervisor:
 
 
 @atexit.register
-def close_supervisors() -> None:
+def stop_supervisors() -> None:
     """End all processes that tasks were done in."""
     with _lock:
         while _supervisors:
-            _supervisors.popitem()[1].close()
+            _supervisors.popitem()[1].stop()

@@ -195,13 +195,13 @@ class _Launched:
 
 def work(connection: Connection, scratch: Path, forked: bool = False) -> None:
     """What the process does: tasks, one after another, until nobody is left to send one."""
-    from engines.supervisor import close_supervisors  # of the processes that our tasks have made in turn
+    from engines.supervisor import stop_supervisors  # of the processes that our tasks have made in turn
 
     _prepare(scratch, forked)
     with suppress(EOFError, OSError):
         while True:
             _do(connection, connection.recv_bytes(), scratch / "run")
-    close_supervisors()
+    stop_supervisors()
     shutil.rmtree(scratch, ignore_errors=True)
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
 from engines.isolation import EngineStepper
+from experiments.runner import current
 from reference.changes import whole_steps
 from reference.exact import exact
 from reference.identify import Identification, candidates, identify_run
@@ -102,7 +101,7 @@ def _outcomes(
         progress(stepper.name)
         return stepper.run(setup.system, setup.dt, steps, setup.changes)
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with current().threads() as pool:
         engines = {s.name: pool.submit(run, s) for s in steppers if isinstance(s, EngineStepper)}
         for stepper in steppers:
             yield stepper, engines[stepper.name].result() if stepper.name in engines else run(stepper)

@@ -21,14 +21,13 @@ from experiments.runs import Equations, identify_start, scheme_of, side_by_side
 from experiments.steppers import all_steppers
 from reference.conserved import angular_momentum, energy, momentum
 from reference.exact import hanging_string
-from reference.forces import SpringMotion
 from reference.identify import candidates
 from reference.outcome import Outcome, first_torn
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
-from reference.stability import Equilibrium, pendulum_equilibrium, spring_equilibrium, step_jacobian
+from reference.stability import Equilibrium, equilibrium, step_jacobian
 from reference.state import Array, State, Trajectory
-from reference.stepper import SchemeStepper, Stepper
+from reference.stepper import EQUATIONS, SchemeStepper, Stepper
 from reference.system import MassSpringSystem
 
 #: What an energy does in the long run.
@@ -97,7 +96,7 @@ class Bench:
 
     Attributes:
         system: the undamped string.
-        at_rest: how it would hang still, of springs and of the rods they become.
+        at_rest: how it would hang still, by either's equations of motion.
         known: the catalogue's trajectories, to identify others by.
         free: the string that nothing holds.
     """
@@ -124,10 +123,7 @@ def result_of(rows: Sequence[Row]) -> Result:
 def bench() -> Bench:
     """Both strings, ready."""
     system = find("string").system(STRING)
-    at_rest: dict[Equations, Equilibrium] = {
-        SpringMotion: spring_equilibrium(system),
-        PendulumMotion: pendulum_equilibrium(system),
-    }
+    at_rest = {equations: equilibrium(equations, system) for equations in EQUATIONS}
     return Bench(system, at_rest, candidates(system, DT, IDENTIFYING_STEPS), free_string(system))
 
 

@@ -23,10 +23,9 @@ from reference.exact import TOLERANCE, exact
 from reference.forces import SpringMotion
 from reference.identify import candidates
 from reference.outcome import Outcome
-from reference.pendulum import PendulumMotion
 from reference.scenes import find
 from reference.state import Array, State, Trajectory
-from reference.stepper import SchemeStepper, Stepper
+from reference.stepper import EQUATIONS, SchemeStepper, Stepper
 from reference.system import MassSpringSystem
 
 #: When errors are looked at [s], and after how many steps: dt from 4 ms to 1/16 ms. The largest dt w is 0.77.
@@ -127,8 +126,7 @@ def result_of(rows: Sequence[Row]) -> Result:
 def bench(name: str) -> Bench:
     """One of STRINGS, ready."""
     system = find("string").system(STRINGS[name])
-    equations: tuple[Equations, ...] = (SpringMotion, PendulumMotion)
-    true = {e: exact(system, DURATION, 1, equations=e).states()[-1] for e in equations}
+    true = {e: exact(system, DURATION, 1, equations=e).states()[-1] for e in EQUATIONS}
     return Bench(name, system, true, candidates(system, float(DTS[IDENTIFYING]), STEPS[IDENTIFYING]))
 
 

@@ -108,9 +108,9 @@ class Runner:
                     yield under_way.pop(done), done.result()
 
     @contextmanager
-    def threads(self) -> Iterator[ThreadPoolExecutor]:
+    def threads(self, count: int | None = None) -> Iterator[ThreadPoolExecutor]:
         """Threads to wait for the crew in. Where one is interrupted or fails, nothing goes on behind its back."""
-        with ThreadPoolExecutor(self.crew.size) as pool:
+        with ThreadPoolExecutor(count or self.crew.size) as pool:
             try:
                 yield pool
             except BaseException:

@@ -6,11 +6,14 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from experiments.console import RESULTS
+
+if TYPE_CHECKING:  # this imports NumPy: `springlab --help` does without
+    from experiments.runner import Runner
 
 #: The store, unless told otherwise.
 STORE = RESULTS / "store.sqlite"
@@ -22,28 +25,26 @@ INTERRUPTED = 130
 def store_option(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add --store."""
     file = click.Path(path_type=Path, dir_okay=False)
-    return click.option("--store", type=file, default=STORE, show_default=True, help="Where results are kept.")(command)
+    text = "Where results are kept."
+    add = click.option("--store", type=file, envvar="SPRINGLAB_STORE", default=STORE, show_default=True, help=text)
+    return add(command)
+
+
+def resume_option(command: Callable[..., Any]) -> Callable[..., Any]:
+    """Add --resume/--fresh."""
+    text = "Go on from what is in the store (as it does by itself), or start over; nothing is deleted."
+    return click.option("--resume/--fresh", default=True, help=text)(command)
 
 
 def runner_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """Add --resume/--fresh, --store, --jobs and --cluster."""
-    options: list[Callable[[Any], Any]] = [
-        click.option(
-            "--resume/--fresh",
-            default=True,
-            help="Go on from what is in the store (as it does by itself), or start over; nothing is deleted.",
-        ),
-        store_option,
-        click.option("--jobs", type=click.IntRange(min=1), help="Runs at once; as many as there are cores."),
-        click.option("--cluster", metavar="tcp://HOST:PORT", help="Run on the workers of a Dask scheduler."),
-    ]
-    for option in reversed(options):
-        command = option(command)
-    return command
+    jobs = click.option("--jobs", type=click.IntRange(min=1), help="Runs at once; as many as there are cores.")
+    cluster = click.option("--cluster", metavar="tcp://HOST:PORT", help="Run on the workers of a Dask scheduler.")
+    return resume_option(store_option(jobs(cluster(command))))
 
 
 @contextmanager
-def chosen_runner(resume: bool, store: Path, jobs: int | None, cluster: str | None) -> Iterator[Any]:
+def chosen_runner(resume: bool, store: Path, jobs: int | None = None, cluster: str | None = None) -> Iterator[Runner]:
     """The runner that was asked for, at work meanwhile; after Ctrl-C it says how to go on.
 
     Raises:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from typing import TypeVar
 
 from engines.isolation import EngineStepper
 from experiments.comparison import Progress
+from experiments.runner import current
 from reference.identify import Identification, identify_run
 from reference.motion import Motion
 from reference.outcome import Outcome
@@ -31,7 +30,7 @@ def side_by_side(
         progress(stepper.name)
         return task(stepper)
 
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with current().threads() as pool:
         engines = {s.name: pool.submit(told, s) for s in steppers if isinstance(s, EngineStepper)}
         for stepper in steppers:
             yield stepper, engines[stepper.name].result() if stepper.name in engines else told(stepper)

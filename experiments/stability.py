@@ -184,7 +184,7 @@ def _engine_row(
 def _predict(identification: Identification, system: MassSpringSystem, rest: Equilibrium) -> Limit:
     """The limit of the scheme an engine was identified with."""
     if identification.identified_as is None:
-        return Limit(None, str(identification).partition(": ")[2])
+        return Limit(None, identification.reason or str(identification).partition(": ")[2])
     named = catalogued()[identification.identified_as]
     return stability_limit(named.scheme, equilibrium(named.equations, system) if named.on_rods else rest)
 
@@ -250,7 +250,8 @@ def result_of(rows: Sequence[Row]) -> Result:
     columns = ["stepper", "damping [N s/m]", "drag [N s/m]", "predicted dt [s]", "measured dt [s]"]
     columns += ["relative difference", "outcome", "reason"]
     columns += ["engine's own spectral radius at 0.99 of it", "at 1.01"]
-    failures = [f"{d['stepper']}: {d['outcome']}, {d['reason']}" for d in documents if d["outcome"] != "done"]
+    undone = [f"{d['stepper']}: {d['outcome']}, {d['reason']}" for d in documents if d["outcome"] != "done"]
+    failures = list(dict.fromkeys(undone))  # the same in several cases is said once
     table = Table("stability", columns, [[*row.document.values(), *(row.radii or (None, None))] for row in rows])
     return Result(_findings(rows), [table], {"rows": rows}, failures)
 

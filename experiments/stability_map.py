@@ -20,7 +20,7 @@ from reference.outcome import Outcome
 from reference.probe import GROWN, PUSH
 from reference.stability import equilibrium, fastest_rate, spring_equilibrium, stability_limit
 from reference.state import Array
-from reference.stepper import SchemeStepper, Stepper
+from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.sweep import CHUNK, sweep
 from reference.system import PARAMETERS, MassSpringSystem
 
@@ -219,9 +219,7 @@ def _growth(distances: Array, start: float) -> Array:
     return np.where(beyond.any(axis=0), fast, slow)
 
 
-def _run_one_by_one(
-    stepper: Stepper, scheme: Scheme | None, system_at: SystemAt, dt: float, points: Sequence[Mapping[str, float]]
-) -> Array:
+def _run_one_by_one(stepper: Stepper, system_at: SystemAt, dt: float, points: Sequence[Mapping[str, float]]) -> Array:
     """The growth at every point from a run of its own: an engine's all in one process, for its start takes time."""
     if not isinstance(stepper, EngineStepper):
         raise InputError(f"stepper {stepper.name!r}: expected an explicit scheme of the whole state, or an engine")

@@ -11,12 +11,12 @@ import os
 import sys
 import tempfile
 from functools import cache
-from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
 
+from reference.cache import cache_folder
 from reference.catalogue import Scheme
 from reference.errors import Unsupported
 from reference.forces import springs_of_masses
@@ -125,7 +125,7 @@ def compiled(loops: Loops) -> ModuleType:
     _allow_noalias()
     text = loops.text()
     name = f"springlab_{hashlib.sha256(text.encode()).hexdigest()[:16]}"
-    file = _cache_folder() / f"{name}.py"
+    file = cache_folder("kernels") / f"{name}.py"
     if not file.exists() or file.read_text(encoding="utf-8") != text:
         with tempfile.NamedTemporaryFile("w", dir=file.parent, suffix=".tmp", delete=False, encoding="utf-8") as new:
             new.write(text)
@@ -149,15 +149,3 @@ def _allow_noalias() -> None:
     from numba.core.options import _mapping
 
     CPUTargetOptions.noalias = _mapping("noalias")
-
-
-def _cache_folder() -> Path:
-    """Where kernels are kept: the user's cache folder, or a scratch folder where that cannot be written."""
-    home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    folder = home / "springlab" / "kernels"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            return folder
-    except OSError:
-        return Path(tempfile.mkdtemp(prefix="springlab-kernels-"))

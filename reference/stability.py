@@ -7,7 +7,7 @@ becomes J dz, with J the Jacobian of Phi. Pushes do not grow while all eigenvalu
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,7 @@ from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.motion import Motion
 from reference.pendulum import PendulumMotion
+from reference.rope import RopeMotion
 from reference.state import Array, Slope, State
 from reference.system import BoolArray, MassSpringSystem
 
@@ -63,6 +64,23 @@ def pendulum_equilibrium(system: MassSpringSystem) -> Equilibrium:
     motion = PendulumMotion(system)
     angles = np.full(len(system.springs), np.arctan2(system.gravity[0], -system.gravity[1]))
     return Equilibrium(motion, State(0.0, angles, np.zeros_like(angles)), np.ones(len(angles), dtype=bool), 1.0)
+
+
+def rope_equilibrium(system: MassSpringSystem) -> Equilibrium:
+    """The same, in the masses' own coordinates."""
+    hanging = pendulum_equilibrium(system)
+    (positions,) = hanging.motion.trajectory([hanging.state]).positions
+    state = State(0.0, positions, np.zeros_like(positions))
+    return Equilibrium(RopeMotion(system), state, ~system.fixed, float(system.rest_lengths.min()))
+
+
+def equilibrium(equations: Callable[[MassSpringSystem], Motion], system: MassSpringSystem) -> Equilibrium:
+    """Where a system comes to rest by its equations of motion."""
+    known: Mapping[object, Callable[[MassSpringSystem], Equilibrium]] = {
+        PendulumMotion: pendulum_equilibrium,
+        RopeMotion: rope_equilibrium,
+    }
+    return known.get(equations, spring_equilibrium)(system)
 
 
 def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:

@@ -14,8 +14,12 @@ from reference.forces import SpringMotion
 from reference.motion import Motion
 from reference.outcome import Outcome, outcome_of
 from reference.pendulum import PendulumMotion, why_no_pendulum
+from reference.rope import ROPE_KICK_DRIFT, RopeMotion
 from reference.simulate import simulate
 from reference.system import MassSpringSystem
+
+#: What a system is taken for: springs, the angles of the rods they become, and the masses on those rods.
+EQUATIONS: tuple[Callable[[MassSpringSystem], Motion], ...] = (SpringMotion, PendulumMotion, RopeMotion)
 
 
 class Stepper(Protocol):
@@ -39,7 +43,7 @@ class Stepper(Protocol):
 
 @dataclass(frozen=True)
 class SchemeStepper:
-    """A catalogued scheme on the equations of motion of springs, or of the pendulum that very stiff springs become."""
+    """A catalogued scheme on the equations of motion of springs, or of the rods that very stiff springs become."""
 
     scheme: Scheme
     equations: Callable[[MassSpringSystem], Motion] = SpringMotion
@@ -47,13 +51,18 @@ class SchemeStepper:
 
     @property
     def name(self) -> str:
-        """The scheme's name, with `pendulum_` before it where rods hang in place of springs."""
-        return self.scheme.name if self.equations is SpringMotion else f"pendulum_{self.scheme.name}"
+        """The scheme's name, with `pendulum_` before it where it steps the angles of rods."""
+        return f"pendulum_{self.scheme.name}" if self.equations is PendulumMotion else self.scheme.name
 
     @property
     def kind(self) -> str:
         """The scheme's kind, or pendulum."""
-        return self.scheme.kind if self.equations is SpringMotion else "pendulum"
+        return "pendulum" if self.on_rods else self.scheme.kind
+
+    @property
+    def on_rods(self) -> bool:
+        """Whether there are rods in place of springs."""
+        return self.equations is not SpringMotion
 
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """See Stepper."""
@@ -76,8 +85,8 @@ class SchemeStepper:
 
 
 def catalogued() -> Mapping[str, SchemeStepper]:
-    """Every scheme on springs, then those that can on the pendulum, by name."""
+    """Every scheme on springs, then those that can on the pendulum, then the rope's own, by name."""
     schemes = catalogue.schemes().values()
     on_springs = [SchemeStepper(s) for s in schemes]
     on_rods = [SchemeStepper(s, PendulumMotion) for s in schemes if not s.springs_only]
-    return {stepper.name: stepper for stepper in [*on_springs, *on_rods]}
+    return {stepper.name: stepper for stepper in [*on_springs, *on_rods, SchemeStepper(ROPE_KICK_DRIFT, RopeMotion)]}

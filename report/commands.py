@@ -12,6 +12,7 @@ import click
 
 from experiments.console import RESULTS, progress, show_result
 from experiments.experiment import NAMES, find
+from experiments.runner_options import chosen_runner, resume_option, runner_options, store_option
 
 if TYPE_CHECKING:
     from experiments.stability import Row
@@ -111,13 +112,16 @@ def _map(
 @click.command("run")
 @click.argument("names", nargs=-1, required=True, metavar="EXPERIMENT...")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS, show_default=True)
-def run_command(names: tuple[str, ...], out: Path) -> int:
+@runner_options
+def run_command(
+    names: tuple[str, ...], out: Path, resume: bool, store: Path, jobs: int | None, cluster: str | None
+) -> int:
     """Run experiments: show what they find, and write figures and tables to OUT/EXPERIMENT."""
     from report.page import section
 
     failed = False
     for experiment in [find(name) for name in names]:
-        with progress(experiment.name) as tell:
+        with chosen_runner(resume, store, jobs, cluster), progress(experiment.name) as tell:
             answer = section(experiment, out / experiment.name, tell)
         if answer.result is None:
             print(f"springlab: {experiment.name}: {answer.failure}", file=sys.stderr)
@@ -131,7 +135,9 @@ def run_command(names: tuple[str, ...], out: Path) -> int:
 @click.command("report")
 @click.option("--only", "names", multiple=True, metavar="EXPERIMENT", help="Only these experiments.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "report", show_default=True)
-def report_command(names: Sequence[str], out: Path) -> int:
+@resume_option
+@store_option
+def report_command(names: Sequence[str], out: Path, resume: bool, store: Path) -> int:
     """Run the experiments and write one self-contained page, OUT/index.html. Exit code 1 if an experiment failed."""
     from report.page import all_sections, page
 
@@ -139,8 +145,8 @@ def report_command(names: Sequence[str], out: Path) -> int:
     if not names:
         wanted = [experiment for experiment in wanted if experiment.in_report]
     out.mkdir(parents=True, exist_ok=True)
-    with progress("report") as tell:
-        sections = all_sections(wanted, out, tell)
+    with chosen_runner(resume, store), progress("report") as tell:
+        sections = all_sections(wanted, out, tell, store, fresh=not resume)
     (out / "index.html").write_text(page(sections), encoding="utf-8")
     for answer in sections:
         first = answer.failure if answer.result is None else answer.result.findings[0]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import base64
 import os
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 from engines.isolation import isolated
@@ -14,10 +15,12 @@ from experiments.comparison import Progress
 from experiments.console import plain
 from experiments.environment import environment
 from experiments.experiment import Experiment, Result, find, write_tables
+from experiments.runner import LocalCrew, Runner, current, using
+from experiments.store import Store
 from report.figures import draw
 
-#: An experiment may take so long [s].
-TIME_LIMIT = 900.0
+#: An experiment may take so long [s], and its process so much memory [bytes].
+TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,9 @@ def section(experiment: Experiment, folder: Path, progress: Progress) -> Section
     return Section(experiment, result, svg, picture.alt, [(file.name, _embedded(file)) for file in files])
 
 
-def all_sections(experiments: Sequence[Experiment], folder: Path, progress: Progress) -> list[Section]:
+def all_sections(
+    experiments: Sequence[Experiment], folder: Path, progress: Progress, store: Path, fresh: bool = False
+) -> list[Section]:
     """A section for every experiment, in their order, each with a folder of its own.
 
     Experiments run beside one another, each in a process of its own; those that measure times run alone, at the end.
@@ -56,8 +61,9 @@ def all_sections(experiments: Sequence[Experiment], folder: Path, progress: Prog
     alone = [experiment for experiment in experiments if experiment.timed]
     done: dict[str, Section] = {}
     for group, workers in ((crowd, os.cpu_count()), (alone, 1)):
-        with ThreadPoolExecutor(workers) as pool:
-            running = {pool.submit(_isolated_section, experiment, folder): experiment for experiment in group}
+        with current().threads(workers) as pool:
+            made = partial(_isolated_section, folder=folder, store=store, fresh=fresh)
+            running = {pool.submit(made, experiment): experiment for experiment in group}
             for future in as_completed(running):
                 done[running[future].name] = future.result()
                 left = [experiment.name for experiment in running.values() if experiment.name not in done]
@@ -65,15 +71,17 @@ def all_sections(experiments: Sequence[Experiment], folder: Path, progress: Prog
     return [done[experiment.name] for experiment in experiments]
 
 
-def _isolated_section(experiment: Experiment, folder: Path) -> Section:
+def _isolated_section(experiment: Experiment, folder: Path, store: Path, fresh: bool) -> Section:
     own = (folder / experiment.name).resolve()
-    made = isolated(section_by_name, experiment.name, own, time_limit=TIME_LIMIT)
+    arguments = (experiment.name, own, store.resolve(), fresh)
+    made = isolated(section_by_name, *arguments, time_limit=TIME_LIMIT, memory_limit=MEMORY_LIMIT)
     return made if isinstance(made, Section) else Section(experiment, failure=f"{made.ending}: {made.reason}")
 
 
-def section_by_name(name: str, folder: Path) -> Section:
+def section_by_name(name: str, folder: Path, store: Path, fresh: bool) -> Section:
     """As `section`, with what travels between processes: the page needs no more of a result than its words."""
-    made = section(find(name), folder, lambda _: None)
+    with using(Runner(LocalCrew(), Store(store), fresh)):
+        made = section(find(name), folder, lambda _: None)
     return made if made.result is None else replace(made, result=replace(made.result, data={}))
 
 

@@ -24,12 +24,15 @@ ROOT = Path(__file__).parents[1]
 #: Each room, and what it may import of the rooms: itself and those behind it.
 ROOMS = ("reference", "engines", "experiments", "report")
 
+#: Of the reference, the files that must work in a bare environment.
+BARE_REFERENCE = ("cache", "changes", "errors", "outcome", "probe", "scenes", "state", "system")
+
 #: What may be imported at the top of the files that must work in a bare environment, beside the standard library.
 LIGHT = ["numpy", "engines"]
-LIGHT += [f"reference.{name}" for name in ("changes", "errors", "outcome", "state", "system")]
+LIGHT += [f"reference.{name}" for name in BARE_REFERENCE]
 
 #: Those files.
-BARE = [ROOT / "reference" / f"{name}.py" for name in ("system", "state", "errors", "changes", "outcome")]
+BARE = [ROOT / "reference" / f"{name}.py" for name in BARE_REFERENCE]
 BARE += sorted((ROOT / "engines").glob("*.py"))
 
 

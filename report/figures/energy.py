@@ -10,7 +10,6 @@ import numpy as np
 
 from experiments.energy import DURATION, KINDS, Row
 from experiments.experiment import Result
-from reference.pendulum import PendulumMotion
 from reference.state import Array
 from report.figures import COLOURS, Picture, new_figure
 from report.figures.labels import End, label_ends
@@ -92,7 +91,7 @@ def _label(group: Sequence[Row]) -> str:
 
 
 def _on_rods(row: Row) -> bool:
-    return row.scheme is not None and row.scheme.equations is PendulumMotion
+    return row.scheme is not None and row.scheme.on_rods
 
 
 def _largest(times: Array, errors: Array) -> tuple[Array, Array]:

@@ -9,7 +9,6 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.order import DTS, DURATION, Row
-from reference.forces import SpringMotion
 from report.figures import Picture, look, new_figure
 from report.figures.labels import End, label_ends
 
@@ -35,7 +34,7 @@ def draw(result: Result) -> Picture:
 def _families(rows: Sequence[Row]) -> dict[str, list[Row]]:
     """Who is drawn with whom, by what they are."""
     engines = [row for row in rows if row.stepper.kind == "engine"]
-    on_springs = [row for row in engines if row.scheme is None or row.scheme.equations is SpringMotion]
+    on_springs = [row for row in engines if row.scheme is None or not row.scheme.on_rods]
     theirs = [row.scheme.name for row in on_springs if row.scheme]
     return {
         "Schemes, and their measured slopes": [row for row in rows if row.stepper.kind == "scheme"],
@@ -45,7 +44,7 @@ def _families(rows: Sequence[Row]) -> dict[str, list[Row]]:
             for row in rows
             if row.stepper.kind == "engine_scheme" or row.stepper.name in theirs or row in on_springs
         ],
-        "With rods for springs: the pendulum, and a cable (rings)": [
+        "With rods for springs: pendulum and rope, and engines (rings)": [
             row for row in rows if row.stepper.kind == "pendulum" or (row in engines and row not in on_springs)
         ],
     }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,8 +12,7 @@ import pytest
 from engines.engine import CAPABILITIES, Engine, demands
 from reference.identify import TOLERANCE, identify_run
 from reference.outcome import Outcome
-from reference.pendulum import PendulumMotion
-from reference.stepper import SchemeStepper, catalogued
+from reference.stepper import catalogued
 from reference.system import MassSpringSystem
 from tests.conformance.children import Look, answer_of, look_on, run_all
 from tests.conformance.strings import Case
@@ -46,10 +46,25 @@ def expected(scheme: str, case: Case) -> Outcome:
     return catalogued()[scheme].run(case.system, case.dt, case.steps, case.changes)
 
 
+@cache
+def rounding(scheme: str, case: Case) -> float:
+    """What a scheme makes of rounding on a case: how far a push at the start takes it, as a part of the size.
+
+    The push, in random directions, is up to 1e-14 of the size: what steps in another order add up to, and some to
+    spare. A stable scheme takes it 2e-14 to 6e-13 far. One that blows up multiplies it, RK4 by 2e7 in ten steps of
+    0.02 s on the default string, where against 80-bit arithmetic the scheme itself is off by 2e-11 of the size.
+    """
+    system, outcome = case.system, expected(scheme, case)
+    push = 1e-14 * system.size * np.random.default_rng(0).uniform(-1, 1, system.positions.shape)
+    pushed = replace(system, positions=system.positions + np.where(system.fixed[:, None], 0.0, push))
+    other = catalogued()[scheme].run(pushed, case.dt, case.steps, case.changes).trajectory
+    assert other is not None
+    return identify_run(scheme, outcome, system, {"pushed": other}).error / system.size
+
+
 def swings_rods(engine: Engine) -> bool:
     """Whether links are rods for an engine, by the equations of the scheme it claims to be."""
-    stepper = catalogued()[engine.identified_as["plain"]]
-    return isinstance(stepper, SchemeStepper) and stepper.equations is PendulumMotion
+    return catalogued()[engine.identified_as["plain"]].on_rods
 
 
 def supported(engine: Engine, cases: Sequence[Case]) -> list[Case]:
@@ -69,7 +84,8 @@ def check_follows(
     """The engine's trajectory is that of the scheme it claims to be, and both end in the same way.
 
     max over time and masses of |x_engine - x_scheme| <= tolerance times the system's size. The scheme does the same
-    arithmetic in another order: some 1e-16 of the positions per step, adding up and swinging with the system.
+    arithmetic in another order: some 1e-16 of the positions per step, adding up and swinging with the system. Where
+    the motion amplifies rounding so much that it may pass the tolerance, what it makes of rounding is allowed.
 
     Args:
         tolerance: as a part of the system's size.
@@ -79,7 +95,8 @@ def check_follows(
     right = expected(scheme, case)
     assert outcome.trajectory is not None, f"{engine.name}, {case.name}: {outcome.ending}, {outcome.reason}"
     assert right.trajectory is not None
-    found = identify_run(engine.name, outcome, case.system, {scheme: right.trajectory}, tolerance)
+    allowed = max(tolerance, rounding(scheme, case))
+    found = identify_run(engine.name, outcome, case.system, {scheme: right.trajectory}, allowed)
     assert found.identified_as == scheme, f"{case.name}: {found}; tolerance {found.tolerance:.2g} m"
     assert outcome.ending == right.ending, f"{engine.name}, {case.name}: {outcome.ending}; {scheme}: {right.ending}"
 
@@ -95,7 +112,13 @@ def check_capability(engine: Engine, case: Case, outcome: Outcome) -> None:
 
 
 def check_change(engine: Engine, case: Case, outcome: Outcome) -> None:
-    """Parameters changed on the fly change the engine's trajectory as they do the scheme's, or are refused by name."""
+    """Parameters changed on the fly change the engine's trajectory as they do the scheme's, or are refused by name.
+
+    A system beyond the engine's capabilities is refused before anything changes.
+    """
+    if not supported(engine, [case]):
+        check_capability(engine, case, outcome)
+        return
     if outcome.ending == "unsupported":
         named = [change.parameter for change in case.changes]
         assert any(name.replace("_", " ") in outcome.reason for name in named), outcome.reason

@@ -7,10 +7,11 @@ from functools import cache
 import pytest
 
 from engines.engine import CAPABILITIES, Engine, demands, find
+from engines.trials import for_each_capability
 from reference.outcome import Outcome
 from reference.stepper import catalogued
 from tests.conformance.checks import check_capability, outcomes
-from tests.conformance.strings import Case, for_each_capability
+from tests.conformance.strings import Case
 
 CASES = {name: Case(name, system, 1e-3, 200) for name, system in for_each_capability().items()}
 

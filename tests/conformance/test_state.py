@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from engines.engine import Engine, demands
+from engines.trials import for_each_capability
 from tests.conformance.checks import check_state, looks
-from tests.conformance.strings import for_each_capability
 
 
 def test_the_state_at_the_start_is_the_systems_and_every_answer_an_array_of_its_own(engine: Engine) -> None:

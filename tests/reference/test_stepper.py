@@ -7,6 +7,7 @@ import pytest
 from reference.catalogue import find, schemes
 from reference.changes import Change
 from reference.pendulum import PendulumMotion
+from reference.rope import ROPE_KICK_DRIFT
 from reference.scenes import find as find_scene
 from reference.simulate import simulate
 from reference.stepper import SchemeStepper, catalogued
@@ -14,9 +15,11 @@ from tests.reference.systems import moving_string
 
 
 def test_every_scheme_is_a_stepper_and_those_that_can_swing_rods_are_two() -> None:
-    """Springs first, in the catalogue's order; each with the scheme's kind, or `pendulum`."""
+    """Springs first, in the catalogue's order; each with the scheme's kind, or `pendulum`. The rope's scheme is last."""
     on_rods = [f"pendulum_{name}" for name, scheme in schemes().items() if not scheme.springs_only]
+    on_rods.append(ROPE_KICK_DRIFT.name)
     assert list(catalogued()) == [*schemes(), *on_rods]
+    assert [name for name, stepper in catalogued().items() if stepper.on_rods] == on_rods
     assert all(catalogued()[name].kind == scheme.kind for name, scheme in schemes().items())
     assert all(catalogued()[name].kind == "pendulum" for name in on_rods)
     assert all(name == stepper.name for name, stepper in catalogued().items())

@@ -1,0 +1,68 @@
+"""Point masses in MuJoCo, on one slide joint per axis: what is read from them, and how they step."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from reference.state import Array
+from reference.system import MassSpringSystem
+
+
+class SlidingMasses:
+    """A system in MuJoCo. The coordinates are positions, or with nested bodies the steps from each to the next.
+
+    Args:
+        model: complete, its bodies those of the free masses in their order, and none of the fixed.
+        nested: whether each body is inside the one before it.
+    """
+
+    def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, nested: bool = False) -> None:
+        self._mujoco, self._model, self._system, self._nested = mujoco, model, system, nested
+        self._data = mujoco.MjData(model)
+        # MuJoCo's own memory seen as one row per free mass
+        self._q = self._data.qpos.reshape(-1, system.dimension)
+        self._v = self._data.qvel.reshape(-1, system.dimension)
+        free, fixed = np.flatnonzero(~system.fixed), np.flatnonzero(system.fixed)
+        self._q[:] = self._coordinates(system.positions[free])
+        self._v[:] = self._coordinates(system.velocities[free])
+        # what a state is read from: the free masses first, then the fixed; in order only once taken out
+        order = np.concatenate([free, fixed])
+        self._order = np.argsort(order)
+        self._positions, self._velocities = system.positions[order], system.velocities[order]
+        self._free_positions, self._free_velocities = self._positions[: len(free)], self._velocities[: len(free)]
+
+    def step(self) -> None:
+        """One mj_step."""
+        self._mujoco.mj_step(self._model, self._data)
+
+    def bare_step(self) -> Callable[[], object]:
+        """mj_step."""
+        return partial(self._mujoco.mj_step, self._model, self._data)
+
+    def state(self) -> tuple[Array, Array]:
+        """Positions and velocities, read from the coordinates alone: nothing is computed in the engine."""
+        self._free_positions[:] = self._q.cumsum(axis=0) if self._nested else self._q
+        self._free_velocities[:] = self._v.cumsum(axis=0) if self._nested else self._v
+        return self._positions.take(self._order, axis=0), self._velocities.take(self._order, axis=0)
+
+    def jacobian(self) -> Array | None:
+        """MuJoCo's mjd_transitionFD over (qpos, qvel), centred; None for RK4, which it refuses."""
+        mujoco, model = self._mujoco, self._model
+        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
+            return None
+        transition = np.zeros((2 * model.nv, 2 * model.nv))
+        mujoco.mjd_transitionFD(model, self._data, 1e-6, True, transition, None, None, None)
+        return transition
+
+    def _coordinates(self, rows: Array) -> Array:
+        return np.diff(rows, axis=0, prepend=0.0) if self._nested else rows
+
+
+def three(vector: Array) -> Array:
+    """A vector with zeros for the axes it does not have, shape (3,)."""
+    return np.pad(vector, (0, 3 - len(vector)))

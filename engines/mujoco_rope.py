@@ -1,0 +1,110 @@
+"""MuJoCo with point masses on slide joints, joined by the edges of a flex that are held at their lengths: a rope."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from engines.engine import CAPABILITIES, Unsupported
+from engines.mujoco_common import mujoco_module, without
+from engines.mujoco_flex import FLEX_OFF, Group, compiled, groups_of, write_masses_and_lengths
+from engines.mujoco_masses import SlidingMasses
+from reference.system import MassSpringSystem
+
+#: What is switched off. Constraints are what holds the edges.
+ROPE_OFF = tuple(part for part in FLEX_OFF if part != "CONSTRAINT")
+
+#: MuJoCo's impedance d, at the largest that it takes.
+IMPEDANCE = 0.9999
+
+#: The inverse weight of an edge, as a part of 1/m_a + 1/m_b. It lets an edge give way to its pull, 1e-7 of what masses
+#: do: so little that a rope hardly stretches, enough for edges that hold one another, as in a cloth, to share a load.
+WEIGHT = 1e-3
+
+#: Of Newton's method. It solves equalities in one iteration; the others take back what that one has rounded.
+ITERATIONS = 3
+
+
+@dataclass(frozen=True)
+class MujocoRope:
+    """Point masses on one slide joint per axis; a spring is an edge of a flex that a soft equality holds at its length.
+
+    With h = dt, a the acceleration by gravity and drag, J the rates at which edges lengthen by the masses' velocities,
+    r by how much they are too long, p their pulls and w their inverse weights (MuJoCo's manual, *Computation*):
+        (J M^-1 J^T + R) p = -b J v - k r - J a,   b = 2 / (d T),   k = 1 / (d T^2),   R = (1 - d) / d w
+        v' = v + h (a + M^-1 J^T p),   x' = x + h v'
+    T is the time constant, here 2 h: MuJoCo allows none that is shorter. An edge that is too long loses a quarter of
+    what it is too long in a step.
+    """
+
+    name: str = "mujoco_rope"
+    package: str = "mujoco"
+    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    semantics: str = (
+        "stiffness: infinite, whatever is given; damping: without effect, as nothing stretches for long; "
+        "drag is Cd [N s/m] as damping of every slide joint, explicit"
+    )
+
+    @property
+    def settings(self) -> Mapping[str, object]:
+        """What was chosen, and what of MuJoCo's step is switched off."""
+        return {
+            "integrator": "Euler",
+            "flex": "dimension 1, its edges held by an equality",
+            "solref": "2 dt, 1",
+            "solimp": f"{IMPEDANCE:g}, however far off",
+            "inverse weight of an edge": f"{WEIGHT:g} (1/m_a + 1/m_b)",
+            "solver": f"Newton, {ITERATIONS} iterations, tolerance 0",
+            "disabled": list(ROPE_OFF),
+        }
+
+    @property
+    def identified_as(self) -> Mapping[str, str]:
+        """One scheme in every case."""
+        return dict.fromkeys(("plain", "damping", "drag"), "rope_kick_drift")
+
+    def start(self, system: MassSpringSystem, dt: float) -> RopeSimulation:
+        """The system as bodies and held edges. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
+        mujoco = mujoco_module()
+        groups = groups_of(system)
+        held = "".join(f'<flex flex="flex {i}"/>' for i in range(len(groups)))
+        model = compiled(mujoco, system, groups, "<edge/>", held)
+        model.opt.timestep = dt
+        model.opt.integrator = mujoco.mjtIntegrator.mjINT_EULER
+        model.opt.disableflags = without(mujoco, ROPE_OFF)
+        model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
+        model.opt.iterations, model.opt.tolerance = ITERATIONS, 0.0
+        model.eq_solref[:] = [2 * dt, 1.0]
+        model.eq_solimp[:, :2] = IMPEDANCE
+        return RopeSimulation(mujoco, model, system, groups)
+
+
+class RopeSimulation(SlidingMasses):
+    """A system whose springs are held edges."""
+
+    def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:
+        self._groups = groups
+        _write_numbers(mujoco, model, system, groups)
+        super().__init__(mujoco, model, system)
+
+    def change(self, parameter: str, value: float) -> None:
+        """All can change but the stiffness; damping without effect, and to a new rest length it takes some steps."""
+        if parameter == "stiffness":
+            raise Unsupported("the edges of a rope do not stretch: there is no stiffness to change")
+        changed = self._system.with_parameter(parameter, value)
+        _write_numbers(self._mujoco, self._model, changed, self._groups)
+        self._system = changed
+
+
+def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:
+    write_masses_and_lengths(mujoco, model, system, groups)
+    inverse = np.where(system.fixed, 0.0, 1 / system.masses)
+    for j, group in zip(model.flex_edgeadr, groups, strict=True):
+        model.flexedge_invweight0[j : j + len(group)] = WEIGHT * inverse[system.springs[group]].sum(axis=1)
+
+
+ENGINES = (MujocoRope(),)
