@@ -4,7 +4,7 @@ BIN := .venv/bin
 READY := .venv/ready
 
 .DEFAULT_GOAL := help
-.PHONY: help report test check lock clean
+.PHONY: help report test soak check lock clean
 
 help:  ## What there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
@@ -14,6 +14,9 @@ report: $(READY)  ## Run the lab's main job: every experiment, on one page in re
 
 test: $(READY)  ## Run all tests, with formatting and types
 	$(BIN)/python -m pytest --numprocesses auto
+
+soak: $(READY)  ## Runs that crash, processes and programs that are killed, a cluster that loses a worker: nothing is lost
+	$(BIN)/python -m pytest tests/soak --full -s -p no:xdist
 
 check: $(READY)  ## Formatting and types only
 	$(BIN)/ruff format --check .

@@ -119,8 +119,14 @@ def refuse_beyond(engine: Engine, system: MassSpringSystem) -> None:
 
 def version(engine: Engine) -> str | None:
     """The installed version of the engine's package, or None where it is not installed."""
+    return installed_version(engine.package)
+
+
+@cache
+def installed_version(package: str) -> str | None:
+    """The installed version of a package, or None. It is looked up once: that takes milliseconds."""
     try:
-        return metadata.version(engine.package)
+        return metadata.version(package)
     except metadata.PackageNotFoundError:
         return None
 

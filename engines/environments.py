@@ -56,6 +56,11 @@ def environment(package: str, version: str) -> Path:
     return _python(home)
 
 
+def numpy_version() -> str:
+    """Which NumPy an environment came to have: a task to be done there."""
+    return f"{np.__version__.split('.')[0]}.x"
+
+
 def _make(home: Path, package: str, version: str) -> None:
     uv = shutil.which("uv")
     python, wanted = str(_python(home)), f"{package}=={version}"

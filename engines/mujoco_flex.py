@@ -131,9 +131,7 @@ def _flex(name: str, springs: IntArray, edge: str) -> str:
     return f'<flex name="{name}" dim="1" radius="0.001" body="{bodies}" element="{pairs}">{edge}</flex>'
 
 
-def write_masses_and_lengths(
-    mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]
-) -> None:
+def write_masses_and_lengths(mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:
     """All parameters of a system but stiffness and damping into a model of it, in double precision."""
     masses = system.masses[~system.fixed]
     check_inertia("mass", masses, "kg")

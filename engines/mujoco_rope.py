@@ -18,13 +18,6 @@ from reference.system import MassSpringSystem
 #: What is switched off. Constraints are what holds the edges.
 ROPE_OFF = tuple(part for part in FLEX_OFF if part != "CONSTRAINT")
 
-#: MuJoCo's impedance d, at the largest that it takes.
-IMPEDANCE = 0.9999
-
-#: The inverse weight of an edge, as a part of 1/m_a + 1/m_b. It lets an edge give way to its pull, 1e-7 of what masses
-#: do: so little that a rope hardly stretches, enough for edges that hold one another, as in a cloth, to share a load.
-WEIGHT = 1e-3
-
 #: Of Newton's method. It solves equalities in one iteration; the others take back what that one has rounded.
 ITERATIONS = 3
 
@@ -37,12 +30,19 @@ class MujocoRope:
     r by how much they are too long, p their pulls and w their inverse weights (MuJoCo's manual, *Computation*):
         (J M^-1 J^T + R) p = -b J v - k r - J a,   b = 2 / (d T),   k = 1 / (d T^2),   R = (1 - d) / d w
         v' = v + h (a + M^-1 J^T p),   x' = x + h v'
-    T is the time constant, here 2 h: MuJoCo allows none that is shorter. An edge that is too long loses a quarter of
-    what it is too long in a step.
+    T is the time constant, here 2 h: MuJoCo allows none that is shorter. An edge loses a quarter of what it is too long
+    in a step.
+
+    Attributes:
+        impedance: d. MuJoCo takes up to 0.9999.
+        weight: w, as a part of 1/m_a + 1/m_b. So little lets edges give way by 1e-7 of what their masses do: a rope
+            hardly stretches, yet edges that hold one another, as in a cloth, share their load.
     """
 
     name: str = "mujoco_rope"
     package: str = "mujoco"
+    impedance: float = 0.9999
+    weight: float = 1e-3
     capabilities: frozenset[str] = frozenset(CAPABILITIES)
     semantics: str = (
         "stiffness: infinite, whatever is given; damping: without effect, as nothing stretches for long; "
@@ -56,8 +56,8 @@ class MujocoRope:
             "integrator": "Euler",
             "flex": "dimension 1, its edges held by an equality",
             "solref": "2 dt, 1",
-            "solimp": f"{IMPEDANCE:g}, however far off",
-            "inverse weight of an edge": f"{WEIGHT:g} (1/m_a + 1/m_b)",
+            "solimp": f"{self.impedance:g}, however far off",
+            "inverse weight of an edge": f"{self.weight:g} (1/m_a + 1/m_b)",
             "solver": f"Newton, {ITERATIONS} iterations, tolerance 0",
             "disabled": list(ROPE_OFF),
         }
@@ -68,7 +68,7 @@ class MujocoRope:
         return dict.fromkeys(("plain", "damping", "drag"), "rope_kick_drift")
 
     def start(self, system: MassSpringSystem, dt: float) -> RopeSimulation:
-        """The system as bodies and held edges. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
+        """The system, its springs held. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
         mujoco = mujoco_module()
         groups = groups_of(system)
         held = "".join(f'<flex flex="flex {i}"/>' for i in range(len(groups)))
@@ -79,16 +79,18 @@ class MujocoRope:
         model.opt.solver = mujoco.mjtSolver.mjSOL_NEWTON
         model.opt.iterations, model.opt.tolerance = ITERATIONS, 0.0
         model.eq_solref[:] = [2 * dt, 1.0]
-        model.eq_solimp[:, :2] = IMPEDANCE
-        return RopeSimulation(mujoco, model, system, groups)
+        model.eq_solimp[:, :2] = self.impedance
+        return RopeSimulation(mujoco, model, system, groups, self.weight)
 
 
 class RopeSimulation(SlidingMasses):
     """A system whose springs are held edges."""
 
-    def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:
-        self._groups = groups
-        _write_numbers(mujoco, model, system, groups)
+    def __init__(
+        self, mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group], weight: float
+    ) -> None:
+        self._groups, self._weight = groups, weight
+        _write_numbers(mujoco, model, system, groups, weight)
         super().__init__(mujoco, model, system)
 
     def change(self, parameter: str, value: float) -> None:
@@ -96,15 +98,17 @@ class RopeSimulation(SlidingMasses):
         if parameter == "stiffness":
             raise Unsupported("the edges of a rope do not stretch: there is no stiffness to change")
         changed = self._system.with_parameter(parameter, value)
-        _write_numbers(self._mujoco, self._model, changed, self._groups)
+        _write_numbers(self._mujoco, self._model, changed, self._groups, self._weight)
         self._system = changed
 
 
-def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:
+def _write_numbers(
+    mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group], weight: float
+) -> None:
     write_masses_and_lengths(mujoco, model, system, groups)
     inverse = np.where(system.fixed, 0.0, 1 / system.masses)
     for j, group in zip(model.flex_edgeadr, groups, strict=True):
-        model.flexedge_invweight0[j : j + len(group)] = WEIGHT * inverse[system.springs[group]].sum(axis=1)
+        model.flexedge_invweight0[j : j + len(group)] = weight * inverse[system.springs[group]].sum(axis=1)
 
 
 ENGINES = (MujocoRope(),)

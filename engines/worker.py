@@ -6,7 +6,6 @@ is noticed at once; what the task had to say on its way out is kept. Needs NumPy
 
 from __future__ import annotations
 
-import ctypes
 import faulthandler
 import multiprocessing
 import os
@@ -17,13 +16,16 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Any, Protocol
 
 from reference.outcome import Outcome
+
+if sys.platform == "linux":
+    import fcntl
 
 #: How often a working process's memory is looked at [s].
 LOOK = 0.05
@@ -34,14 +36,14 @@ GRACE = 1.0
 #: Where, in its scratch folder, a process's output is kept.
 OUTPUT = "output.txt"
 
+#: So often a process is tried to be started, should the server that forks it be killed meanwhile.
+STARTS = 5
+
 #: Signals that come from outside: the kernel short of memory, a person, a machine that shuts down.
 FROM_OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT})
 
 #: The exit code of a process whose end nobody saw: the server that forked it was killed too.
 UNSEEN = 255
-
-#: What Linux calls "send me this signal when my parent ends".
-PARENT_DEATH_SIGNAL = 1
 
 
 class NoAnswerError(Exception):
@@ -91,8 +93,9 @@ class Worker:
         self._scratch = Path(tempfile.mkdtemp(prefix="springlab-"))
         start = _Forked if python is None else _Launched
         self._connection, theirs = multiprocessing.Pipe()
-        with theirs:
-            self._process: Process = start(theirs, self._scratch, python)
+        lifeline, self._lifeline = multiprocessing.Pipe(duplex=False)
+        with theirs, lifeline, _deaf_to_interrupts():
+            self._process: Process = start(theirs, lifeline, self._scratch, python)
 
     @property
     def pid(self) -> int | None:
@@ -127,6 +130,7 @@ class Worker:
         self._process.kill()
         self._process.exit_code()
         self._connection.close()
+        self._lifeline.close()
         shutil.rmtree(self._scratch, ignore_errors=True)
 
     def kill(self) -> None:
@@ -146,18 +150,22 @@ class Worker:
 class _Forked:
     """A process forked from a server that has imported this file and nothing heavy: 10 ms, and no shared state."""
 
-    def __init__(self, connection: Connection, scratch: Path, _: Path | None) -> None:
+    def __init__(self, connection: Connection, lifeline: Connection, scratch: Path, _: Path | None) -> None:
         if sys.platform == "win32":
             context: Any = multiprocessing.get_context("spawn")
         else:
             context = multiprocessing.get_context("forkserver")
             context.set_forkserver_preload(["engines.isolation"])
-        self._process = context.Process(target=work, args=(connection, scratch, True))
-        with suppress(OSError, EOFError):  # the server was killed just now
-            self._process.start()
-        if self._process.pid is None:
-            self._process.start()  # which starts a new server
+        self._process = context.Process(target=work, args=(connection, lifeline, scratch))
+        self._start()
         self.pid, self.sentinel = self._process.pid, self._process.sentinel
+
+    def _start(self) -> None:
+        for _ in range(STARTS - 1):
+            with suppress(OSError, EOFError):  # the server was killed just now; the next try starts a new one
+                self._process.start()
+                return
+        self._process.start()
 
     def kill(self) -> None:
         self._process.kill()
@@ -172,10 +180,11 @@ class _Forked:
 class _Launched:
     """A process of another interpreter."""
 
-    def __init__(self, connection: Connection, scratch: Path, python: Path | None) -> None:
+    def __init__(self, connection: Connection, lifeline: Connection, scratch: Path, python: Path | None) -> None:
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-        command = [str(python), "-m", "engines.worker", str(connection.fileno()), str(scratch)]
-        self._process = subprocess.Popen(command, pass_fds=[connection.fileno()], cwd=scratch, env=environment)
+        pipes = [connection.fileno(), lifeline.fileno()]
+        command = [str(python), "-m", "engines.worker", *map(str, pipes), str(scratch)]
+        self._process = subprocess.Popen(command, pass_fds=pipes, cwd=scratch, env=environment)
         self.pid = self._process.pid
         self.sentinel = os.pidfd_open(self.pid)
 
@@ -193,11 +202,25 @@ class _Launched:
         return code
 
 
-def work(connection: Connection, scratch: Path, forked: bool = False) -> None:
+@contextmanager
+def _deaf_to_interrupts() -> Iterator[None]:
+    """Processes started meanwhile hear no Ctrl-C from their first moment on; this one hears it afterwards."""
+    if sys.platform == "win32":
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def work(connection: Connection, lifeline: Connection, scratch: Path) -> None:
     """What the process does: tasks, one after another, until nobody is left to send one."""
     from engines.supervisor import stop_supervisors  # of the processes that our tasks have made in turn
 
-    _prepare(scratch, forked)
+    _prepare(scratch)
+    _hang_on(lifeline)
     with suppress(EOFError, OSError):
         while True:
             _do(connection, connection.recv_bytes(), scratch / "run")
@@ -205,16 +228,27 @@ def work(connection: Connection, scratch: Path, forked: bool = False) -> None:
     shutil.rmtree(scratch, ignore_errors=True)
 
 
-def _prepare(scratch: Path, forked: bool) -> None:
-    """Output goes into a file; Ctrl-C is for the one we work for to act on; when that one is gone, so are we."""
+def _prepare(scratch: Path) -> None:
+    """Output goes into a file; Ctrl-C is for the one we work for to act on."""
     os.chdir(scratch)
     output = os.open(OUTPUT, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
     for standard in (1, 2):
         os.dup2(output, standard)
     faulthandler.disable()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    if forked and sys.platform == "linux":
-        ctypes.CDLL(None).prctl(PARENT_DEATH_SIGNAL, signal.SIGKILL)
+
+
+def _hang_on(lifeline: Connection) -> None:
+    """Let the kernel kill this process, whatever it is at, once nobody holds the other end of a pipe.
+
+    On Linux. Its signal for a parent's end would not do: our parent is the server, which outlives the one we work for.
+    """
+    if sys.platform == "linux":
+        fcntl.fcntl(lifeline, fcntl.F_SETOWN, os.getpid())
+        fcntl.fcntl(lifeline, fcntl.F_SETSIG, signal.SIGKILL)
+        fcntl.fcntl(lifeline, fcntl.F_SETFL, os.O_ASYNC)
+        if lifeline.poll():  # it happened before we listened
+            os._exit(1)
 
 
 def _do(connection: Connection, message: bytes, folder: Path) -> None:
@@ -260,4 +294,4 @@ def _one_line(text: str) -> str:
 
 
 if __name__ == "__main__":
-    work(Connection(int(sys.argv[1])), Path(sys.argv[2]))
+    work(Connection(int(sys.argv[1])), Connection(int(sys.argv[2])), Path(sys.argv[3]))

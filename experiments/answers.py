@@ -1,6 +1,6 @@
 """What a task answered, as JSON and arrays, and back: how the store keeps it.
 
-An answer is made of numbers, words, None, arrays, outcomes, and lists and mappings of such.
+An answer is made of numbers, words, None, arrays of numbers, outcomes, lists of such, and mappings of such by names.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ import numpy as np
 from reference.outcome import Outcome
 from reference.state import Array, Trajectory
 
-#: In place of an array, an outcome, or a number that JSON does not know, stands a mapping with one of these alone.
+#: In place of an array, an outcome, or a number that JSON does not know, stands a mapping with one of these alone. No
+#: mapping of an answer's own is taken for one: its keys are names, as those of variables are.
 ARRAY, OUTCOME, NUMBER = "<array>", "<outcome>", "<number>"
 
 
@@ -31,21 +32,27 @@ def encode(answer: Any) -> tuple[Any, dict[str, Array]]:
 def _encode(value: Any, name: str, arrays: dict[str, Array]) -> Any:
     if value is None or isinstance(value, str | bool | int):
         return value
-    if isinstance(value, np.generic):
+    if isinstance(value, np.bool_ | np.integer | np.float16 | np.float32 | np.float64):
         return _encode(value.item(), name, arrays)
     if isinstance(value, float):
         return value if math.isfinite(value) else {NUMBER: repr(value)}
-    if isinstance(value, np.ndarray):
+    if isinstance(value, np.ndarray) and value.dtype.kind in "biufc":
         arrays[name] = value
         return {ARRAY: name}
     if isinstance(value, Outcome):
         fields = {"ending": value.ending, "reason": value.reason, "trajectory": _fields(value.trajectory)}
         return {OUTCOME: _encode(fields, name, arrays)}
     if isinstance(value, Mapping):
-        return {key: _encode(item, f"{name}.{key}", arrays) for key, item in value.items()}
+        return {_named(key): _encode(item, f"{name}.{key}", arrays) for key, item in value.items()}
     if isinstance(value, list | tuple):
         return [_encode(item, f"{name}.{i}", arrays) for i, item in enumerate(value)]
     raise TypeError(f"an answer with a {type(value).__name__} cannot be kept")
+
+
+def _named(key: Any) -> str:
+    if not (isinstance(key, str) and key.isidentifier()):
+        raise TypeError(f"an answer with the key {key!r} cannot be kept: expected a name")
+    return key
 
 
 def _fields(trajectory: Trajectory | None) -> dict[str, Array] | None:

@@ -21,6 +21,10 @@ COMMANDS = {
     "stability": ("report.commands:stability_command", "Predict and measure the largest stable dt; map growth."),
     "sweep": ("experiments.sweep_commands:sweep_command", "Run steppers over a grid of parameters; nothing is lost."),
     "results": ("experiments.sweep_commands:results_command", "Show or export what is in the store."),
+    "versions": (
+        "report.versions_command:versions_command",
+        "Say what versions of an engine do, and what each changed.",
+    ),
     "run": ("report.commands:run_command", "Run experiments, and write their figures and tables."),
     "report": ("report.commands:report_command", "Write the report: every experiment on one page."),
 }

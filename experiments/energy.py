@@ -50,6 +50,9 @@ IDENTIFYING_STEPS = 200
 #: How long the free string flies [s], and how fast its masses are thrown [m/s].
 FREE_DURATION, SPEED = 1.0, 0.2
 
+#: An eigenvalue this far off the real axis is an oscillation's; the slowest mode has dt w = 0.02.
+TURNING = 1e-3
+
 #: Eigenvalues this near to the unit circle are on it: differences and rounding leave some 1e-12.
 ON_THE_CIRCLE = 1e-10
 
@@ -161,9 +164,11 @@ def predicted_kind(scheme: SchemeStepper, at_rest: Equilibrium) -> Kind:
     """What theory says: a string near its rest is as many undamped oscillators, of dt w up to 0.2.
 
     One step multiplies a mode by an eigenvalue of the step's Jacobian, and its energy by the eigenvalue's modulus
-    squared: any beyond the unit circle grows; else any within decays; else all stay.
+    squared: any beyond the unit circle grows; else any within decays; else all stay. Real eigenvalues are of no
+    oscillation, but of rods that are brought back to their lengths.
     """
-    moduli = np.abs(np.linalg.eigvals(step_jacobian(scheme.scheme, at_rest, DT)))
+    values = np.linalg.eigvals(step_jacobian(scheme.scheme, at_rest, DT))
+    moduli = np.abs(values[np.abs(values.imag) > TURNING])
     if moduli.max() > 1 + ON_THE_CIRCLE:
         return "growing"
     return "decaying" if moduli.min() < 1 - ON_THE_CIRCLE else "bounded"

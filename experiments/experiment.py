@@ -27,6 +27,7 @@ NAMES = (
     "errata",
     "cost",
     "speed",
+    "million_runs",
 )
 
 

@@ -86,7 +86,9 @@ class Job:
 
 
 def digest(*things: Any) -> str:
-    """A SHA-256 digest of numbers, words, arrays, dataclasses, functions by name, and collections of them.
+    """A SHA-256 digest of numbers, words, bytes, arrays, dataclasses, functions by name, and collections of them.
+
+    A list and a tuple of the same are the same; so are a mapping or a set in whatever order.
 
     Raises:
         TypeError: for anything else, whose digest might not say all there is to it.
@@ -97,39 +99,54 @@ def digest(*things: Any) -> str:
 
 
 def _feed(update: Callable[[bytes], object], thing: Any) -> None:
-    """Each thing with its kind and its size before it: no two collections of things look alike."""
+    """Each thing with its kind and its size before it: no two things look alike."""
     if thing is None or isinstance(thing, bool | int | str):
         _tell(update, type(thing).__name__, str(thing).encode())
     elif isinstance(thing, float):
         _tell(update, "float", float(thing).hex().encode())
-    elif isinstance(thing, np.ndarray):
-        _tell(update, f"array {thing.dtype.str} {thing.shape}", np.ascontiguousarray(thing).tobytes())
-    elif isinstance(thing, np.generic):
+    elif isinstance(thing, bytes):
+        _tell(update, "bytes", thing)
+    elif isinstance(thing, np.ndarray) and _plain(thing.dtype):
+        _tell(update, f"array {thing.dtype.str} {thing.shape}", thing.tobytes())
+    elif isinstance(thing, np.generic) and _plain(thing.dtype):
         _feed(update, thing.item())
     elif dataclasses.is_dataclass(thing) and not isinstance(thing, type):
-        _feed(update, [_name(type(thing)), *((f.name, getattr(thing, f.name)) for f in dataclasses.fields(thing))])
+        values = [(f.name, getattr(thing, f.name)) for f in dataclasses.fields(thing)]
+        _feed_all(update, f"dataclass {_name(type(thing))}", values)
     elif isinstance(thing, Mapping):
-        _feed(update, ["mapping", *sorted(thing.items(), key=lambda item: str(item[0]))])
+        _feed_all(update, "mapping", sorted((digest(key), digest(value)) for key, value in thing.items()))
     elif isinstance(thing, Set):
-        _feed(update, ["set", *sorted(thing, key=str)])
-    elif isinstance(thing, Sequence):
-        _tell(update, "sequence", str(len(thing)).encode())
-        for item in thing:
-            _feed(update, item)
+        _feed_all(update, "set", sorted(map(digest, thing)))
+    elif isinstance(thing, list | tuple):
+        _feed_all(update, "sequence", thing)
     elif isinstance(thing, partial):
-        _feed(update, ["partial", thing.func, thing.args, thing.keywords])
+        _feed_all(update, "partial", [thing.func, thing.args, thing.keywords])
     elif isinstance(thing, FunctionType | type):
         _tell(update, "name", _name(thing).encode())
     else:
         raise TypeError(f"a {type(thing).__name__} has no digest")
 
 
+def _feed_all(update: Callable[[bytes], object], kind: str, things: Sequence[Any]) -> None:
+    _tell(update, kind, str(len(things)).encode())
+    for thing in things:
+        _feed(update, thing)
+
+
 def _tell(update: Callable[[bytes], object], kind: str, content: bytes) -> None:
     update(f"{kind} {len(content)}:".encode() + content)
 
 
+def _plain(kind: np.dtype[Any]) -> bool:
+    """Whether an array's bytes say all there is to it: truths, numbers, words; but not long floats, which have gaps."""
+    return kind.kind in "biufcSU" and kind.char not in "gG"
+
+
 def _name(thing: Any) -> str:
-    return f"{thing.__module__}.{thing.__qualname__}"
+    name = f"{thing.__module__}.{thing.__qualname__}"
+    if "<" in name:  # a lambda, or made inside a function: others may have the same name
+        raise TypeError(f"{name} has no digest: expected a function or class of a module")
+    return name
 
 
 @cache
@@ -143,7 +160,7 @@ def _sources(task: Callable[..., Any]) -> str:
     rooms: Sequence[ModuleType] = (reference, engines)
     files = [file for room in rooms for folder in room.__path__ for file in sorted(Path(folder).glob("*.py"))]
     own = inspect.getsourcefile(task)
-    texts = [file.read_bytes().hex() for file in [*files, *([Path(own)] if own else [])]]
+    texts = [file.read_bytes() for file in [*files, *([Path(own)] if own else [])]]
     return digest(_name(task), texts)
 
 

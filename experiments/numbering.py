@@ -8,9 +8,7 @@ masses or springs one after the other, and looks at what it has already changed.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,7 +18,7 @@ from engines.pymunk_springs import PymunkSprings
 from experiments.comparison import Progress, finite
 from experiments.experiment import Experiment, Result, Table
 from experiments.renaming import CHANGES, Renamed, differences
-from experiments.runner import answer
+from experiments.runner import answer, current
 from experiments.steppers import default_steppers
 from reference.catalogue import Scheme
 from reference.identify import TOLERANCE
@@ -78,7 +76,7 @@ class Convergence:
 
 def run(progress: Progress) -> Result:
     """Every stepper under other names, and Pymunk with more and more rounds."""
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with current().threads() as pool:
         rounds = pool.submit(_pymunk_rounds)
         engines = {s.name: pool.submit(renamed_by, s) for s in steppers() if isinstance(s, EngineStepper)}
         rows = []

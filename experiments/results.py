@@ -5,11 +5,11 @@ from __future__ import annotations
 import csv
 import json
 import sqlite3
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TextIO
 
-from experiments.store import JSON_COLUMNS, check_format
+from experiments.store import JSON_COLUMNS, StoreError, check_format
 from reference.errors import InputError, unknown_name
 
 #: What every row has.
@@ -48,32 +48,40 @@ def parse_filters(words: Iterable[str]) -> dict[str, str]:
     return filters
 
 
+def columns_of(found: Sequence[Mapping[str, Any]]) -> list[str]:
+    """A column for everything that any row has: what was run comes first, then how it ended and what was found."""
+    before, after = {}, {}
+    for row in found or [dict.fromkeys((*COLUMNS, *MORE_COLUMNS))]:
+        end = [*row].index("outcome")
+        before |= dict.fromkeys([*row][:end])
+        after |= dict.fromkeys([*row][end:])
+    return [*(before | after)]
+
+
 def write_csv(found: Sequence[Mapping[str, Any]], file: TextIO) -> None:
     """Rows as CSV, with a column for everything that any of them has."""
-    columns = list({name: None for row in found for name in row})
-    writer = csv.DictWriter(file, columns)
+    writer = csv.DictWriter(file, columns_of(found))
     writer.writeheader()
     writer.writerows({name: "" if value is None else value for name, value in row.items()} for row in found)
 
 
-def _read(store: Path) -> Iterator[sqlite3.Row]:
+def _read(store: Path) -> list[sqlite3.Row]:
     if not store.is_file():
-        raise InputError(f"store {store}: there is none; `springlab run` and `springlab sweep` make one")
+        raise StoreError(f"store {store}: there is none; `springlab run` and `springlab sweep` make one")
     # In a folder that cannot be written, a store can be read only if nobody is writing to it, which is then for sure.
     for how in ("mode=ro", "immutable=1"):
         sql = sqlite3.connect(f"{store.resolve().as_uri()}?{how}", uri=True)
         sql.row_factory = sqlite3.Row
         try:
-            check_format(store, sql)
-            yield from sql.execute("SELECT * FROM runs ORDER BY finished, key")
-            return
+            begun = check_format(store, sql)
+            return sql.execute("SELECT * FROM runs ORDER BY finished, key").fetchall() if begun else []
         except sqlite3.OperationalError as error:
             problem = error
         except sqlite3.DatabaseError as error:
-            raise InputError(f"store {store}: is no store of springlab's ({error})") from None
+            raise StoreError(f"store {store}: is damaged, or no store of springlab's ({error})") from None
         finally:
             sql.close()
-    raise InputError(f"store {store}: cannot be read ({problem})")
+    raise StoreError(f"store {store}: cannot be read ({problem})")
 
 
 def _flat(row: sqlite3.Row) -> dict[str, Any]:
@@ -83,13 +91,15 @@ def _flat(row: sqlite3.Row) -> dict[str, Any]:
     flat = {name: values[name] for name in COLUMNS[:3]} | (parsed["parameters"] or {})
     flat |= {name: values[name] for name in COLUMNS[3:]}
     if isinstance(parsed["answer"], dict):
-        flat |= {k: v for k, v in parsed["answer"].items() if v is None or isinstance(v, str | int | float)}
+        answer = {k: v for k, v in parsed["answer"].items() if v is None or isinstance(v, str | int | float)}
+        taken = {*flat, *values}
+        flat |= {f"found_{name}" if name in taken else name: value for name, value in answer.items()}
     flat["settings"] = json.dumps(parsed["settings"])
     return flat | {name: values[name] for name in MORE_COLUMNS[1:]}
 
 
 def _equal(value: Any, wanted: str) -> bool:
-    if isinstance(value, int | float):
+    if isinstance(value, int | float) and not isinstance(value, bool):
         try:
             return float(wanted) == value
         except ValueError:

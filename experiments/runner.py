@@ -7,6 +7,7 @@ work is chosen by the command that runs them: on this machine's cores or on a cl
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
@@ -71,6 +72,7 @@ class Runner:
         self.done = 0
         self._fresh = fresh
         self._begun: set[str] = set()
+        self._lock = threading.Lock()
 
     def answer(self, job: Job) -> Any:
         """What a job answers: from the store, or else by the crew, and then it is kept. For any thread to call."""
@@ -84,7 +86,8 @@ class Runner:
         begin = perf_counter()
         answer = self.crew.do(job)
         self.store.keep(job, answer, perf_counter() - begin)
-        self.done += 1
+        with self._lock:
+            self.done += 1
         return answer
 
     def start_over(self, jobs: Iterable[Job]) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -53,21 +53,21 @@ def chosen_runner(resume: bool, store: Path, jobs: int | None = None, cluster: s
     from experiments.runner import Crew, LocalCrew, Runner, using
     from experiments.store import Store
 
-    kept = Store(store)
-    crew: Crew
-    if cluster is None:
-        crew = LocalCrew(jobs)
-    else:
-        from experiments.cluster import DaskCrew
+    with closing(Store(store)) as kept:
+        crew: Crew
+        if cluster is None:
+            crew = LocalCrew(jobs)
+        else:
+            from experiments.cluster import DaskCrew
 
-        crew = DaskCrew(cluster, jobs)
-    runner = Runner(crew, kept, fresh=not resume)
-    try:
-        with using(runner):
-            yield runner
-    except KeyboardInterrupt:
-        print(f"springlab: interrupted; what is done is kept in {store}: the same command goes on", file=sys.stderr)
-        raise click.exceptions.Exit(INTERRUPTED) from None
-    finally:
-        crew.stop()
-        kept.close()
+            crew = DaskCrew(cluster, jobs)
+        runner = Runner(crew, kept, fresh=not resume)
+        try:
+            with using(runner):
+                yield runner
+        except KeyboardInterrupt:
+            again = "the same command" if resume else "the same command without --fresh"
+            print(f"springlab: interrupted; what is done is kept in {store}: {again} goes on", file=sys.stderr)
+            raise click.exceptions.Exit(INTERRUPTED) from None
+        finally:
+            crew.stop()

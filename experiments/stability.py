@@ -5,9 +5,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -18,6 +17,7 @@ from engines.isolation import EngineStepper
 from engines.limits import limit_of_engine
 from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
+from experiments.runner import current
 from experiments.steppers import all_steppers
 from reference.catalogue import Scheme
 from reference.errors import SolverError
@@ -108,7 +108,7 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
     """
     rest = spring_equilibrium(system)
     dt = 1 / fastest_rate(rest)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
+    with current().threads() as pool:
         engines = [s for s in steppers if isinstance(s, EngineStepper)]
         measured = {s.name: pool.submit(measure_engine, s, system, rest, dt) for s in engines}
         known = candidates(system, 0.1 * dt, IDENTIFYING_STEPS) if engines else {}

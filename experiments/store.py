@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import errno
 import json
-import os
 import sqlite3
 import threading
 from collections.abc import Iterable, Iterator, Mapping
@@ -17,7 +16,6 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
 
@@ -51,8 +49,15 @@ CREATE INDEX IF NOT EXISTS questions ON runs (question);
 PRAGMA user_version = {FORMAT};
 """
 
+#: What the system calls a place where nothing can be written.
+NO_PLACE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR)
+
 #: Columns that hold JSON.
 JSON_COLUMNS = ("settings", "parameters", "answer")
+
+
+class StoreError(InputError):
+    """A store that cannot be used, or no more. The message is one line: which, and what to do."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +74,7 @@ class Store:
         file: the SQLite file; arrays go into a folder `arrays` beside it.
 
     Raises:
-        InputError: if it cannot be written, is no store, or a newer springlab's. So do all methods, and for a full disk
+        StoreError: if it cannot be written, is no store, or a newer springlab's. So do all methods, and for a full disk
             or another springlab that does not stop writing: what was kept stays kept.
     """
 
@@ -77,21 +82,26 @@ class Store:
         self.file = file
         self._arrays = file.parent / "arrays"
         self._lock = threading.Lock()
-        with self._said(), self._lock:
+        with self._said():
             file.parent.mkdir(parents=True, exist_ok=True)
             self._sql = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
-            self._sql.row_factory = sqlite3.Row
-            check_format(file, self._sql)
-            # As safe as any against a process that is killed, and quick.
-            self._sql.executescript(f"PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; {SCHEMA}")
-            self._environment = self._remember_environment()
+        try:
+            self._open()
+        except BaseException:
+            self.close()
+            raise
 
     def find(self, job: Job) -> Kept | None:
         """What is kept of a job; None where it is to be run: not yet, to be run again, or stopped at other limits."""
         with self._said(), self._lock:
             row = self._current(job)
-        arrays = None if row is None else read_arrays(self._arrays, row["arrays"])
-        return None if row is None or arrays is None else Kept(decode(json.loads(row["answer"]), arrays))
+        if row is None:
+            return None
+        arrays = read_arrays(self._arrays, row["arrays"])
+        if arrays is None:
+            self.retire([job.key])
+            return None
+        return Kept(decode(json.loads(row["answer"]), arrays))
 
     def keep(self, job: Job, answer: Any, seconds: float) -> None:
         """Keep what a job answered, and how long it took [s]; where another springlab has just kept it, let that be."""
@@ -132,6 +142,22 @@ class Store:
         with self._lock:
             self._sql.close()
 
+    def _open(self) -> None:
+        """Make what is missing, and remove what a killed springlab was writing: arrays are written by one at a time."""
+        self._sql.row_factory = sqlite3.Row
+        document = environment()
+        del document["date"]
+        self._environment = digest(document)
+        with self._said():
+            check_format(self.file, self._sql)
+            # As safe as any against a process that is killed, and quick.
+            self._sql.executescript(f"PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; {SCHEMA}")
+        with self._changing():
+            row = [self._environment, json.dumps(document)]
+            self._sql.execute("INSERT OR IGNORE INTO environments VALUES (?, ?)", row)
+            for half in self._arrays.glob("*.half"):
+                half.unlink()
+
     def _current(self, job: Job) -> sqlite3.Row | None:
         """The row that holds for a job: what was stopped at other limits than its own does not."""
         row: sqlite3.Row | None = self._sql.execute(
@@ -147,19 +173,14 @@ class Store:
         path = f"{name[:2]}/{name}.npz"  # a folder with a million files is slow
         file = self._arrays / path
         file.parent.mkdir(parents=True, exist_ok=True)
-        half = file.with_suffix(f".{os.getpid()}.half")
-        with half.open("wb") as opened:
-            np.savez(opened, **arrays)  # type: ignore[arg-type]
-        half.replace(file)
+        half = self._arrays / f"{name}.half"
+        try:
+            with half.open("wb") as opened:
+                np.savez(opened, **arrays)  # type: ignore[arg-type]
+            half.replace(file)
+        finally:
+            half.unlink(missing_ok=True)
         return path
-
-    def _remember_environment(self) -> str:
-        document = environment()
-        del document["date"]
-        name = digest(document)
-        with self._sql:
-            self._sql.execute("INSERT OR IGNORE INTO environments VALUES (?, ?)", [name, json.dumps(document)])
-        return name
 
     @contextmanager
     def _changing(self) -> Iterator[None]:
@@ -175,14 +196,18 @@ class Store:
         try:
             yield
         except (sqlite3.Error, OSError) as error:
-            raise InputError(f"store {self.file}: {_in_words(error)}") from None
+            raise StoreError(f"store {self.file}: {_in_words(error)}") from None
 
 
-def check_format(file: Path, sql: sqlite3.Connection) -> None:
-    """Raise InputError for a store of a newer springlab's."""
+def check_format(file: Path, sql: sqlite3.Connection) -> bool:
+    """Whether there is anything in a store yet. Raises StoreError for one of a newer springlab's, or of others'."""
     (found,) = sql.execute("PRAGMA user_version").fetchone()
+    tables = {name for (name,) in sql.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+    if tables and not {"environments", "runs"} & tables:
+        raise StoreError(f"store {file}: is no store of springlab's (it has a table {min(tables)!r})")
     if found > FORMAT:
-        raise InputError(f"store {file}: written by a newer springlab, in format {found}; expected {FORMAT} or less")
+        raise StoreError(f"store {file}: written by a newer springlab, in format {found}; expected {FORMAT} or less")
+    return "runs" in tables
 
 
 def read_arrays(folder: Path, path: str | None) -> dict[str, Array] | None:
@@ -192,7 +217,7 @@ def read_arrays(folder: Path, path: str | None) -> dict[str, Array] | None:
     try:
         with np.load(folder / path) as opened:
             return dict(opened)
-    except (OSError, ValueError, EOFError, BadZipFile):
+    except Exception:  # NumPy and zipfile raise nearly anything for a broken file
         return None
 
 
@@ -204,13 +229,13 @@ def outcome_of_answer(answer: Any) -> Outcome:
 
 
 def _in_words(error: Exception) -> str:
-    text = str(error)
+    text = getattr(error, "strerror", None) or str(error)  # without the file's name, which might say "full"
     if "full" in text or getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT):
         return "the disk is full; what was kept is safe: make room, and run the same command again"
-    if "readonly" in text or "unable to open" in text or isinstance(error, PermissionError):
+    if "readonly" in text or "unable to open" in text or getattr(error, "errno", None) in NO_PLACE:
         return "cannot be written; expected a folder to write in, or another place by --store"
     if "locked" in text:
         return f"another springlab has been writing to it for {PATIENCE:g} s; run the same command again later"
     if "not a database" in text or "malformed" in text:
-        return f"is no store of springlab's ({text})"
+        return f"is damaged, or no store of springlab's ({text})"
     return text

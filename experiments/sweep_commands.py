@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 from pathlib import Path
 from time import perf_counter
 
 import click
 
-from experiments.console import progress, show_table
+from experiments.console import plain, progress, show_table
 from experiments.runner_options import chosen_runner, runner_options, store_option
 
 #: Rows of results that are shown in the terminal.
@@ -85,7 +86,8 @@ def sweep_command(
 @click.option("--all", "retired", is_flag=True, help="Also those that were started over.")
 def results_command(filters: tuple[str, ...], store: Path, as_csv: bool, as_json: bool, retired: bool) -> None:
     """Show or export what is in the store: all of it, or rows with COLUMN=VALUE (stepper=heun outcome=crashed ...)."""
-    from experiments.results import MORE_COLUMNS, parse_filters, rows, write_csv
+    from experiments.results import parse_filters, rows, write_csv
+    from experiments.results_table import for_people, heading
 
     found = rows(store, parse_filters(filters), retired)
     if as_json:
@@ -94,9 +96,13 @@ def results_command(filters: tuple[str, ...], store: Path, as_csv: bool, as_json
     if as_csv:
         write_csv(found, sys.stdout)
         return
-    columns = [name for name in {n: None for row in found for n in row} if name not in MORE_COLUMNS]
-    columns = [name for name in columns if any(row.get(name) not in (None, "") for row in found[:SHOWN])]
+    shown = found[-SHOWN:]
+    columns, same, left_out = for_people(shown, shutil.get_terminal_size((160, 24)).columns)
     if found:
-        show_table("", columns, [[row.get(name) for name in columns] for row in found[:SHOWN]])
-    more = f"; shown are {SHOWN}: name columns, or ask for --csv" if len(found) > SHOWN else ""
-    click.echo(f"{len(found)} runs in {store}{more}")
+        show_table("", [heading(name) for name in columns], [[row.get(name) for name in columns] for row in shown])
+    if same:
+        click.echo(f"In every row: {', '.join(f'{name}={plain(value)}' for name, value in same.items())}")
+    if left_out:
+        click.echo(f"Left out, as there is no room: {', '.join(left_out)}; --csv has everything.")
+    newest = f"; these are the last {SHOWN}: --csv has all, COLUMN=VALUE picks" if len(found) > SHOWN else ""
+    click.echo(f"{len(found)} runs in {store}{newest}")

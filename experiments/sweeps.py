@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,7 @@ from engines.engine import Engine
 from engines.isolation import MEMORY_LIMIT, TIME_LIMIT, EngineStepper, run_engine
 from experiments.arguments import setup_for
 from experiments.job import Job
-from reference.changes import Change
+from reference.changes import Change, whole_steps
 from reference.errors import InputError
 from reference.outcome import Outcome
 from reference.stepper import Stepper
@@ -46,6 +47,12 @@ class Sweep:
     time_limit: float = TIME_LIMIT
     memory_limit: float = MEMORY_LIMIT
 
+    def __post_init__(self) -> None:
+        fixed = {*self.settings, *([] if self.dt is None else ["dt"])}
+        for name in self.axes:
+            if name in fixed:
+                raise InputError(f"--over {name}: expected a parameter that is not set to one value as well")
+
     def __len__(self) -> int:
         return len(self.steppers) * int(np.prod([len(values) for values in self.axes.values()], dtype=int))
 
@@ -54,18 +61,22 @@ class Sweep:
         for values in product(*self.axes.values()):
             point = dict(zip(self.axes, values, strict=True))
             settings = {**self.settings, **{name: f"{value:.17g}" for name, value in point.items() if name != "dt"}}
-            setup = setup_for(self.scene, None, self.duration, settings)
-            dt = point.get("dt", setup.dt if self.dt is None else self.dt)
-            if not dt > 0:
-                raise InputError(f"dt = {dt:g}: expected a positive number of seconds")
-            # A dt that does not divide the duration: as many steps as come nearest.
-            steps = max(1, round(setup.duration / dt))
+            setup = setup_for(self.scene, point.get("dt", self.dt), self.duration, settings)
+            steps = whole_steps(setup.dt, setup.duration)
             for stepper in self.steppers:
                 engine = stepper.engine if isinstance(stepper, EngineStepper) else None
                 wishes = (self.identify, self.keep)
-                arguments = (stepper.name, engine, setup.system, dt, steps, setup.changes, *wishes)
-                named = {"scene": setup.name, **self.settings, **point}
+                arguments = (stepper.name, engine, setup.system, setup.dt, steps, setup.changes, *wishes)
+                named = {"scene": setup.name, **{k: _number(v) for k, v in self.settings.items()}, **point}
                 yield Job(judged, arguments, named, self.time_limit, self.memory_limit)
+
+
+def _number(text: str) -> float | str:
+    """What was set to a number is looked for as a number."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def judged(
@@ -157,12 +168,17 @@ def parse_axes(words: Sequence[str]) -> dict[str, Sequence[float]]:
 
 def _values(text: str) -> Sequence[float]:
     if ":" not in text:
-        return [float(value) for value in text.split(",")]
+        return [_finite(value) for value in text.split(",")]
     low, high, number, *spacing = text.split(":")
-    if spacing not in ([], ["log"]) or int(number) < 1:
-        raise ValueError(text)
-    if spacing and not (float(low) > 0 and float(high) > 0):
+    ends = (_finite(low), _finite(high))
+    if spacing not in ([], ["log"]) or int(number) < 1 or (spacing and min(ends) <= 0):
         raise ValueError(text)
     space = np.geomspace if spacing else np.linspace
-    values: list[float] = space(float(low), float(high), int(number)).tolist()
+    values: list[float] = space(*ends, int(number)).tolist()
     return values
+
+
+def _finite(text: str) -> float:
+    if not isfinite(value := float(text)):
+        raise ValueError(text)
+    return value

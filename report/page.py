@@ -6,6 +6,7 @@ import base64
 import os
 from collections.abc import Sequence
 from concurrent.futures import as_completed
+from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -16,7 +17,7 @@ from experiments.console import plain
 from experiments.environment import environment
 from experiments.experiment import Experiment, Result, find, write_tables
 from experiments.runner import LocalCrew, Runner, current, using
-from experiments.store import Store
+from experiments.store import Store, StoreError
 from report.figures import draw
 
 #: An experiment may take so long [s], and its process so much memory [bytes].
@@ -36,14 +37,18 @@ class Section:
 
 
 def section(experiment: Experiment, folder: Path, progress: Progress) -> Section:
-    """Run an experiment and draw it, leaving its figure and tables in a folder. Its failure is its section's only."""
+    """Run an experiment and draw it, leaving its figure and tables in a folder. Its failure is its section's only.
+
+    Raises:
+        OSError, StoreError: where its results cannot be kept: that is everybody's failure.
+    """
     try:
         result = experiment.run(progress)
         picture = draw(experiment.name, result)
         files = write_tables(result, folder)
         svg = picture.svg()
         (folder / f"{experiment.name}.svg").write_text(svg, encoding="utf-8")
-    except OSError:
+    except (OSError, StoreError):
         raise
     except Exception as error:
         return Section(experiment, failure=f"{type(error).__name__}: {error}")
@@ -80,7 +85,7 @@ def _isolated_section(experiment: Experiment, folder: Path, store: Path, fresh: 
 
 def section_by_name(name: str, folder: Path, store: Path, fresh: bool) -> Section:
     """As `section`, with what travels between processes: the page needs no more of a result than its words."""
-    with using(Runner(LocalCrew(), Store(store), fresh)):
+    with closing(Store(store)) as kept, using(Runner(LocalCrew(), kept, fresh)):
         made = section(find(name), folder, lambda _: None)
     return made if made.result is None else replace(made, result=replace(made.result, data={}))
 

@@ -9,7 +9,7 @@ from reference.errors import InputError
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add --engine."""
+    """Add --engine and --full."""
     parser.addoption(
         "--engine",
         action="append",
@@ -17,6 +17,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="NAME",
         help="Run the conformance suite for these engines only.",
     )
+    parser.addoption("--full", action="store_true", help="Run the soak tests in full: 2,000 runs, 20 kills.")
 
 
 def pytest_configure(config: pytest.Config) -> None:

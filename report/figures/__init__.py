@@ -72,8 +72,8 @@ def few_ticks(axes: Any) -> None:
 
 
 def look(i: int) -> dict[str, str]:
-    """Colour and marker of the i-th thing in a figure."""
-    return {"color": COLOURS[i % len(COLOURS)], "marker": MARKERS[i % len(MARKERS)]}
+    """Colour and marker of the i-th thing in a figure: 64 pairs, as each time round the colours the markers move on."""
+    return {"color": COLOURS[i % len(COLOURS)], "marker": MARKERS[(i + i // len(COLOURS)) % len(MARKERS)]}
 
 
 def draw(name: str, result: Result) -> Picture:

@@ -11,11 +11,15 @@ from experiments.cost import ANCHOR, DT, DURATION, MASSES, Cost, anchor, rounded
 from experiments.experiment import Result
 from report.figures import Picture, look, new_figure
 
+#: The figure's height [inches], and how much of it a line of the legend takes: with many steppers, the figure grows.
+HEIGHT, LINE = 6.0, 0.18
+
 
 def draw(result: Result) -> Picture:
     """Schemes dashed and hollow, engines full: lines of equal error are the same scheme at another price."""
     costs: list[Cost] = [cost for cost in result.data["costs"] if cost.points]
-    figure, (left, right) = new_figure(ncols=2, figsize=(13, 6))
+    lines = sum(1 + _label(cost).count("\n") for cost in costs)
+    figure, (left, right) = new_figure(ncols=2, figsize=(13, max(HEIGHT, LINE * (lines + 3))))
     kinds = [[c for c in costs if c.runs_as == "engine"], [c for c in costs if c.runs_as != "engine"]]
     for group in kinds:
         for i, cost in enumerate(group):
@@ -30,18 +34,16 @@ def draw(result: Result) -> Picture:
     right.set_xlabel("masses")
     right.set_ylabel("steps per second [1/s]")
     right.set_title("Measured: speed on larger strings", loc="left", fontsize=11)
-    figure.legend(
-        loc="outside right center", frameon=False, title="stepper = its scheme", alignment="left", fontsize=10
-    )
+    figure.legend(loc="outside right center", frameon=False, title="stepper = its scheme", alignment="left", fontsize=9)
     return Picture(figure, _alt(costs))
 
 
 def _line(axes: Any, points: Sequence[tuple[float, float]], cost: Cost, i: int, label: str | None) -> None:
-    """One stepper. Colours and markers come twice and thrice: filling and dashes tell those apart."""
+    """One stepper. Colours and markers come twice: filling and dashes tell engines from schemes."""
     if not points:
         return
     full = cost.runs_as == "engine"
-    filled = "full" if full and i < 8 else "none"
+    filled = "full" if full else "none"
     x, y = zip(*points, strict=True)
     axes.plot(x, y, "-" if full else "--", label=label, fillstyle=filled, linewidth=1.2, markersize=6, **look(i))
 

@@ -12,12 +12,15 @@ from report.figures import Picture, look, new_figure
 #: Where no difference at all is drawn: a logarithm has no place for it.
 FLOOR = 1e-17
 
+#: The figure's height [inches], and how much of it an engine takes in the legend: with many, the figure grows.
+HEIGHT, ENTRY = 5.8, 0.35
+
 
 def draw(result: Result) -> Picture:
     """Two bands of lines on one logarithmic axis: what is to be explained, and what is left of it once it is."""
     comparison: Comparison = result.data["comparison"]
     runs = [run for run in comparison.runs if run.stepper.kind == "engine" and run.error is not None]
-    figure, axes = new_figure(figsize=(10, 5.8))
+    figure, axes = new_figure(figsize=(10, max(HEIGHT, ENTRY * (len(runs) + 2))))
     times = comparison.true.times
     for i, run in enumerate(runs):
         _line(axes, times, run.error, i, len(runs), "-", _label(run))
@@ -31,7 +34,8 @@ def draw(result: Result) -> Picture:
     axes.text(0.01, 2.0, "measured: from the true motion (solid)", **note)
     axes.text(0.01, 1e-12, "identified: from the scheme named on the right (dashed)", **note)
     if runs:
-        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), title="engine = its scheme", alignment="left")
+        place = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "alignment": "left"}
+        axes.legend(title="engine = its scheme", fontsize=9, **place)
     return Picture(figure, _alt(runs))
 
 

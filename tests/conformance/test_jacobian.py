@@ -24,7 +24,6 @@ TOLERANCE = 3e-4
 DT, CASE = 2.5e-3, {"masses": 4, "damping": 0.05}
 
 
-
 def resting(scheme: str) -> tuple[Equilibrium, float]:
     """The string at rest, on springs or rods; and a dt [s] beyond the limit of most, as rods swing more slowly."""
     stepper = catalogued()[scheme]

@@ -140,6 +140,15 @@ def test_energy_is_of_the_kind_that_theory_says(name: str, on: Bench) -> None:
     check_kind(find(name), on, KINDS[name])
 
 
+def test_the_energy_of_a_rope_is_bounded(on: Bench) -> None:
+    """Its rods lose what they are too long, which is no energy of its swings, and it keeps both momenta."""
+    row = measure(catalogued()["rope_kick_drift"], on)
+    assert (row.predicted, row.measured) == ("bounded", "bounded")
+    assert row.momentum is not None
+    assert row.angular_momentum is not None
+    assert max(row.momentum, row.angular_momentum) < rounding()
+
+
 @pytest.mark.parametrize(
     ("scheme", "kind"),
     [

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from importlib import metadata
 
 import pytest
 
-from engines.engine import registry, version
+from engines.engine import installed_version, registry, version
 from experiments.experiment import NAMES
 from experiments.steppers import all_steppers
 from reference.scenes import scenes
@@ -16,7 +17,7 @@ from tests.experiments.terminal import springlab
 
 
 @pytest.fixture
-def missing(monkeypatch: pytest.MonkeyPatch) -> str:
+def missing(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     """A package that engines come in, and that seems not to be installed."""
     package = next(iter(registry().values())).package
     found = metadata.version
@@ -26,8 +27,11 @@ def missing(monkeypatch: pytest.MonkeyPatch) -> str:
             raise metadata.PackageNotFoundError(name)
         return found(name)
 
-    monkeypatch.setattr(metadata, "version", version_of)
-    return package
+    with monkeypatch.context() as patch:
+        patch.setattr(metadata, "version", version_of)
+        installed_version.cache_clear()
+        yield package
+    installed_version.cache_clear()
 
 
 def test_the_json_lists_everything_there_is() -> None:

@@ -15,7 +15,7 @@ from tests.reference.systems import moving_string
 
 
 def test_every_scheme_is_a_stepper_and_those_that_can_swing_rods_are_two() -> None:
-    """Springs first, in the catalogue's order; each with the scheme's kind, or `pendulum`. The rope's scheme is last."""
+    """Springs first, in the catalogue's order; each with the scheme's kind, or `pendulum`; the rope's is last."""
     on_rods = [f"pendulum_{name}" for name, scheme in schemes().items() if not scheme.springs_only]
     on_rods.append(ROPE_KICK_DRIFT.name)
     assert list(catalogued()) == [*schemes(), *on_rods]

@@ -1,0 +1,222 @@
+"""What would a sweep of a million runs take, on few cores and on many, and what would become its bottleneck?
+
+`python -m experiments.million_runs`
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import count, islice
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from engines.isolation import EngineStepper, isolated
+from engines.supervisor import supervisor
+from experiments.comparison import Progress
+from experiments.experiment import Experiment, Result, Table
+from experiments.job import Job
+from experiments.steppers import all_steppers
+from experiments.store import Store
+from experiments.sweeps import Sweep
+from reference.stepper import Stepper
+
+#: The sweep, and the cores it is thought to run on.
+RUNS, CORES = 1_000_000, (2, 100, 1000)
+
+#: Runs of each kind that are timed, and jobs that are handed out and kept.
+TIMED, HANDED = 20, 500
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of run, and what it takes of a core [s], measured."""
+
+    name: str
+    seconds: float
+
+
+@dataclass(frozen=True)
+class Hand:
+    """Something that the one process at the top does for every run, and what it takes [s], measured."""
+
+    name: str
+    seconds: float
+    cluster: bool
+
+
+def run(progress: Progress) -> Result:
+    """The costs, measured, and what a million runs would take, predicted from them."""
+    progress("runs")
+    kinds = list(_kinds())
+    progress("handing out and keeping")
+    hands, size = _hands()
+    progress("a cluster")
+    dask = _dask()
+    hands += [] if dask is None else [Hand("a job to a Dask worker and back", dask, cluster=True)]
+    failures = [] if dask is not None else ["Dask: not installed; expected the extra springlab[cluster]"]
+    tables = [_predictions(kinds, hands), _costs(kinds, hands)]
+    return Result(_findings(kinds, hands, size), tables, {"kinds": kinds, "hands": hands}, failures)
+
+
+def serial(hands: Sequence[Hand], cores: int) -> float:
+    """What the process at the top does for a run, one after another [s]; beyond this machine's cores it needs Dask."""
+    far = cores > (os.cpu_count() or 1)
+    return sum(hand.seconds for hand in hands if far or not hand.cluster)
+
+
+def predicted(kind: Kind, hands: Sequence[Hand], cores: int) -> float:
+    """Seconds for all RUNS: what takes longer, the runs shared by the cores or what is done for each at the top."""
+    return RUNS * max(kind.seconds / cores, serial(hands, cores))
+
+
+def _kinds() -> Iterator[Kind]:
+    """One stepper of each package, and a scheme; then with identification, and in a process that is new each time."""
+    for stepper in _one_of_each():
+        yield Kind(stepper.name, _seconds_of_run(stepper))
+    heun = all_steppers()["heun"]
+    yield Kind("heun, identified", _seconds_of_run(heun, identify=True, runs=3))
+    yield Kind("heun, in a new process after a crash", _seconds_of_run(heun, afresh=True, runs=3))
+
+
+def _one_of_each() -> list[Stepper]:
+    steppers = all_steppers()
+    engines = [s for s in steppers.values() if isinstance(s, EngineStepper) and s.version is not None]
+    by_package = {s.engine.package: s for s in reversed(engines)}
+    return [steppers["heun"], *reversed(by_package.values())]
+
+
+def _seconds_of_run(stepper: Stepper, identify: bool = False, afresh: bool = False, runs: int = TIMED) -> float:
+    """The mean of some runs on strings of different stiffness, in a process that has run one before."""
+    jobs = list(islice(_jobs(stepper, identify), runs + 1))
+    _do(jobs.pop())
+    begin = perf_counter()
+    for job in jobs:
+        if afresh:
+            supervisor().stop()
+        _do(job)
+    return (perf_counter() - begin) / len(jobs)
+
+
+def _jobs(stepper: Stepper, identify: bool = False) -> Iterator[Job]:
+    for stiffness in count(150.0, 0.01):
+        yield from Sweep("string", [stepper], {"stiffness": [stiffness]}, {}, identify=identify).jobs()
+
+
+def _do(job: Job) -> Any:
+    return isolated(job.task, *job.arguments, time_limit=job.time_limit, memory_limit=job.memory_limit)
+
+
+def _hands() -> tuple[list[Hand], float]:
+    """What the process at the top does for a run, and the bytes that a run takes in the store."""
+    waiting = _jobs(all_steppers()["heun"])
+    answer = _do(next(waiting))
+    with tempfile.TemporaryDirectory(prefix="springlab-") as folder:
+        store = Store(Path(folder) / "store.sqlite")
+        making, jobs = _mean(lambda: next(waiting))
+        steps: Mapping[str, Callable[[Job], Any]] = {
+            "its key": lambda job: job.key,
+            "looking it up in the store": store.find,
+            "keeping its answer": lambda job: store.keep(job, answer, 0.0),
+            "a job to a process and back": lambda job: isolated(_nothing, job.arguments),
+        }
+        hands = [Hand("making the job", making, cluster=False)]
+        for name, step in steps.items():
+            left = iter(jobs)
+            hands.append(Hand(name, _mean(lambda step=step, left=left: step(next(left)))[0], cluster=False))  # type: ignore[misc]
+        store.close()
+        return hands, store.file.stat().st_size / len(jobs)
+
+
+def _mean(task: Callable[[], Any]) -> tuple[float, list[Any]]:
+    """Seconds of a task, the mean of many, and what they returned; the first is for warming up."""
+    task_first = [task()]
+    begin = perf_counter()
+    answers = [task() for _ in range(HANDED - 1)]
+    return (perf_counter() - begin) / len(answers), task_first + answers
+
+
+def _nothing(arguments: tuple[Any, ...]) -> int:
+    """What is left of a job when there is nothing to do."""
+    return len(arguments)
+
+
+def _dask() -> float | None:
+    """Seconds that a scheduler and its client need for a job with nothing to do, many of them under way at once."""
+    try:
+        dask: Any = importlib.import_module("distributed")
+    except ImportError:
+        return None
+    local = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": None, "host": "127.0.0.1"}
+    with dask.LocalCluster(**local) as cluster, dask.Client(cluster) as client:
+        job = next(_jobs(all_steppers()["heun"]))
+        client.submit(_nothing, job.arguments, pure=False).result()
+        begin = perf_counter()
+        client.gather([client.submit(_nothing, job.arguments, pure=False) for _ in range(HANDED)])
+        return (perf_counter() - begin) / HANDED
+
+
+def _predictions(kinds: Sequence[Kind], hands: Sequence[Hand]) -> Table:
+    columns = ["kind of run", "measured: a run [s]"]
+    columns += [f"predicted: a million on {cores:,} cores" for cores in CORES]
+    columns += ["predicted: cores that still help"]
+    rows = []
+    for kind in kinds:
+        times = [in_words(predicted(kind, hands, cores)) for cores in CORES]
+        rows.append([kind.name, kind.seconds, *times, round(kind.seconds / serial(hands, max(CORES)))])
+    return Table("million_runs", columns, rows)
+
+
+def _costs(kinds: Sequence[Kind], hands: Sequence[Hand]) -> Table:
+    rows = [[kind.name, "on a core", kind.seconds] for kind in kinds]
+    rows += [[hand.name, "at the top, cluster only" if hand.cluster else "at the top", hand.seconds] for hand in hands]
+    return Table("million_runs_costs", ["what", "where", "measured [s]"], rows)
+
+
+def in_words(seconds: float) -> str:
+    """A time as people say it."""
+    for unit, size in (("days", 86400.0), ("h", 3600.0), ("min", 60.0)):
+        if seconds >= 2 * size:
+            return f"{seconds / size:.3g} {unit}"
+    return f"{seconds:.3g} s"
+
+
+def _findings(kinds: Sequence[Kind], hands: Sequence[Hand], size: float) -> list[str]:
+    few, many = min(CORES), max(CORES)
+    fastest, slowest = min(kinds, key=lambda k: k.seconds), max(kinds, key=lambda k: k.seconds)
+    most = max(hands, key=lambda hand: hand.seconds)
+    sentences = [
+        f"Measured here, a run takes from {1e3 * fastest.seconds:.3g} ms ({fastest.name}) to "
+        f"{1e3 * slowest.seconds:.3g} ms ({slowest.name}): a million are predicted to take "
+        f"{in_words(predicted(fastest, hands, few))} to {in_words(predicted(slowest, hands, few))} on {few} cores."
+    ]
+    sentences.append(
+        f"The one process that hands out jobs and keeps answers needs {1e3 * serial(hands, many):.2g} ms for each, "
+        f"{in_words(RUNS * serial(hands, many))} for a million: beyond {round(fastest.seconds / serial(hands, many))} "
+        f"cores for the quickest kind of run, and {round(slowest.seconds / serial(hands, many))} for the slowest, more "
+        f"cores are predicted to help no more. The largest part of it is {most.name}."
+    )
+    sentences.append(
+        f"A run takes {size / 1e3:.2g} kB in the store, a million {RUNS * size / 1e9:.2g} GB, without trajectories."
+    )
+    return sentences
+
+
+EXPERIMENT = Experiment(
+    name="million_runs",
+    title="A million runs",
+    question="What would a sweep of a million runs take, and what would become its bottleneck?",
+    slides="15",
+    run=run,
+    in_report=False,
+    timed=True,
+)
+
+if __name__ == "__main__":
+    from experiments.console import main
+
+    main(EXPERIMENT)

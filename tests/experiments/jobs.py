@@ -1,0 +1,82 @@
+"""Tasks at once done, and jobs of them, for tests of what does jobs and keeps answers."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from engines.engine import Engine
+from experiments.job import Job
+from reference.changes import Change
+from reference.outcome import Ending, Outcome
+from reference.scenes import find
+from reference.state import Trajectory
+from reference.system import MassSpringSystem
+
+STRING = find("string").system({"masses": 3})
+
+
+def stepped(engine: Engine, system: MassSpringSystem, dt: float, steps: int, changes: tuple[Change, ...]) -> Outcome:
+    """A task with all that labels are made of."""
+    return ended("done")
+
+
+def numbered(number: int) -> int:
+    """A task whose jobs differ in one number."""
+    return number
+
+
+def job(number: int = 0, **limits: float) -> Job:
+    """A job of `numbered`."""
+    return replace(Job(numbered, (number,), {"number": number}), **limits)  # type: ignore[arg-type]
+
+
+def ended(ending: Ending, reason: str = "", frames: int = 4) -> Outcome:
+    """An outcome with a trajectory where it has one: numbers that no rounding leaves as they are, and some that are none."""
+    if ending not in ("done", "diverged"):
+        return Outcome(ending, reason)
+    x = np.random.default_rng(1).normal(size=(frames, 3, 2))
+    v = np.full_like(x, np.nan)
+    v[0] = np.inf, -0.0
+    return Outcome(ending, reason, Trajectory(np.arange(frames) / 3, x, v))
+
+
+def alike(one: Any, other: Any) -> bool:
+    """Whether two answers are the same bit for bit; a list is as good as a tuple."""
+    if isinstance(one, Outcome) and isinstance(other, Outcome):
+        return (one.ending, one.reason) == (other.ending, other.reason) and alike(one.trajectory, other.trajectory)
+    if isinstance(one, Trajectory) and isinstance(other, Trajectory):
+        return all(alike(getattr(one, name), getattr(other, name)) for name in ("times", "positions", "velocities"))
+    if isinstance(one, np.ndarray) and isinstance(other, np.ndarray):
+        return (one.dtype, one.shape, one.tobytes()) == (other.dtype, other.shape, other.tobytes())
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        return [*one] == [*other] and all(alike(one[key], other[key]) for key in one)
+    if isinstance(one, list | tuple) and isinstance(other, list | tuple):
+        return len(one) == len(other) and all(map(alike, one, other))
+    return type(one) is type(other) and repr(one) == repr(other)
+
+
+class FakeCrew:
+    """Those who do jobs in this very process, and remember which; a task may be done otherwise."""
+
+    def __init__(self, size: int = 1, answers: Mapping[int, Any] | None = None) -> None:
+        self.size, self.asked, self.stopped = size, [0][:0], False
+        self._answers, self._lock = answers or {}, threading.Lock()
+
+    def do(self, job: Job) -> Any:
+        """See Crew."""
+        (number,) = job.arguments
+        with self._lock:
+            self.asked.append(number)
+        answer = self._answers.get(number, number)
+        if isinstance(answer, BaseException):
+            raise answer
+        return answer
+
+    def stop(self) -> None:
+        """See Crew."""
+        self.stopped = True

@@ -1,0 +1,277 @@
+"""A job's key says everything that decides its result, and nothing else."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields, replace
+from functools import partial
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from engines.engine import registry
+from engines.isolation import run_engine
+from engines.pymunk_springs import PymunkSprings
+from experiments import job as job_module
+from experiments.job import Job, digest
+from reference.changes import Change
+from reference.state import State
+from reference.system import MassSpringSystem
+from tests.experiments import jobs
+from tests.experiments.jobs import STRING, ended, numbered, stepped
+from tests.experiments.terminal import python
+from tests.reference.systems import property_test
+
+#: Any number, NaN and infinity among them, and any word.
+scalars = st.none() | st.booleans() | st.integers() | st.floats() | st.text() | st.binary()
+things = st.recursive(scalars, lambda inner: st.lists(inner, max_size=3) | st.dictionaries(st.text(), inner, max_size=3))
+
+CHANGES = (Change(0.1, "drag", 0.05), Change(0.2, "gravity", 1.6))
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A dataclass."""
+
+    a: Any
+    b: Any
+
+
+@dataclass(frozen=True)
+class Twin:
+    """Another dataclass with the same fields."""
+
+    a: Any
+    b: Any
+
+
+@dataclass(frozen=True)
+class Installed:
+    """An engine of some package with some settings."""
+
+    package: str = "numpy"
+    settings: Mapping[str, object] | None = None
+    name: str = "installed"
+
+
+def run_job(**changed: Any) -> Job:
+    """A job of an engine; with something changed."""
+    arguments = {"engine": PymunkSprings(), "system": STRING, "dt": 1e-3, "steps": 10, "changes": CHANGES} | changed
+    return Job(stepped, tuple(arguments.values()))
+
+
+def other(value: Any) -> Any:
+    """A value that differs from another in one place, as little as can be."""
+    if isinstance(value, np.ndarray) and value.dtype == bool:
+        return np.concatenate([value[:-1], ~value[-1:]])
+    if isinstance(value, np.ndarray) and value.dtype.kind == "i":
+        return value[:, ::-1]
+    if isinstance(value, np.ndarray):
+        changed = value.copy()
+        changed.flat[-1] = np.nextafter(changed.flat[-1], np.inf)
+        return changed
+    return math.nextafter(value, math.inf)
+
+
+# --- Digests ---
+
+
+@property_test
+@given(things, things)
+def test_what_differs_has_another_digest(one: Any, another: Any) -> None:
+    """And what does not has the same: `repr` tells kinds, order, NaN and signs of zero apart."""
+    assert (digest(one) == digest(another)) == (canonical(one) == canonical(another))
+
+
+def canonical(thing: Any) -> str:
+    """What tells things apart: as they are written, mappings in the order of their keys."""
+    if isinstance(thing, dict):
+        return "{" + ", ".join(f"{key!r}: {canonical(thing[key])}" for key in sorted(thing)) + "}"
+    if isinstance(thing, list):
+        return "[" + ", ".join(map(canonical, thing)) + "]"
+    return repr(thing)
+
+
+LOOK_ALIKES = [
+    ([1, [2]], [[1], 2]),
+    ([[], []], [[[]]]),
+    (["ab", "c"], ["a", "bc"]),
+    ("1", 1),
+    (1, 1.0),
+    (1, True),
+    (0.0, -0.0),
+    ("", None),
+    ("None", None),
+    (b"ab", [97, 98]),
+    (b"ab", "ab"),
+    ({"a": 1}, ["mapping", ("a", 1)]),
+    ({"a": 1}, [("a", 1)]),
+    ({"a": 1, "b": 2}, {"a": 2, "b": 1}),
+    ({1: 0}, {"1": 0}),
+    ({1, 2}, ["set", 1, 2]),
+    ({1, 2}, [1, 2]),
+    (Pair(1, 2), Twin(1, 2)),
+    (Pair(1, 2), Pair(2, 1)),
+    (Pair(1, 2), {"a": 1, "b": 2}),
+    (partial(max, 1), partial(max, 2)),
+    (np.zeros(3), np.zeros(3, np.float32)),
+    (np.zeros(3), np.zeros((3, 1))),
+    (np.zeros((2, 3)), np.zeros((3, 2))),
+    (np.zeros(1), -np.zeros(1)),
+    (np.zeros(2, "<i8"), np.zeros(2, ">i8")),
+    (np.zeros(2), [0.0, 0.0]),
+    (np.zeros(()), 0.0),
+    (stepped, numbered),
+    (stepped, f"{stepped.__module__}.{stepped.__qualname__}"),
+    (Pair, Twin),
+]
+
+
+@pytest.mark.parametrize(("one", "another"), [pair for pair in LOOK_ALIKES if not isinstance(pair[0], partial)])
+def test_look_alikes_are_told_apart(one: Any, another: Any) -> None:
+    """Shown for each on its own and within a collection."""
+    assert digest(one) != digest(another)
+    assert digest([one], 1) != digest([another], 1)
+
+
+def test_partial_functions_are_told_apart_by_what_they_are_of() -> None:
+    """By function, arguments and keywords."""
+    made = [partial(stepped, 1), partial(numbered, 1), partial(numbered, 2), partial(numbered, number=1), numbered]
+    assert len({digest(function) for function in made}) == len(made)
+
+
+SAME = [
+    ([1, 2], (1, 2)),
+    ({"a": 1, "b": 2}, {"b": 2, "a": 1}),
+    ({1: "x", "1": "y"}, {"1": "y", 1: "x"}),
+    ({"a", "b", "c"}, frozenset(["c", "a", "b"])),
+    (np.float64(0.1), 0.1),
+    (np.int64(3), 3),
+    (np.arange(6.0).reshape(2, 3), np.asfortranarray(np.arange(6.0).reshape(2, 3))),
+    (np.arange(3.0), np.arange(6.0)[::2] / 2),
+    (math.nan, float("nan")),
+    (STRING, replace(STRING)),
+]
+
+
+@pytest.mark.parametrize(("one", "another"), SAME)
+def test_what_is_the_same_has_the_same_digest(one: Any, another: Any) -> None:
+    """Whatever order, memory layout or kind of sequence it comes in."""
+    assert digest(one) == digest(another)
+
+
+REFUSED = [
+    object(),
+    1j,
+    iter([1]),
+    [1, {"a": object()}],
+    Path("here"),
+    lambda: 1,
+    math.sin,
+    STRING.with_parameter,
+    np.array([object()]),
+    np.array(["2026"], "M8[D]"),
+    np.zeros(2, [("a", float)]),
+    np.longdouble(1),
+    np.zeros(2, np.longdouble),
+]
+
+
+@pytest.mark.parametrize("thing", REFUSED, ids=lambda thing: type(thing).__name__)
+def test_what_has_no_digest_is_refused(thing: Any) -> None:
+    """Rather than given one that does not say all there is to it."""
+    with pytest.raises(TypeError, match="has no digest"):
+        digest(thing)
+
+
+def test_a_function_made_inside_another_is_refused() -> None:
+    """Others have the same name."""
+
+    def make(value: int) -> Callable[[], int]:
+        def made() -> int:
+            return value
+
+        return made
+
+    with pytest.raises(TypeError, match="expected a function or class of a module"):
+        digest(make(1))
+
+
+# --- Keys ---
+
+
+CHILD = """
+from tests.experiments.test_job import run_job
+print(run_job().key, run_job().question)
+"""
+
+
+def test_equal_jobs_have_equal_keys_in_every_process(tmp_path: Path) -> None:
+    """Though every Python shuffles its sets anew: a set within the engine's capabilities is among what is digested."""
+    asked = run_job()
+    for _ in range(2):
+        said = python("-c", CHILD, folder=tmp_path)
+        assert said.out.split() == [asked.key, asked.question], said.err
+
+
+CHANGED = {
+    **{f"system.{f.name}": {"system": replace(STRING, **{f.name: other(getattr(STRING, f.name))})} for f in fields(STRING)},
+    "a mass more": {"system": replace(STRING, masses=0.5)},
+    "dt": {"dt": math.nextafter(1e-3, 1)},
+    "steps": {"steps": 11},
+    "no changes": {"changes": ()},
+    "changes in another order": {"changes": CHANGES[::-1]},
+    **{
+        f"change.{name}": {"changes": (replace(CHANGES[0], **{name: value}), CHANGES[1])}
+        for name, value in (("time", 0.3), ("parameter", "stiffness"), ("value", 0.06))
+    },
+    "engine": {"engine": registry()["mujoco_tendons"]},
+    "engine's settings": {"engine": PymunkSprings(rounds=3)},
+}
+
+
+@pytest.mark.parametrize("what", CHANGED)
+def test_whatever_decides_the_result_changes_the_key(what: str) -> None:
+    """Every field of the system by its last bit; dt by its last bit; and the question with it."""
+    changed = run_job(**CHANGED[what])
+    assert changed.key != run_job().key
+    assert changed.question != run_job().question
+
+
+def test_the_task_changes_the_key() -> None:
+    """The same arguments for another task are another question."""
+    assert Job(run_engine, run_job().arguments).question != run_job().question
+
+
+def test_the_engines_version_changes_the_key(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And the question: another version is another subject."""
+    before = run_job()
+    keys = before.key, before.question
+    monkeypatch.setattr(job_module, "version", lambda engine: "999.0")
+    assert run_job().key != keys[0]
+    assert run_job().question != keys[1]
+    assert run_job().labels["version"] == "999.0"
+
+
+@pytest.mark.parametrize("package", job_module.COMPUTES_WITH)
+def test_the_version_of_what_the_reference_computes_with_changes_the_key(
+    monkeypatch: pytest.MonkeyPatch, package: str
+) -> None:
+    """But not the question: a newer answer to it takes the older one's place."""
+    before = run_job()
+    keys = before.key, before.question
+    told = metadata.version
+    monkeypatch.setattr(job_module.metadata, "version", lambda name: "999.0" if name == package else told(name))
+    job_module._computer.cache_clear()
+    try:
+        after = Job(stepped, before.arguments)
+        assert after.key != keys[0]
+        assert after._computer_says if False else after.question == keys[1]
+    finally:
+        job_module._computer.cache_clear()

@@ -1,0 +1,96 @@
+"""What is in a store, and what is wrong with it."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from experiments.answers import decode, encode
+from experiments.store import read_arrays
+from tests.soak import faults
+from tests.soak.sweep import job_of
+
+#: What differs from one time to another.
+TIMES = ("seconds", "finished")
+
+Row = Mapping[str, Any]
+
+
+def rows(store: Path) -> list[Row]:
+    """All rows in the order of their keys, without times."""
+    with sqlite3.connect(store) as sql:
+        sql.row_factory = sqlite3.Row
+        found = [dict(row) for row in sql.execute("SELECT * FROM runs ORDER BY key, generation")]
+    sql.close()
+    return [{name: value for name, value in row.items() if name not in TIMES} for row in found]
+
+
+def arrays(store: Path) -> dict[str, bytes]:
+    """The files beside a store by name; without what a killed writer left unfinished, which is never read."""
+    folder = store.parent / "arrays"
+    return {str(f.relative_to(folder)): f.read_bytes() for f in folder.rglob("*.*") if f.suffix != ".half"}
+
+
+def check_same(found: Path, wanted: Path) -> None:
+    """Two stores are equal, row for row and file for file."""
+    check_same_rows(rows(found), rows(wanted))
+    check_same_files(arrays(found), arrays(wanted))
+
+
+def check_same_rows(found: Iterable[Row], wanted: Iterable[Row]) -> None:
+    """Rows are equal, each with each."""
+    by_key, due = _by_key(found), _by_key(wanted)
+    assert not due.keys() - by_key.keys(), f"{len(due.keys() - by_key.keys())} rows are missing"
+    assert not by_key.keys() - due.keys(), f"{len(by_key.keys() - due.keys())} rows are too many"
+    for key, row in due.items():
+        assert by_key[key] == row
+
+
+def check_same_files(found: Mapping[str, bytes], wanted: Mapping[str, bytes]) -> None:
+    """Files have the same names and bytes."""
+    assert found.keys() == wanted.keys()
+    assert [name for name in wanted if found[name] != wanted[name]] == []
+
+
+def _by_key(found: Iterable[Row]) -> dict[tuple[str, int], Row]:
+    all_of_them = list(found)
+    named = {(row["key"], row["generation"]): row for row in all_of_them}
+    assert len(named) == len(all_of_them), "a row is there twice"
+    return named
+
+
+def check_accounted_for(store: Path, count: int) -> None:
+    """Every run of the sweep has exactly one current row, with what was due of it, bit for bit."""
+    check_rows_due([row for row in rows(store) if not row["retired"]], count, store.parent / "arrays")
+
+
+def check_rows_due(found: Iterable[Row], count: int, folder: Path) -> None:
+    """As above, of rows and the folder of their arrays."""
+    by_key = {key: row for (key, _), row in _by_key(found).items()}
+    due = {job_of(number).key: number for number in range(count)}
+    assert not due.keys() - by_key.keys(), f"{len(due.keys() - by_key.keys())} runs are lost"
+    assert not by_key.keys() - due.keys(), "there are runs that nobody asked for"
+    blamed = {
+        number: (row["outcome"], row["reason"])
+        for key, number in due.items()
+        if ((row := by_key[key])["outcome"], row["reason"]) != faults.due(number)
+    }
+    assert not blamed, f"runs with another outcome than is due: {blamed}"
+    for key, number in due.items():
+        if faults.fault(number) is None:
+            check_answer(by_key[key], faults.good_answer(number), folder)
+
+
+def check_answer(row: Row, answer: Any, folder: Path) -> None:
+    """A row's answer, as it is written and as it is read, is that one, bit for bit."""
+    document, wanted = encode(answer)
+    found = read_arrays(folder, row["arrays"])
+    assert found is not None, f"the arrays of {row['parameters']} are gone"
+    assert json.loads(row["answer"]) == document
+    assert {name: (a.dtype, a.shape, a.tobytes()) for name, a in found.items()} == {
+        name: (a.dtype, a.shape, a.tobytes()) for name, a in wanted.items()
+    }
+    assert encode(decode(json.loads(row["answer"]), found))[0] == document

@@ -1,0 +1,95 @@
+"""A fifth of all runs ends badly, and processes are killed at random meanwhile: every run has the outcome it is due."""
+
+from __future__ import annotations
+
+import multiprocessing.forkserver
+import time
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from engines.supervisor import KILLS, supervisor
+from experiments.job import Job
+from experiments.runner import LocalCrew, Runner
+from experiments.store import Store, outcome_of_answer
+from reference.outcome import Outcome
+from tests.soak import faults
+from tests.soak.children import Killer
+from tests.soak.conftest import Size
+from tests.soak.stored import check_accounted_for, check_answer, check_rows_due, check_same_rows, rows
+from tests.soak.sweep import job_of, sweep_of
+
+#: Between two kills [s]. Were they much quicker, no run of half a second that hangs would ever live to be timed out:
+#: with two processes to choose from and T = 0.65 s between kills, one is killed before its time with the probability
+#: 1 - exp(-0.5 / 2 T) = 0.32, and ten times over with 1e-5.
+PAUSE = (0.1, 1.2)
+
+
+def processes(random: Random) -> list[int]:
+    """Those that do the runs; at every tenth look, the server that forks them."""
+    server = multiprocessing.forkserver._forkserver._forkserver_pid  # type: ignore[attr-defined]
+    return [server] if server is not None and random.random() < 0.1 else supervisor().pids()
+
+
+def test_every_run_is_accounted_for_though_processes_are_killed(tmp_path: Path, size: Size) -> None:
+    """One row for each run with its outcome and reason; good answers are the same bit for bit; nobody else is blamed."""
+    store, random = Store(tmp_path / "store.sqlite"), Random(3)
+    runner, begin = Runner(LocalCrew(2), store), time.perf_counter()
+    with Killer(lambda: processes(random), PAUSE) as killer:
+        for _ in runner.answers(sweep_of(size.runs)):
+            pass
+    seconds = time.perf_counter() - begin
+    store.close()
+    print(f"\n{size.runs} runs, {killer.kills} kills, {seconds:.1f} s: {size.runs / seconds:.0f} runs/s")
+    assert runner.done == size.runs
+    assert killer.kills >= size.kills // 2
+    check_accounted_for(store.file, size.runs)
+
+
+def test_the_sweep_has_every_fault_and_a_fifth_of_its_runs_ends_badly(undisturbed: Path, size: Size) -> None:
+    """Were a fault missing, nothing would be shown of it. With p = 0.2 of n runs, within 4 sqrt(n p (1 - p)) of n p."""
+    bad = [wrong for number in range(size.runs) if (wrong := faults.fault(number)) is not None]
+    spread = (size.runs * faults.SHARE * (1 - faults.SHARE)) ** 0.5
+    assert abs(len(bad) - size.runs * faults.SHARE) < 4 * spread
+    assert len({wrong.reason for wrong in bad}) >= 6
+    check_accounted_for(undisturbed, size.runs)
+
+
+def test_a_run_that_kills_itself_is_given_up(tmp_path: Path) -> None:
+    """As often as it may be somebody else's doing it is tried again, and not for ever; the run beside it is well."""
+    store = Store(tmp_path / "store.sqlite")
+    well = [number for number in range(50) if faults.fault(number) is None]
+    jobs = [Job(faults.end_oneself, ()), *map(job_of, well)]
+    answers = {job.key: outcome_of_answer(answer) for job, answer in Runner(LocalCrew(2), store).answers(jobs)}
+    store.close()
+    assert answers[jobs[0].key] == Outcome("crashed", f"killed by SIGKILL, {KILLS} times over")
+    assert [(answers[job.key].ending, answers[job.key].reason) for job in jobs[1:]] == list(map(faults.due, well))
+
+
+def test_a_lost_run_and_a_wrong_blame_are_told(undisturbed: Path, size: Size) -> None:
+    """Shown to fail: a row less, one more, one twice, another outcome or reason, another answer, a bit of an array."""
+    good, folder = rows(undisturbed), undisturbed.parent / "arrays"
+    done = next(i for i, row in enumerate(good) if row["outcome"] == "done")
+    crashed = next(i for i, row in enumerate(good) if row["outcome"] == "crashed")
+    changes = [
+        (done, {"outcome": "crashed", "reason": "killed by SIGKILL"}),
+        (crashed, {"outcome": "done", "reason": ""}),
+        (crashed, {"reason": "killed by SIGKILL"}),
+        (done, {"key": "0" * 64}),
+        (done, {"answer": good[crashed]["answer"]}),
+        (done, {"arrays": good[next(i for i, r in enumerate(good) if r["arrays"] and i != done)]["arrays"]}),
+    ]
+    wrong = [[*good[:i], {**good[i], **change}, *good[i + 1 :]] for i, change in changes]
+    for found in (*wrong, good[1:], [*good, good[0]], [*good, {**good[0], "key": "0" * 64}]):
+        with pytest.raises(AssertionError):
+            check_rows_due(found, size.runs, folder)
+        with pytest.raises(AssertionError):
+            check_same_rows(found, good)
+    number = next(n for n in range(size.runs) if faults.due(n) == ("done", ""))
+    row = next(row for row in good if row["parameters"] == f'{{"number": {number}}}')
+    answer = faults.good_answer(number)
+    check_answer(row, answer, folder)
+    answer["points"].view("u8")[0, 0] ^= 1
+    with pytest.raises(AssertionError):
+        check_answer(row, answer, folder)

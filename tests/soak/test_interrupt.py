@@ -1,0 +1,94 @@
+"""Ctrl-C in the middle of a sweep: one line, at once, nobody left behind; the same command goes on."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from tests.soak.children import check_all_end, family, start
+
+#: Runs of the sweep: about 10 s of them.
+RUNS = 600
+
+#: After Ctrl-C the command has ended within [s].
+PATIENCE = 3.0
+
+SWEEP = (
+    *(sys.executable, "-m", "experiments.command_line", "sweep", "string"),
+    *("--stepper", "heun", "--over", f"stiffness=100:200:{RUNS}", "--json"),
+)
+
+
+def sweep(store: Path) -> subprocess.Popen[str]:
+    """`springlab sweep`, with some more runs done."""
+    before = kept(store)
+    child = start(*SWEEP, environment={"SPRINGLAB_STORE": str(store)})
+    deadline = time.monotonic() + 60
+    while kept(store) == before:
+        assert child.poll() is None, child.communicate()
+        assert time.monotonic() < deadline
+        time.sleep(0.05)
+    return child
+
+
+def kept(store: Path) -> int:
+    """How many runs are in a store; none where there is no store yet."""
+    if not store.exists():
+        return 0
+    sql = sqlite3.connect(store)
+    try:
+        return int(sql.execute("SELECT COUNT(*) FROM runs").fetchone()[0])
+    except sqlite3.OperationalError:
+        return 0
+    finally:
+        sql.close()
+
+
+def test_an_interrupted_sweep_says_how_to_go_on_and_goes_on(tmp_path: Path) -> None:
+    """Exit code 130 and one line; what was kept is not run again."""
+    store, random = tmp_path / "store.sqlite", Random(7)
+    before = 0
+    for _ in range(3):
+        child = sweep(store)
+        time.sleep(random.uniform(0, 0.5))
+        others, begin = family(child.pid), time.monotonic()
+        os.killpg(child.pid, signal.SIGINT)
+        out, err = child.communicate(timeout=60)
+        assert time.monotonic() - begin < PATIENCE
+        assert child.returncode == 130, err
+        assert out == ""
+        assert err == f"springlab: interrupted; what is done is kept in {store}: the same command goes on\n"
+        check_all_end(others)
+        assert before <= kept(store) < RUNS
+        before = kept(store)
+    done = start(*SWEEP, environment={"SPRINGLAB_STORE": str(store)})
+    out, err = done.communicate(timeout=120)
+    document = json.loads(out)
+    assert document["runs"] == RUNS
+    assert document["run_now"] == RUNS - before < RUNS
+    assert kept(store) == RUNS
+
+
+@pytest.mark.parametrize("options", [(), ("--busy",)], ids=["waiting", "at work on an answer"])
+def test_interrupted_with_runs_that_hang_it_ends_at_once(tmp_path: Path, options: tuple[str, ...]) -> None:
+    """Those under way are ended, and those that would come next are not begun behind its back."""
+    child = start(sys.executable, "-m", "tests.soak.hanging", str(tmp_path / "store.sqlite"), *options)
+    assert child.stdout is not None
+    assert child.stdout.readline() == "begun\n"
+    time.sleep(1.5)
+    others, begin = family(child.pid), time.monotonic()
+    os.killpg(child.pid, signal.SIGINT)
+    _, err = child.communicate(timeout=120)
+    assert time.monotonic() - begin < PATIENCE
+    assert (child.returncode, len(err.splitlines())) == (130, 1), err
+    assert len(others) >= 4, "two processes, and what forks them and cleans up after them"
+    check_all_end(others)
