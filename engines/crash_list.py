@@ -72,7 +72,8 @@ def ending(answer: str | Outcome) -> str:
     if answer.ending == "timed out":
         return "hangs"
     signal = re.match(r"killed by (\w+)", answer.reason)
-    return signal[1] if signal else f"refused: {answer.reason}"
+    exception = re.match(r"\w+: ", answer.reason)
+    return signal[1] if signal else f"refused: {answer.reason}" if exception else answer.reason
 
 
 def numbers(values: Any) -> str:

@@ -112,7 +112,7 @@ def _dead(folder: Path, home: Path) -> Iterator[Path]:
         if unfinished:
             usable = name != home.name
         else:
-            usable = _python(found).exists() and all(room.exists() for room in found.glob("lib/python*/*/engines"))
+            usable = _python(found).exists() and any(found.glob("lib/python*/site-packages/engines"))
         if not usable:
             yield found
 

@@ -6,10 +6,8 @@ is noticed at once; what the task had to say on its way out is kept. Needs NumPy
 
 from __future__ import annotations
 
-import faulthandler
 import multiprocessing
 import os
-import pickle
 import shutil
 import signal
 import subprocess
@@ -22,10 +20,8 @@ from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Any, Protocol
 
+from engines.working import OUTPUT, one_line, work
 from reference.outcome import Outcome
-
-if sys.platform == "linux":
-    import fcntl
 
 #: How often a working process's memory is looked at [s].
 LOOK = 0.05
@@ -33,11 +29,8 @@ LOOK = 0.05
 #: A process that has closed its connection has so long [s] to end by itself.
 GRACE = 1.0
 
-#: Where, in its scratch folder, a process's output is kept.
-OUTPUT = "output.txt"
-
 #: So often a process is tried to be started, should the server that forks it be killed meanwhile.
-STARTS = 5
+STARTS = 20
 
 #: Signals that come from outside: the kernel short of memory, a person, a machine that shuts down.
 FROM_OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT})
@@ -162,9 +155,10 @@ class _Forked:
 
     def _start(self) -> None:
         for _ in range(STARTS - 1):
-            with suppress(OSError, EOFError):  # the server was killed just now; the next try starts a new one
+            with suppress(OSError, EOFError):  # the server was killed just now; once it is gone, a try starts a new one
                 self._process.start()
                 return
+            time.sleep(LOOK)
         self._process.start()
 
     def kill(self) -> None:
@@ -183,7 +177,7 @@ class _Launched:
     def __init__(self, connection: Connection, lifeline: Connection, scratch: Path, python: Path | None) -> None:
         environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
         pipes = [connection.fileno(), lifeline.fileno()]
-        command = [str(python), "-m", "engines.worker", *map(str, pipes), str(scratch)]
+        command = [str(python), "-m", "engines.working", *map(str, pipes), str(scratch)]
         self._process = subprocess.Popen(command, pass_fds=pipes, cwd=scratch, env=environment)
         self.pid = self._process.pid
         self.sentinel = os.pidfd_open(self.pid)
@@ -215,57 +209,6 @@ def _deaf_to_interrupts() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def work(connection: Connection, lifeline: Connection, scratch: Path) -> None:
-    """What the process does: tasks, one after another, until nobody is left to send one."""
-    from engines.supervisor import stop_supervisors  # of the processes that our tasks have made in turn
-
-    _prepare(scratch)
-    _hang_on(lifeline)
-    with suppress(EOFError, OSError):
-        while True:
-            _do(connection, connection.recv_bytes(), scratch / "run")
-    stop_supervisors()
-    shutil.rmtree(scratch, ignore_errors=True)
-
-
-def _prepare(scratch: Path) -> None:
-    """Output goes into a file; Ctrl-C is for the one we work for to act on."""
-    os.chdir(scratch)
-    output = os.open(OUTPUT, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
-    for standard in (1, 2):
-        os.dup2(output, standard)
-    faulthandler.disable()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
-def _hang_on(lifeline: Connection) -> None:
-    """Let the kernel kill this process, whatever it is at, once nobody holds the other end of a pipe.
-
-    On Linux. Its signal for a parent's end would not do: our parent is the server, which outlives the one we work for.
-    """
-    if sys.platform == "linux":
-        fcntl.fcntl(lifeline, fcntl.F_SETOWN, os.getpid())
-        fcntl.fcntl(lifeline, fcntl.F_SETSIG, signal.SIGKILL)
-        fcntl.fcntl(lifeline, fcntl.F_SETFL, os.O_ASYNC)
-        if lifeline.poll():  # it happened before we listened
-            os._exit(1)
-
-
-def _do(connection: Connection, message: bytes, folder: Path) -> None:
-    """A task, in a folder that is removed afterwards; its answer or its exception down the pipe."""
-    os.ftruncate(1, 0)
-    folder.mkdir()
-    os.chdir(folder)
-    try:
-        task, arguments = pickle.loads(message)
-        connection.send(task(*arguments))
-    except Exception as error:
-        connection.send(Outcome("crashed", f"{type(error).__name__}: {_one_line(str(error))}"))
-    finally:
-        os.chdir(folder.parent)
-        shutil.rmtree(folder, ignore_errors=True)
-
-
 def _memory(pid: int | None) -> int:
     """What a process holds of the machine's memory [bytes]."""
     import psutil  # here: a bare environment, where nobody is watched, does without
@@ -278,7 +221,8 @@ def _memory(pid: int | None) -> int:
 
 def _cause(exit_code: int) -> str:
     if exit_code < 0:
-        return f"killed by {signal.Signals(-exit_code).name}"
+        names = {known.value: known.name for known in signal.Signals}
+        return f"killed by {names.get(-exit_code, f'signal {-exit_code}')}"
     return f"ended with exit code {exit_code} and no answer"
 
 
@@ -286,12 +230,4 @@ def _last_words(output: Path) -> str:
     """The last line that says something of what the process printed, if any does."""
     text = output.read_text(errors="replace") if output.exists() else ""
     lines = [line for line in text.splitlines() if any(map(str.isalpha, line))]
-    return f"; it said: {_one_line(lines[-1])}" if lines else ""
-
-
-def _one_line(text: str) -> str:
-    return " ".join(text.split())[:300]
-
-
-if __name__ == "__main__":
-    work(Connection(int(sys.argv[1])), Connection(int(sys.argv[2])), Path(sys.argv[3]))
+    return f"; it said: {one_line(lines[-1])}" if lines else ""

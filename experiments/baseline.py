@@ -56,13 +56,21 @@ def kept_versions(subject: Subject, asked: Sequence[str], folder: Path = FOLDER)
     return list(asked) or kept
 
 
+def unknown_engines(subject: Subject, folder: Path = FOLDER) -> list[str]:
+    """The subject's engines of which nothing is kept: new ones, which there is nothing to compare with."""
+    known = {name for rows in read(subject.package, folder).values() for name in rows}
+    return [name for name in subject.names if name not in known]
+
+
 def deviations(subject: Subject, measured: Measured, folder: Path = FOLDER) -> list[str]:
-    """Each difference between the baseline and what was measured, in a line; of the subject's engines only."""
+    """Each difference between the baseline and what was measured, in a line; of the subject's known engines only."""
     lines = [f"{subject.package} {version}: {why}" for version, why in measured.missing.items()]
+    unknown = unknown_engines(subject, folder)
     kept = read(subject.package, folder)
     for version, rows in measured.rows.items():
-        of_subject = {name: of_name for name, of_name in kept[version].items() if name in subject.names}
-        for change in differences(of_subject, rows):
+        expected = {name: of_name for name, of_name in kept[version].items() if name in subject.names}
+        found = {name: of_name for name, of_name in rows.items() if name not in unknown}
+        for change in differences(expected, found):
             before, after = ("nothing" if v is None else v for v in (change.before, change.after))
             place = f"{subject.package} {version}, {change.engine}, {change.measure}"
             lines.append(f"{place}: {before} in the baseline, {after} now")

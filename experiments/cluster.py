@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import logging
 import multiprocessing
 import re
 from concurrent.futures import CancelledError
@@ -37,6 +38,8 @@ class DaskCrew:
             raise InputError("--cluster: Dask is not installed; expected the extra springlab[cluster]") from None
         if not re.fullmatch(r"(tcp|tls)://[^\s:/]+:\d+", address):
             raise InputError(f"--cluster {address!r}: expected tcp://HOST:PORT of a Dask scheduler")
+        # Of a lost scheduler it would log a traceback; that it is lost is ours to say, below.
+        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         self._address, self._lost = address, (dask.KilledWorker,)
         try:
             self._client = dask.Client(address, timeout=PATIENCE, set_as_default=False)
@@ -50,7 +53,7 @@ class DaskCrew:
         """See Crew. A worker that is lost costs the job another try, somewhere else."""
         for _ in range(KILLS):
             try:
-                return self._client.submit(do_there, job, job.key, pure=False).result()
+                return self._client.submit(do_there, job, job.key, job.labels["version"], pure=False).result()
             except self._lost:
                 continue
             except (CancelledError, OSError) as error:
@@ -62,8 +65,12 @@ class DaskCrew:
         self._client.close(timeout=PATIENCE)
 
 
-def do_there(job: Job, key: str) -> Any:
+def do_there(job: Job, key: str, version: str | None) -> Any:
     """A job on a worker's machine, through its supervisor.
+
+    Args:
+        key: the job's where it was asked for.
+        version: its engine's there.
 
     Raises:
         InputError: where the job's key is another one there: what decides its result is not the same; or where the
@@ -75,8 +82,8 @@ def do_there(job: Job, key: str) -> Any:
         )
     there = Job(job.task, job.arguments, job.parameters, job.time_limit, job.memory_limit)
     if there.key != key:
-        raise InputError(
-            f"a worker of the cluster has other versions: {there.labels['stepper']} {there.labels['version']}, where "
-            f"{job.labels['version']} was expected, or another springlab, NumPy, Numba or SciPy"
-        )
+        name, found = there.labels["stepper"], there.labels["version"]
+        if found != version:
+            raise InputError(f"a worker of the cluster has {name} in version {found}: expected {version}, as here")
+        raise InputError("a worker of the cluster has another springlab, NumPy, Numba, SciPy or processor than we have")
     return isolated(job.task, *job.arguments, time_limit=job.time_limit, memory_limit=job.memory_limit)

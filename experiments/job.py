@@ -65,8 +65,8 @@ class Job:
             "settings": dict(engine.settings) if engine is not None else None,
             "system": digest(system)[:12] if isinstance(system, MassSpringSystem) else None,
             "parameters": dict(self.parameters),
-            "dt": self._argument("dt"),
-            "steps": self._argument("steps"),
+            "dt": self._one_number("dt"),
+            "steps": self._one_number("steps"),
         }
 
     @property
@@ -79,6 +79,11 @@ class Job:
         """The argument of that name; None where the task has none."""
         value = self._bound.get(name)
         return value.item() if isinstance(value, np.generic) else value
+
+    def _one_number(self, name: str) -> float | None:
+        """The argument of that name where it is one number: a task may have many of it."""
+        value = self._argument(name)
+        return value if isinstance(value, int | float) else None
 
     @cached_property
     def _bound(self) -> dict[str, Any]:

@@ -40,6 +40,7 @@ IDENTIFYING = STEPS.index(256)
 STRINGS: Mapping[str, Mapping[str, float]] = {
     "damping and drag": {"masses": 5, "angle": 30, "damping": 0.05, "drag": 0.02},
     "drag": {"masses": 5, "angle": 30, "drag": 0.02},
+    "nothing": {"masses": 5, "angle": 30},
 }
 
 #: Slopes from one dt to the next that differ by no more than this are those of a straight line.
@@ -252,15 +253,15 @@ def _engines_finding(rows: Sequence[Row]) -> list[str]:
         return []
     orders = sorted({row.predicted or 0 for row in engines})
     names = {p: ", ".join(row.stepper.name for row in engines if row.predicted == p) for p in orders}
-    of_schemes = {row.stepper.name: row.errors for row in rows}
+    on_strings = {(row.stepper.name, row.string): row.errors for row in rows}
     gaps = [
-        float(np.nanmax(np.abs(row.errors - of_schemes[row.scheme.name])))
+        float(np.nanmax(np.abs(row.errors - on_strings[row.scheme.name, row.string])))
         for row in engines
-        if row.scheme is not None and row.scheme.name in of_schemes
+        if row.scheme is not None and (row.scheme.name, row.string) in on_strings
     ]
     sentences = [f"Engines of order {p}: {names[p]}." for p in orders]
     if gaps:
-        sentences.append(f"Their errors are those of the schemes they are identified with, to {max(gaps):.1e} m.")
+        sentences.append(f"On the same string their errors are those of their schemes, to {max(gaps):.1e} m.")
     return sentences
 
 

@@ -50,7 +50,8 @@ def parse_filters(words: Iterable[str]) -> dict[str, str]:
 
 def columns_of(found: Sequence[Mapping[str, Any]]) -> list[str]:
     """A column for everything that any row has: what was run comes first, then how it ended and what was found."""
-    before, after = {}, {}
+    before: dict[str, None] = {}
+    after: dict[str, None] = {}
     for row in found or [dict.fromkeys((*COLUMNS, *MORE_COLUMNS))]:
         end = [*row].index("outcome")
         before |= dict.fromkeys([*row][:end])
@@ -74,7 +75,7 @@ def _read(store: Path) -> list[sqlite3.Row]:
         sql.row_factory = sqlite3.Row
         try:
             begun = check_format(store, sql)
-            return sql.execute("SELECT * FROM runs ORDER BY finished, key").fetchall() if begun else []
+            return sql.execute("SELECT * FROM runs ORDER BY finished, rowid").fetchall() if begun else []
         except sqlite3.OperationalError as error:
             problem = error
         except sqlite3.DatabaseError as error:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from itertools import islice
@@ -22,6 +22,9 @@ from experiments.store import Store
 from reference.outcome import Outcome
 
 T = TypeVar("T")
+
+#: Between one attempt to stop a crew and the next [s].
+AGAIN = 0.1
 
 
 class Crew(Protocol):
@@ -97,7 +100,7 @@ class Runner:
             self.store.retire(keys)
             self._begun.update(keys)
 
-    def answers(self, jobs: Iterable[Job]) -> Iterator[tuple[Job, Any]]:
+    def answers(self, jobs: Iterable[Job]) -> Generator[tuple[Job, Any], None, None]:
         """The answers of many jobs, as they come. Jobs are taken as they are needed: there may be millions."""
         waiting = iter(jobs)
         with self.threads() as threads:
@@ -117,9 +120,17 @@ class Runner:
             try:
                 yield pool
             except BaseException:
-                pool.shutdown(wait=False, cancel_futures=True)
-                self.crew.stop()
+                self._stop(pool)
                 raise
+
+    def _stop(self, pool: ThreadPoolExecutor) -> None:
+        """Begin nothing more, and end what is under way, also what a thread is just about to give to the crew."""
+        pool.shutdown(wait=False, cancel_futures=True)
+        ending = threading.Thread(target=pool.shutdown)
+        ending.start()
+        while ending.is_alive():
+            self.crew.stop()
+            ending.join(AGAIN)
 
 
 _current: list[Runner] = []

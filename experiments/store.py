@@ -215,7 +215,7 @@ def read_arrays(folder: Path, path: str | None) -> dict[str, Array] | None:
     if path is None:
         return {}
     try:
-        with np.load(folder / path) as opened:
+        with (folder / path).open("rb") as file, np.load(file) as opened:
             return dict(opened)
     except Exception:  # NumPy and zipfile raise nearly anything for a broken file
         return None

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import sys
+from contextlib import closing
 from pathlib import Path
 from time import perf_counter
 
@@ -63,10 +64,11 @@ def sweep_command(
     with chosen_runner(resume, store, jobs, cluster) as runner, progress("sweep") as tell:
         if not resume:
             runner.start_over(sweep.jobs())
-        for job, answer in runner.answers(sweep.jobs()):
-            done += 1
-            count(tallies, job.labels["stepper"], outcome_of_answer(answer))
-            tell(f"{done} of {len(sweep)} runs")
+        with closing(runner.answers(sweep.jobs())) as answers:
+            for job, answer in answers:
+                done += 1
+                count(tallies, job.labels["stepper"], outcome_of_answer(answer))
+                tell(f"{done} of {len(sweep)} runs")
     seconds = perf_counter() - begin
     if as_json:
         endings = {name: dict(found.endings) for name, found in tallies.items()}

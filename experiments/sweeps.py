@@ -48,6 +48,9 @@ class Sweep:
     memory_limit: float = MEMORY_LIMIT
 
     def __post_init__(self) -> None:
+        for name, limit, unit in (("time", self.time_limit, "s"), ("memory", self.memory_limit / 2**30, "GiB")):
+            if not limit > 0:
+                raise InputError(f"--{name}-limit {limit:g}: expected a number > 0 [{unit}]")
         fixed = {*self.settings, *([] if self.dt is None else ["dt"])}
         for name in self.axes:
             if name in fixed:

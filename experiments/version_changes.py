@@ -33,16 +33,17 @@ def same(one: Value | None, other: Value | None) -> bool:
 
 
 def differences(before: Rows, after: Rows) -> list[Change]:
-    """Everything that is not the same in both, what is only in one of them too."""
+    """Everything that is not the same in both; of an engine that runs in one of them only, just that."""
     changes = []
     for engine in dict.fromkeys([*before, *after]):
         old, new = before.get(engine, {}), after.get(engine, {})
-        changes += [Change(engine, name, old.get(name), new.get(name)) for name in dict.fromkeys([*old, *new])]
+        measures = dict.fromkeys([*old, *new]) if same(old.get("runs"), new.get("runs")) else ["runs"]
+        changes += [Change(engine, name, old.get(name), new.get(name)) for name in measures]
     return [change for change in changes if not same(change.before, change.after)]
 
 
 def changes(before: Rows, after: Rows) -> list[Change]:
-    """What a version changed: differences in what both were asked. Of an engine that does not run nothing is."""
+    """What a version changed: differences in what both were asked."""
     return [c for c in differences(before, after) if c.before is not None and c.after is not None]
 
 

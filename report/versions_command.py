@@ -41,7 +41,8 @@ def versions_command(
     """Say what versions of ENGINE do, each in an environment of its own, and what each changed.
 
     ENGINE is a package, such as mujoco, or one engine of `springlab list`. Without ENGINE: all that are in the
-    baseline. Environments are made in the user's cache folder at first need, from the package index, and kept there.
+    baseline. Environments are made in the user's cache folder at first need, from the package index, and kept there; a
+    version that the index has no wheel of for this Python is compiled, which takes minutes.
     """
     from experiments.versions import measure_versions
 
@@ -70,8 +71,11 @@ def _wanted(engine: str | None, versions: Sequence[str], kept: bool) -> list[tup
 
 
 def _compare(measured: Sequence[tuple[Subject, Measured]], as_json: bool) -> int:
-    from experiments.baseline import deviations
+    from experiments.baseline import deviations, unknown_engines
 
+    for subject, _ in measured:
+        for name in unknown_engines(subject):
+            print(f"not compared: {name}, of which the baseline has nothing; see --update-baseline", file=sys.stderr)
     lines = [line for subject, found in measured for line in deviations(subject, found)]
     count = sum(len(of_name) for _, found in measured for rows in found.rows.values() for of_name in rows.values())
     if as_json:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from pathlib import Path
+
 import pytest
 
 from engines.engine import Engine, find, registry, version
@@ -34,6 +37,15 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if "engine" in metafunc.fixturenames:
         names = metafunc.config.getoption("--engine") or list(registry())
         metafunc.parametrize("engine", names, indirect=True)
+
+
+@pytest.fixture(autouse=True, scope="session")
+def store_of_the_tests(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Where commands keep results unless told otherwise: not where whoever runs the tests keeps theirs."""
+    with pytest.MonkeyPatch.context() as patch:
+        file = tmp_path_factory.mktemp("store") / "store.sqlite"
+        patch.setenv("SPRINGLAB_STORE", str(file))
+        yield file
 
 
 @pytest.fixture

@@ -17,13 +17,19 @@ SLOPES = {1: 6e-2, 2: 6e-4, 4: 3e-6}
 
 LOWEST, HIGHEST = 1e-16, 1e-1
 
+#: The figure's height [inches] up to so many lines of labels beside a panel; with more, the figure grows.
+HEIGHT, LINES = 9.5, 20
+
 
 def draw(result: Result) -> Picture:
     """A panel for each family: lines are schemes, rings are engines."""
     rows: Sequence[Row] = result.data["rows"]
-    figure, axes = new_figure(nrows=2, ncols=2, sharex=True, sharey=True, figsize=(12.5, 9.5))
-    for panel, (title, family) in zip(axes.flat, _families(rows).items(), strict=True):
-        _panel(panel, title, family)
+    families = _families(rows)
+    lines = max(LINES, *map(len, families.values()))  # each row of a family has its line
+    size = (12.5, HEIGHT * lines / LINES)
+    figure, axes = new_figure(nrows=2, ncols=2, sharex=True, sharey=True, figsize=size)
+    for panel, (title, family) in zip(axes.flat, families.items(), strict=True):
+        _panel(panel, title, family, 1 / lines)
     for panel in axes[1]:
         panel.set_xlabel("dt [s]")
     for panel in axes[:, 0]:
@@ -50,7 +56,7 @@ def _families(rows: Sequence[Row]) -> dict[str, list[Row]]:
     }
 
 
-def _panel(axes: Any, title: str, rows: Sequence[Row]) -> None:
+def _panel(axes: Any, title: str, rows: Sequence[Row], line: float) -> None:
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlim(0.8 * DTS[-1], 1.25 * DTS[0])
@@ -77,15 +83,16 @@ def _panel(axes: Any, title: str, rows: Sequence[Row]) -> None:
         ends.append(End(DTS[0], row.errors[0], _label(row, rings), look(i)["color"]))
     for row in rings:
         axes.plot(DTS, row.errors, "o", fillstyle="none", color="#000000", markersize=9, markeredgewidth=0.9)
-    named = [row.stepper.name for row in lines]
-    strangers = [row for row in rings if (row.scheme is None or row.scheme.name not in named)]
+    named = [(row.stepper.name, row.string) for row in lines]
+    strangers = [row for row in rings if (row.scheme is None or (row.scheme.name, row.string) not in named)]
     ends += [End(DTS[0], r.errors[0], _label(r, []), "#000000") for r in strangers if np.isfinite(r.errors[0])]
-    label_ends(axes, ends, line=0.05)
+    label_ends(axes, ends, line)
 
 
 def _label(row: Row, rings: Sequence[Row]) -> str:
     slope = "no slope" if row.slope is None else f"{row.slope:.2f}"
-    engines = [ring.stepper.name for ring in rings if ring.scheme and ring.scheme.name == row.stepper.name]
+    line = row.stepper.name, row.string
+    engines = [ring.stepper.name for ring in rings if ring.scheme and (ring.scheme.name, ring.string) == line]
     return f"{row.stepper.name} {slope}" + "".join(f"\n   o {engine}" for engine in engines)
 
 

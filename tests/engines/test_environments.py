@@ -135,8 +135,8 @@ def test_what_is_no_version_is_refused(folder: Path, version: str) -> None:
     ("said", "meant"),
     [
         (
-            "error: No solution found when resolving dependencies\n  cause: Because there is no version of spring==9 and"
-            " you require\n      spring==9, we can conclude that your requirements are unsatisfiable.\n",
+            "error: No solution found when resolving dependencies\n  cause: Because there is no version of spring==9"
+            " and you require\n      spring==9, we can conclude that your requirements are unsatisfiable.\n",
             "there is no version of spring==9",
         ),
         (

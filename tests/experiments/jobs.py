@@ -5,12 +5,15 @@ from __future__ import annotations
 import threading
 from collections.abc import Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from engines.engine import Engine
 from experiments.job import Job
+from experiments.results import rows
+from experiments.store import Store
 from reference.changes import Change
 from reference.outcome import Ending, Outcome
 from reference.scenes import find
@@ -36,7 +39,7 @@ def job(number: int = 0, **limits: float) -> Job:
 
 
 def ended(ending: Ending, reason: str = "", frames: int = 4) -> Outcome:
-    """An outcome with a trajectory where it has one: numbers that no rounding leaves as they are, and some that are none."""
+    """An outcome, with a trajectory where it has one: numbers with all their bits, and some that are none."""
     if ending not in ("done", "diverged"):
         return Outcome(ending, reason)
     x = np.random.default_rng(1).normal(size=(frames, 3, 2))
@@ -60,11 +63,29 @@ def alike(one: Any, other: Any) -> bool:
     return type(one) is type(other) and repr(one) == repr(other)
 
 
+def arrays_of(file: Path) -> list[Path]:
+    """The files of arrays beside a store."""
+    return sorted(path for path in (file.parent / "arrays").rglob("*") if path.is_file())
+
+
+def endings(file: Path, retired: bool = False) -> list[tuple[int, str]]:
+    """Number and outcome of every row of a store of `job`s, in order."""
+    return sorted((row["number"], row["outcome"]) for row in rows(file, {}, retired))
+
+
+def kept(store: Store, number: int) -> Any:
+    """The answer that a store has of a `job`."""
+    found = store.find(job(number))
+    assert found is not None
+    return found.answer
+
+
 class FakeCrew:
     """Those who do jobs in this very process, and remember which; a task may be done otherwise."""
 
     def __init__(self, size: int = 1, answers: Mapping[int, Any] | None = None) -> None:
-        self.size, self.asked, self.stopped = size, [0][:0], False
+        self.size, self.stopped = size, False
+        self.asked: list[int] = []
         self._answers, self._lock = answers or {}, threading.Lock()
 
     def do(self, job: Job) -> Any:

@@ -12,6 +12,8 @@ from pathlib import Path
 import pytest
 
 from experiments.experiment import NAMES, Experiment, Result, find
+from experiments.results import rows
+from experiments.store import StoreError
 from tests.experiments.terminal import Said, springlab
 from tests.report.canned import RESULTS
 from tests.report.html import Page, check_self_contained
@@ -36,7 +38,7 @@ def failing(name: str, error: Exception) -> Experiment:
 
 def put(patch: pytest.MonkeyPatch, *instead: Experiment) -> None:
     """Put experiments in the place of those of their names, and run them here: a new process would not know them."""
-    patch.setattr("report.page.isolated", lambda task, *arguments, time_limit: task(*arguments))
+    patch.setattr("report.page.isolated", lambda task, *arguments, **limits: task(*arguments))
     for experiment in instead:
         patch.setattr(f"experiments.{experiment.name}.EXPERIMENT", experiment)
 
@@ -182,6 +184,36 @@ def test_run_writes_figure_and_tables_and_goes_on_after_a_failure(
     assert said.err == "springlab: errata: ArithmeticError: no\n"
     assert find("stiff_limit").question in " ".join(said.out.split())
     assert {file.name for file in (tmp_path / "stiff_limit").iterdir()} == {"stiff_limit.csv", "stiff_limit.svg"}
+
+
+def test_a_store_that_fails_midway_ends_run_with_its_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """It is no failure of the experiment's: exit code 2, and the next experiment is not begun."""
+    put(monkeypatch, failing("errata", StoreError("store s: the disk is full")))
+    put(monkeypatch, answering("stiff_limit", RESULTS["stiff_limit"]["no engine"]()))
+    said = springlab("run", "errata", "stiff_limit", "--out", str(tmp_path))
+    assert (said.code, said.out, said.err) == (2, "", "springlab: store s: the disk is full\n")
+
+
+@pytest.mark.parametrize("command", [("run", "errata"), ("report", "--only", "errata")])
+def test_a_store_that_cannot_be_used_is_said_before_anything_is_run(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, command: tuple[str, ...]
+) -> None:
+    """Exit code 2, in one line."""
+    put(monkeypatch, failing("errata", AssertionError("it was run")))
+    store = tmp_path / "notes.txt"
+    store.write_text("no store " * 100)
+    said = springlab(*command, "--out", str(tmp_path / "out"), "--store", str(store))
+    line = f"springlab: store {store}: is damaged, or no store of springlab's (file is not a database)\n"
+    assert (said.code, said.out, said.err) == (2, "", line)
+
+
+def test_run_and_report_leave_a_store_where_they_are_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Made where there is none."""
+    put(monkeypatch, answering("stiff_limit", RESULTS["stiff_limit"]["usual"]()))
+    for number, command in enumerate((("run", "stiff_limit"), ("report", "--only", "stiff_limit", "--fresh"))):
+        store = tmp_path / str(number) / "store.sqlite"
+        assert springlab(*command, "--out", str(tmp_path / "out"), "--store", str(store)).code == 0
+        assert rows(store, {}) == []
 
 
 def test_without_names_the_report_has_a_section_for_every_experiment_that_belongs_in_it(

@@ -26,7 +26,7 @@ class Size:
 @pytest.fixture(scope="session")
 def size(request: pytest.FixtureRequest) -> Size:
     """A small form, or with --full all of it."""
-    return Size(2_000, 20) if request.config.getoption("--full") else Size(100, 3)
+    return Size(2_000, 20) if request.config.getoption("--full") else Size(60, 3)
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 import click
@@ -26,9 +27,10 @@ def main() -> None:
     try:
         with chosen_runner(True, Path(sys.argv[1]), jobs=2) as runner:
             print("begun", flush=True)
-            for _ in runner.answers(hangs):
-                if "--busy" in sys.argv:
-                    time.sleep(LONG)
+            with closing(runner.answers(hangs)) as answers:
+                for _ in answers:
+                    if "--busy" in sys.argv:
+                        time.sleep(LONG)
     except click.exceptions.Exit as ending:
         sys.exit(ending.exit_code)
 

@@ -28,6 +28,19 @@ def rows(store: Path) -> list[Row]:
     return [{name: value for name, value in row.items() if name not in TIMES} for row in found]
 
 
+def kept_in(store: Path) -> int:
+    """How many rows are in a store; none where there is no store yet."""
+    if not store.exists():
+        return 0
+    sql = sqlite3.connect(store)
+    try:
+        return int(sql.execute("SELECT COUNT(*) FROM runs").fetchone()[0])
+    except sqlite3.OperationalError:
+        return 0
+    finally:
+        sql.close()
+
+
 def arrays(store: Path) -> dict[str, bytes]:
     """The files beside a store by name; without what a killed writer left unfinished, which is never read."""
     folder = store.parent / "arrays"
@@ -62,23 +75,20 @@ def _by_key(found: Iterable[Row]) -> dict[tuple[str, int], Row]:
     return named
 
 
-def check_accounted_for(store: Path, count: int) -> None:
-    """Every run of the sweep has exactly one current row, with what was due of it, bit for bit."""
-    check_rows_due([row for row in rows(store) if not row["retired"]], count, store.parent / "arrays")
+def check_accounted_for(store: Path, numbers: Iterable[int]) -> None:
+    """Every run of these numbers has exactly one current row, with what was due of it, bit for bit."""
+    check_rows_due([row for row in rows(store) if not row["retired"]], numbers, store.parent / "arrays")
 
 
-def check_rows_due(found: Iterable[Row], count: int, folder: Path) -> None:
+def check_rows_due(found: Iterable[Row], numbers: Iterable[int], folder: Path) -> None:
     """As above, of rows and the folder of their arrays."""
     by_key = {key: row for (key, _), row in _by_key(found).items()}
-    due = {job_of(number).key: number for number in range(count)}
+    due = {job_of(number).key: number for number in numbers}
     assert not due.keys() - by_key.keys(), f"{len(due.keys() - by_key.keys())} runs are lost"
     assert not by_key.keys() - due.keys(), "there are runs that nobody asked for"
-    blamed = {
-        number: (row["outcome"], row["reason"])
-        for key, number in due.items()
-        if ((row := by_key[key])["outcome"], row["reason"]) != faults.due(number)
-    }
-    assert not blamed, f"runs with another outcome than is due: {blamed}"
+    said = {number: (by_key[key]["outcome"], by_key[key]["reason"]) for key, number in due.items()}
+    wrong = {number: words for number, words in said.items() if words != faults.due(number)}
+    assert not wrong, f"runs with another outcome than is due: {wrong}"
     for key, number in due.items():
         if faults.fault(number) is None:
             check_answer(by_key[key], faults.good_answer(number), folder)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing.forkserver
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from random import Random
 
@@ -18,12 +19,15 @@ from tests.soak import faults
 from tests.soak.children import Killer
 from tests.soak.conftest import Size
 from tests.soak.stored import check_accounted_for, check_answer, check_rows_due, check_same_rows, rows
-from tests.soak.sweep import job_of, sweep_of
+from tests.soak.sweep import job_of
 
-#: Between two kills [s]. Were they much quicker, no run of half a second that hangs would ever live to be timed out:
-#: with two processes to choose from and T = 0.65 s between kills, one is killed before its time with the probability
-#: 1 - exp(-0.5 / 2 T) = 0.32, and ten times over with 1e-5.
-PAUSE = (0.1, 1.2)
+#: Between two kills [s]: of all runs, and of those that are quick. Were it as short for all, no run that hangs for half
+#: a second would live to be timed out: with two processes to choose from and T = 0.65 s between kills, one is killed
+#: before its time with the probability 1 - exp(-0.5 / 2 T) = 0.32, and ten times over with 1e-5.
+PAUSE, SHORT_PAUSE = (0.1, 1.2), (0.05, 0.2)
+
+#: Runs that take half a second.
+SLOW = ("no answer", "took more")
 
 
 def processes(random: Random) -> list[int]:
@@ -32,19 +36,33 @@ def processes(random: Random) -> list[int]:
     return [server] if server is not None and random.random() < 0.1 else supervisor().pids()
 
 
-def test_every_run_is_accounted_for_though_processes_are_killed(tmp_path: Path, size: Size) -> None:
-    """One row for each run with its outcome and reason; good answers are the same bit for bit; nobody else is blamed."""
-    store, random = Store(tmp_path / "store.sqlite"), Random(3)
-    runner, begin = Runner(LocalCrew(2), store), time.perf_counter()
-    with Killer(lambda: processes(random), PAUSE) as killer:
-        for _ in runner.answers(sweep_of(size.runs)):
+def sweep(store: Path, numbers: Sequence[int], pause: tuple[float, float]) -> int:
+    """Do runs while processes are killed: how many kills there were."""
+    kept, random, begin = Store(store), Random(3), time.perf_counter()
+    runner = Runner(LocalCrew(2), kept)
+    with Killer(lambda: processes(random), pause) as killer:
+        for _ in runner.answers(map(job_of, numbers)):
             pass
     seconds = time.perf_counter() - begin
-    store.close()
-    print(f"\n{size.runs} runs, {killer.kills} kills, {seconds:.1f} s: {size.runs / seconds:.0f} runs/s")
-    assert runner.done == size.runs
-    assert killer.kills >= size.kills // 2
-    check_accounted_for(store.file, size.runs)
+    kept.close()
+    print(f"\n{len(numbers)} runs, {killer.kills} kills, {seconds:.1f} s: {len(numbers) / seconds:.0f} runs/s")
+    assert runner.done == len(numbers)
+    return killer.kills
+
+
+def test_every_run_is_accounted_for_though_processes_are_killed(tmp_path: Path, size: Size) -> None:
+    """A row for each run, with its own outcome and reason and nobody else's; good answers are equal bit for bit."""
+    store = tmp_path / "store.sqlite"
+    assert sweep(store, range(size.runs), PAUSE) >= size.kills // 2
+    check_accounted_for(store, range(size.runs))
+
+
+def test_every_quick_run_is_accounted_for_though_processes_are_killed_all_the_time(tmp_path: Path, size: Size) -> None:
+    """As above, with many more kills."""
+    store = tmp_path / "store.sqlite"
+    quick = [number for number in range(size.runs) if not faults.due(number)[1].startswith(SLOW)]
+    assert sweep(store, quick, SHORT_PAUSE) >= 2 * size.kills
+    check_accounted_for(store, quick)
 
 
 def test_the_sweep_has_every_fault_and_a_fifth_of_its_runs_ends_badly(undisturbed: Path, size: Size) -> None:
@@ -53,7 +71,7 @@ def test_the_sweep_has_every_fault_and_a_fifth_of_its_runs_ends_badly(undisturbe
     spread = (size.runs * faults.SHARE * (1 - faults.SHARE)) ** 0.5
     assert abs(len(bad) - size.runs * faults.SHARE) < 4 * spread
     assert len({wrong.reason for wrong in bad}) >= 6
-    check_accounted_for(undisturbed, size.runs)
+    check_accounted_for(undisturbed, range(size.runs))
 
 
 def test_a_run_that_kills_itself_is_given_up(tmp_path: Path) -> None:
@@ -83,7 +101,7 @@ def test_a_lost_run_and_a_wrong_blame_are_told(undisturbed: Path, size: Size) ->
     wrong = [[*good[:i], {**good[i], **change}, *good[i + 1 :]] for i, change in changes]
     for found in (*wrong, good[1:], [*good, good[0]], [*good, {**good[0], "key": "0" * 64}]):
         with pytest.raises(AssertionError):
-            check_rows_due(found, size.runs, folder)
+            check_rows_due(found, range(size.runs), folder)
         with pytest.raises(AssertionError):
             check_same_rows(found, good)
     number = next(n for n in range(size.runs) if faults.due(n) == ("done", ""))

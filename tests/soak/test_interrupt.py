@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import sqlite3
 import subprocess
 import sys
 import time
@@ -14,52 +13,44 @@ from random import Random
 
 import pytest
 
+from experiments.job import Job
+from experiments.runner import Runner
+from tests.engines import misbehaving
 from tests.soak.children import check_all_end, family, start
+from tests.soak.conftest import Size
+from tests.soak.stored import kept_in
 
-#: Runs of the sweep: about 10 s of them.
-RUNS = 600
+#: Runs of the sweep: some seconds of them.
+RUNS = 60
 
 #: After Ctrl-C the command has ended within [s].
 PATIENCE = 3.0
 
 SWEEP = (
     *(sys.executable, "-m", "experiments.command_line", "sweep", "string"),
-    *("--stepper", "heun", "--over", f"stiffness=100:200:{RUNS}", "--json"),
+    *("--stepper", "heun", "--over", f"stiffness=100:200:{RUNS}", "--duration", "0.2", "--json"),
 )
 
 
 def sweep(store: Path) -> subprocess.Popen[str]:
     """`springlab sweep`, with some more runs done."""
-    before = kept(store)
+    before = kept_in(store)
     child = start(*SWEEP, environment={"SPRINGLAB_STORE": str(store)})
     deadline = time.monotonic() + 60
-    while kept(store) == before:
+    while kept_in(store) == before:
         assert child.poll() is None, child.communicate()
         assert time.monotonic() < deadline
         time.sleep(0.05)
     return child
 
 
-def kept(store: Path) -> int:
-    """How many runs are in a store; none where there is no store yet."""
-    if not store.exists():
-        return 0
-    sql = sqlite3.connect(store)
-    try:
-        return int(sql.execute("SELECT COUNT(*) FROM runs").fetchone()[0])
-    except sqlite3.OperationalError:
-        return 0
-    finally:
-        sql.close()
-
-
-def test_an_interrupted_sweep_says_how_to_go_on_and_goes_on(tmp_path: Path) -> None:
+def test_an_interrupted_sweep_says_how_to_go_on_and_goes_on(tmp_path: Path, size: Size) -> None:
     """Exit code 130 and one line; what was kept is not run again."""
     store, random = tmp_path / "store.sqlite", Random(7)
     before = 0
-    for _ in range(3):
+    for _ in range(size.kills // 3):
         child = sweep(store)
-        time.sleep(random.uniform(0, 0.5))
+        time.sleep(random.uniform(0, 0.2))
         others, begin = family(child.pid), time.monotonic()
         os.killpg(child.pid, signal.SIGINT)
         out, err = child.communicate(timeout=60)
@@ -68,14 +59,14 @@ def test_an_interrupted_sweep_says_how_to_go_on_and_goes_on(tmp_path: Path) -> N
         assert out == ""
         assert err == f"springlab: interrupted; what is done is kept in {store}: the same command goes on\n"
         check_all_end(others)
-        assert before <= kept(store) < RUNS
-        before = kept(store)
+        assert before <= kept_in(store) < RUNS
+        before = kept_in(store)
     done = start(*SWEEP, environment={"SPRINGLAB_STORE": str(store)})
     out, err = done.communicate(timeout=120)
     document = json.loads(out)
     assert document["runs"] == RUNS
     assert document["run_now"] == RUNS - before < RUNS
-    assert kept(store) == RUNS
+    assert kept_in(store) == RUNS
 
 
 @pytest.mark.parametrize("options", [(), ("--busy",)], ids=["waiting", "at work on an answer"])
@@ -92,3 +83,39 @@ def test_interrupted_with_runs_that_hang_it_ends_at_once(tmp_path: Path, options
     assert (child.returncode, len(err.splitlines())) == (130, 1), err
     assert len(others) >= 4, "two processes, and what forks them and cleans up after them"
     check_all_end(others)
+
+
+class SlowToBegin:
+    """A crew that looks whether it has been stopped only a while after it was given a job."""
+
+    size = 1
+
+    def __init__(self) -> None:
+        self.stops = 0
+
+    def do(self, job: Job) -> None:
+        """Begin late, and end when stopped after that."""
+        time.sleep(0.3)
+        stops, begin = self.stops, time.monotonic()
+        while self.stops == stops and time.monotonic() - begin < 2 * PATIENCE:
+            time.sleep(0.01)
+
+    def stop(self) -> None:
+        """Once more."""
+        self.stops += 1
+
+
+def interrupted(runner: Runner) -> None:
+    """Ctrl-C while a thread is about to begin a run."""
+    with runner.threads() as pool:
+        pool.submit(runner.answer, Job(misbehaving.hang, ()))
+        time.sleep(0.1)
+        raise KeyboardInterrupt
+
+
+def test_a_run_that_a_thread_was_about_to_begin_is_ended_too() -> None:
+    """A single stop would come too early for it."""
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(Runner(SlowToBegin()))
+    assert time.monotonic() - begin < PATIENCE

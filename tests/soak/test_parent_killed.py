@@ -2,24 +2,30 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import signal
-import sqlite3
 import subprocess
-import sys
 import time
 from pathlib import Path
 from random import Random
 
-from tests.soak.children import check_all_end, family, run_sweep, start, start_sweep
+from tests.soak.children import check_all_end, family, run_sweep, start_sweep
 from tests.soak.conftest import Size
-from tests.soak.stored import Row, arrays, check_accounted_for, check_same, check_same_files, check_same_rows, rows
+from tests.soak.stored import (
+    Row,
+    arrays,
+    check_accounted_for,
+    check_same,
+    check_same_files,
+    check_same_rows,
+    kept_in,
+    rows,
+)
 
-#: A kill comes at most so long [s] after the program has begun.
-LIFE = 1.0
+#: A kill comes at most so long [s] after the run it waits for: at any moment of the next.
+MOMENT = 0.05
 
-#: And at most so long [s] where starting over is what is to be hit.
+#: And at most so long [s] after the program has begun, where starting over is what is to be hit.
 BLINK = 0.3
 
 
@@ -40,15 +46,13 @@ def test_a_program_killed_again_and_again_goes_on_to_the_same_store(
     store, random, begin = tmp_path / "store.sqlite", Random(5), time.perf_counter()
     before = 0
     for _ in range(size.kills):
-        child = start_sweep(store, size.runs)
-        time.sleep(random.uniform(0, LIFE))
-        kill(child)
+        kill_under_way(store, size, random)
         kept = len(rows(store))
         assert kept >= before
         before = kept
     assert run_sweep(store, size.runs) == size.runs - before
     check_same(store, undisturbed)
-    check_accounted_for(store, size.runs)
+    check_accounted_for(store, range(size.runs))
     seconds = time.perf_counter() - begin
     print(f"\n{size.kills} kills of the program, {before} of {size.runs} runs before the last, {seconds:.1f} s")
 
@@ -64,30 +68,39 @@ def test_starting_over_is_done_wholly_or_not_at_all(tmp_path: Path, size: Size, 
 
 
 def test_a_program_killed_after_starting_over_goes_on(tmp_path: Path, size: Size, undisturbed: Path) -> None:
-    """Old rows and arrays stay, all of them retired or none; in the end there is one current row each, with what was."""
+    """Old rows and arrays stay, all of them retired or none; in the end each has one current row, with what was."""
     store, random, old = copy(undisturbed, tmp_path), Random(6), arrays(undisturbed)
-    kill_early(store, size, random, "--fresh")
-    first = [row for row in rows(store) if row["generation"] == 0]
-    retired = {row["retired"] for row in first}
-    assert len(retired) == 1, "some rows were started over, and others not"
+    while retired(store) == {0}:
+        child = start_sweep(store, size.runs, "--fresh")
+        time.sleep(random.uniform(0, BLINK))
+        kill(child)
+    assert retired(store) == {1}, "some rows were started over, and others not"
     for _ in range(size.kills):
-        kill_early(store, size, random)
+        kill_under_way(store, size, random)
     run_sweep(store, size.runs)
     found = rows(store)
     assert [{**row, "retired": 0} for row in found if row["generation"] == 0] == rows(undisturbed)
     check_same_files({name: content for name, content in arrays(store).items() if name in old}, old)
     current = [row for row in found if not row["retired"]]
     check_same_rows(map(without_generation, current), map(without_generation, rows(undisturbed)))
-    check_accounted_for(store, size.runs)
-    assert len(found) == size.runs * (2 if retired == {1} else 1)
+    check_accounted_for(store, range(size.runs))
+    assert len(found) == 2 * size.runs
 
 
-def kill_early(store: Path, size: Size, random: Random, *options: str) -> None:
-    """Kill the program soon after it has begun."""
-    child = start_sweep(store, size.runs, *options)
-    time.sleep(random.uniform(0, BLINK))
-    if child.poll() is None:
-        kill(child)
+def retired(store: Path) -> set[int]:
+    """Whether rows of the first generation count as not yet run."""
+    return {row["retired"] for row in rows(store) if row["generation"] == 0}
+
+
+def kill_under_way(store: Path, size: Size, random: Random) -> None:
+    """Kill the program at a random moment after a random number of runs: all kills are spread over the sweep."""
+    goal = kept_in(store) + random.randrange(size.runs // (size.kills + 1))
+    child = start_sweep(store, size.runs)
+    while kept_in(store) < goal:
+        assert child.poll() is None, child.communicate()
+        time.sleep(0.01)
+    time.sleep(random.uniform(0, MOMENT))
+    kill(child)
 
 
 def copy(store: Path, folder: Path) -> Path:

@@ -1,0 +1,85 @@
+"""What a worker's process does: one task after another, each in a folder of its own, until nobody asks any more.
+
+Needs NumPy only, and the standard library.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import pickle
+import shutil
+import signal
+import sys
+from contextlib import suppress
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from reference.outcome import Outcome
+
+if sys.platform == "linux":
+    import fcntl
+
+#: Where, in its scratch folder, a process's output is kept.
+OUTPUT = "output.txt"
+
+
+def work(connection: Connection, lifeline: Connection, scratch: Path) -> None:
+    """What the process does: tasks, one after another, until nobody is left to send one."""
+    from engines.supervisor import stop_supervisors  # of the processes that our tasks have made in turn
+
+    _prepare(scratch)
+    _hang_on(lifeline)
+    with suppress(EOFError, OSError):
+        while True:
+            _do(connection, connection.recv_bytes(), scratch / "run")
+    stop_supervisors()
+    shutil.rmtree(scratch, ignore_errors=True)
+
+
+def _prepare(scratch: Path) -> None:
+    """Output goes into a file; Ctrl-C is for the one we work for to act on."""
+    os.chdir(scratch)
+    output = os.open(OUTPUT, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+    for standard in (1, 2):
+        os.dup2(output, standard)
+    faulthandler.disable()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+def _hang_on(lifeline: Connection) -> None:
+    """Let the kernel kill this process, whatever it is at, once nobody holds the other end of a pipe.
+
+    On Linux. Its signal for a parent's end would not do: our parent is the server, which outlives the one we work for.
+    """
+    if sys.platform == "linux":
+        fcntl.fcntl(lifeline, fcntl.F_SETOWN, os.getpid())
+        fcntl.fcntl(lifeline, fcntl.F_SETSIG, signal.SIGKILL)
+        fcntl.fcntl(lifeline, fcntl.F_SETFL, os.O_ASYNC)
+        if lifeline.poll():  # it happened before we listened
+            os.kill(os.getpid(), signal.SIGKILL)
+
+
+def _do(connection: Connection, message: bytes, folder: Path) -> None:
+    """A task, in a folder that is removed afterwards; then its answer or its exception down the pipe."""
+    os.ftruncate(1, 0)
+    folder.mkdir()
+    os.chdir(folder)
+    try:
+        task, arguments = pickle.loads(message)
+        answer = pickle.dumps(task(*arguments))
+    except Exception as error:
+        answer = pickle.dumps(Outcome("crashed", f"{type(error).__name__}: {one_line(str(error))}"))
+    finally:
+        os.chdir(folder.parent)
+        shutil.rmtree(folder, ignore_errors=True)
+    connection.send_bytes(answer)
+
+
+def one_line(text: str) -> str:
+    """A text without its line breaks, and not too long."""
+    return " ".join(text.split())[:300]
+
+
+if __name__ == "__main__":
+    work(Connection(int(sys.argv[1])), Connection(int(sys.argv[2])), Path(sys.argv[3]))
