@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 import threading
-from collections.abc import Callable, Generator, Iterable, Iterator
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from itertools import islice
@@ -116,21 +116,22 @@ class Runner:
     @contextmanager
     def threads(self, count: int | None = None) -> Iterator[ThreadPoolExecutor]:
         """Threads to wait for the crew in. Where one is interrupted or fails, nothing goes on behind its back."""
-        with ThreadPoolExecutor(count or self.crew.size) as pool:
+        begun: list[threading.Thread] = []
+        size = count or self.crew.size
+        with ThreadPoolExecutor(size, initializer=lambda: begun.append(threading.current_thread())) as pool:
             try:
                 yield pool
             except BaseException:
-                self._stop(pool)
+                pool.shutdown(wait=False, cancel_futures=True)
+                self._stop(begun)
                 raise
 
-    def _stop(self, pool: ThreadPoolExecutor) -> None:
-        """Begin nothing more, and end what is under way, also what a thread is just about to give to the crew."""
-        pool.shutdown(wait=False, cancel_futures=True)
-        ending = threading.Thread(target=pool.shutdown)
-        ending.start()
-        while ending.is_alive():
+    def _stop(self, threads: Sequence[threading.Thread]) -> None:
+        """End what is under way, also what a thread is just about to give to the crew."""
+        self.crew.stop()
+        while alive := [thread for thread in threads if thread.is_alive()]:
+            alive[0].join(AGAIN)
             self.crew.stop()
-            ending.join(AGAIN)
 
 
 _current: list[Runner] = []

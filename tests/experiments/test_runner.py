@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from itertools import count, islice
@@ -22,6 +25,7 @@ from experiments.store import Store, StoreError
 from reference.outcome import Outcome
 from tests.engines import misbehaving
 from tests.experiments.jobs import FakeCrew, alike, ended, endings, job
+from tests.experiments.terminal import ROOT
 
 
 def jobs(*numbers: int) -> list[Job]:
@@ -180,6 +184,47 @@ def test_who_stops_listening_stops_everything(store: Store) -> None:
     answers.close()
     assert crew.stopped
     assert len(crew.asked) <= 1 + 2 * crew.size
+
+
+ABANDONED = """
+from experiments.runner import Runner
+from tests.experiments.jobs import FakeCrew, job
+answers = Runner(FakeCrew(size=2)).answers(job(number) for number in range(1000))
+next(answers)
+"""
+
+
+def test_answers_that_nobody_closes_do_not_keep_a_program_from_its_end() -> None:
+    """Though they are still there when it ends."""
+    said = subprocess.run(
+        [sys.executable, "-c", ABANDONED], cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, timeout=60
+    )
+    assert said.returncode == 0
+
+
+def test_a_job_given_to_the_crew_after_it_was_stopped_is_stopped_too(store: Store) -> None:
+    """A thread may have been looking into the store meanwhile."""
+    looking, stops, late = threading.Event(), [], []
+
+    class Crew(FakeCrew):
+        def do(self, job: Job) -> Any:
+            if job.arguments == (0,):
+                looking.wait(10)
+                raise StoreError("store: the disk is full")
+            looking.set()
+            before = len(stops)
+            for _ in range(500):
+                if len(stops) >= before + 2:
+                    raise InterruptedError("stopped")
+                time.sleep(0.01)
+            late.append(job)
+
+        def stop(self) -> None:
+            stops.append(len(stops))
+
+    with pytest.raises(StoreError):
+        answered(Runner(Crew(size=2), store), 0, 1)
+    assert not late
 
 
 def test_jobs_that_come_to_their_end_stop_nobody(store: Store) -> None:
