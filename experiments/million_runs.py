@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from itertools import count, islice
 from pathlib import Path
 from time import perf_counter
-from typing import Any
+from typing import Any, Literal
 
 from engines.isolation import EngineStepper, isolated
 from engines.supervisor import supervisor
+from experiments.cluster import PORTION
 from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
 from experiments.job import Job
@@ -42,11 +43,15 @@ class Kind:
 
 @dataclass(frozen=True)
 class Hand:
-    """Something that the one process at the top does for every run, and what it takes [s], measured."""
+    """Something that the one process at the top does, and what it takes [s], measured.
+
+    Attributes:
+        where: at every run, at one on this machine's cores, or at a portion of runs for a cluster's worker.
+    """
 
     name: str
     seconds: float
-    cluster: bool
+    where: Literal["always", "on this machine", "on a cluster, a portion"] = "always"
 
 
 def run(progress: Progress) -> Result:
@@ -57,21 +62,25 @@ def run(progress: Progress) -> Result:
     hands, size = _hands()
     progress("a cluster")
     dask = _dask()
-    hands += [] if dask is None else [Hand("a job to a Dask worker and back", dask, cluster=True)]
+    hands += (
+        [] if dask is None else [Hand("a portion of runs to a Dask worker and back", dask, "on a cluster, a portion")]
+    )
     failures = [] if dask is not None else ["Dask: not installed; expected the extra springlab[cluster]"]
     tables = [_predictions(kinds, hands), _costs(kinds, hands)]
     return Result(_findings(kinds, hands, size), tables, {"kinds": kinds, "hands": hands}, failures)
 
 
-def serial(hands: Sequence[Hand], cores: int) -> float:
-    """What the process at the top does for a run, one after another [s]; beyond this machine's cores it needs Dask."""
-    far = cores > (os.cpu_count() or 1)
-    return sum(hand.seconds for hand in hands if far or not hand.cluster)
+def serial(kind: Kind, hands: Sequence[Hand], cores: int) -> float:
+    """What the process at the top does for a run, one after another [s]; beyond this machine's cores through Dask."""
+    if cores <= (os.cpu_count() or 1):
+        return sum(hand.seconds for hand in hands if hand.where in ("always", "on this machine"))
+    shares = {"always": 1.0, "on this machine": 0.0, "on a cluster, a portion": min(1.0, kind.seconds / PORTION)}
+    return sum(shares[hand.where] * hand.seconds for hand in hands)
 
 
 def predicted(kind: Kind, hands: Sequence[Hand], cores: int) -> float:
     """Seconds for all RUNS: what takes longer, the runs shared by the cores or what is done for each at the top."""
-    return RUNS * max(kind.seconds / cores, serial(hands, cores))
+    return RUNS * max(kind.seconds / cores, serial(kind, hands, cores))
 
 
 def _kinds() -> Iterator[Kind]:
@@ -122,12 +131,13 @@ def _hands() -> tuple[list[Hand], float]:
             "its key": lambda job: job.key,
             "looking it up in the store": store.find,
             "keeping its answer": lambda job: store.keep(job, answer, 0.0),
-            "a job to a process and back": lambda job: isolated(_nothing, job.arguments),
         }
-        hands = [Hand("making the job", making, cluster=False)]
+        hands = [Hand("making the job", making)]
         for name, step in steps.items():
             left = iter(jobs)
-            hands.append(Hand(name, _mean(lambda step=step, left=left: step(next(left)))[0], cluster=False))  # type: ignore[misc]
+            hands.append(Hand(name, _mean(lambda step=step, left=left: step(next(left)))[0]))  # type: ignore[misc]
+        there, _ = _mean(lambda: isolated(_nothing, jobs[0].arguments))
+        hands.append(Hand("a job to a process and back", there, "on this machine"))
         store.close()
         return hands, store.file.stat().st_size / len(jobs)
 
@@ -161,19 +171,19 @@ def _dask() -> float | None:
 
 
 def _predictions(kinds: Sequence[Kind], hands: Sequence[Hand]) -> Table:
-    columns = ["kind of run", "measured: a run [s]"]
-    columns += [f"predicted: a million on {cores:,} cores" for cores in CORES]
-    columns += ["predicted: cores that still help"]
+    columns = ["kind of run", "measured, a run [s]"]
+    columns += [f"predicted, {cores:,} cores" for cores in CORES]
+    columns += ["predicted, cores that help"]
     rows = []
     for kind in kinds:
         times = [in_words(predicted(kind, hands, cores)) for cores in CORES]
-        rows.append([kind.name, kind.seconds, *times, round(kind.seconds / serial(hands, max(CORES)))])
+        rows.append([kind.name, kind.seconds, *times, round(kind.seconds / serial(kind, hands, max(CORES)))])
     return Table("million_runs", columns, rows)
 
 
 def _costs(kinds: Sequence[Kind], hands: Sequence[Hand]) -> Table:
     rows = [[kind.name, "on a core", kind.seconds] for kind in kinds]
-    rows += [[hand.name, "at the top, cluster only" if hand.cluster else "at the top", hand.seconds] for hand in hands]
+    rows += [[hand.name, f"at the top, {hand.where}", hand.seconds] for hand in hands]
     return Table("million_runs_costs", ["what", "where", "measured [s]"], rows)
 
 
@@ -188,22 +198,19 @@ def in_words(seconds: float) -> str:
 def _findings(kinds: Sequence[Kind], hands: Sequence[Hand], size: float) -> list[str]:
     few, many = min(CORES), max(CORES)
     fastest, slowest = min(kinds, key=lambda k: k.seconds), max(kinds, key=lambda k: k.seconds)
-    most = max(hands, key=lambda hand: hand.seconds)
-    sentences = [
-        f"Measured here, a run takes from {1e3 * fastest.seconds:.3g} ms ({fastest.name}) to "
-        f"{1e3 * slowest.seconds:.3g} ms ({slowest.name}): a million are predicted to take "
-        f"{in_words(predicted(fastest, hands, few))} to {in_words(predicted(slowest, hands, few))} on {few} cores."
+    helping = {kind.name: round(kind.seconds / serial(kind, hands, many)) for kind in (fastest, slowest)}
+    most = max((hand for hand in hands if hand.where == "always"), key=lambda hand: hand.seconds)
+    return [
+        f"Measured here, a run takes from {1e3 * fastest.seconds:.0f} ms ({fastest.name}) to "
+        f"{1e3 * slowest.seconds:.0f} ms ({slowest.name}): a million are predicted to take "
+        f"{in_words(predicted(fastest, hands, few))} to {in_words(predicted(slowest, hands, few))} on {few} cores, and "
+        f"{in_words(predicted(fastest, hands, many))} to {in_words(predicted(slowest, hands, many))} on {many:,}.",
+        f"The bottleneck is then the one process that hands out jobs and keeps answers: it needs "
+        f"{1e3 * serial(fastest, hands, many):.2g} ms for each, so that beyond {helping[fastest.name]} cores for the "
+        f"quickest kind of run, and {helping[slowest.name]} for the slowest, more are predicted to help no more. The "
+        f"largest part of that is {most.name}.",
+        f"A run takes {size / 1e3:.2g} kB in the store, a million {RUNS * size / 1e9:.2g} GB, without trajectories.",
     ]
-    sentences.append(
-        f"The one process that hands out jobs and keeps answers needs {1e3 * serial(hands, many):.2g} ms for each, "
-        f"{in_words(RUNS * serial(hands, many))} for a million: beyond {round(fastest.seconds / serial(hands, many))} "
-        f"cores for the quickest kind of run, and {round(slowest.seconds / serial(hands, many))} for the slowest, more "
-        f"cores are predicted to help no more. The largest part of it is {most.name}."
-    )
-    sentences.append(
-        f"A run takes {size / 1e3:.2g} kB in the store, a million {RUNS * size / 1e9:.2g} GB, without trajectories."
-    )
-    return sentences
 
 
 EXPERIMENT = Experiment(

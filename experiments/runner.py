@@ -13,12 +13,12 @@ from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import contextmanager
 from itertools import islice
 from time import perf_counter
-from typing import Any, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 from engines.isolation import MEMORY_LIMIT, TIME_LIMIT
 from engines.supervisor import supervisor
 from experiments.job import Job
-from experiments.store import Store
+from experiments.store import Kept, Store
 from reference.outcome import Outcome
 
 T = TypeVar("T")
@@ -26,16 +26,30 @@ T = TypeVar("T")
 #: Between one attempt to stop a crew and the next [s].
 AGAIN = 0.1
 
+#: A portion has so many jobs at most.
+MOST = 1000
+
+
+class Done(NamedTuple):
+    """What a job answered, or the outcome that says why it did not; and how long it took [s]."""
+
+    answer: Any
+    seconds: float
+
 
 class Crew(Protocol):
     """Those who do the jobs."""
 
     @property
     def size(self) -> int:
-        """How many jobs to give them at once."""
+        """How many portions to give them at once."""
 
-    def do(self, job: Job) -> Any:
-        """What the job answers, or the outcome that says why it does not. Called from many threads."""
+    @property
+    def portion(self) -> float:
+        """How long a portion of jobs should keep one of them busy [s], where handing it over takes time; else 0."""
+
+    def do(self, jobs: Sequence[Job]) -> list[Done]:
+        """Do a portion of jobs, one after another. Called from many threads."""
 
     def stop(self) -> None:
         """End all that is under way; those who wait get InterruptedError."""
@@ -48,16 +62,25 @@ class LocalCrew:
         size: how many jobs at once; left out, as many as there are cores.
     """
 
+    portion = 0.0
+
     def __init__(self, size: int | None = None) -> None:
         self.size = size or os.cpu_count() or 1
 
-    def do(self, job: Job) -> Any:
+    def do(self, jobs: Sequence[Job]) -> list[Done]:
         """See Crew."""
-        return supervisor().run(job.task, job.arguments, job.time_limit, job.memory_limit)
+        return [do_here(job) for job in jobs]
 
     def stop(self) -> None:
         """See Crew."""
         supervisor().stop()
+
+
+def do_here(job: Job) -> Done:
+    """Do a job in a process of this machine."""
+    begin = perf_counter()
+    answer = supervisor().run(job.task, job.arguments, job.time_limit, job.memory_limit)
+    return Done(answer, perf_counter() - begin)
 
 
 class Runner:
@@ -73,25 +96,39 @@ class Runner:
     def __init__(self, crew: Crew, store: Store | None = None, fresh: bool = False) -> None:
         self.crew, self.store = crew, store
         self.done = 0
+        self._seconds = 0.0  # that these took
         self._fresh = fresh
         self._begun: set[str] = set()
         self._lock = threading.Lock()
 
     def answer(self, job: Job) -> Any:
         """What a job answers: from the store, or else by the crew, and then it is kept. For any thread to call."""
+        return self._answers([job])[0]
+
+    def _answers(self, jobs: Sequence[Job]) -> list[Any]:
+        """The same of a portion of jobs."""
+        kept = [self._kept(job) for job in jobs]
+        missing = [job for job, found in zip(jobs, kept, strict=True) if found is None]
+        done = iter(self._done(missing) if missing else [])
+        return [next(done).answer if found is None else found.answer for found in kept]
+
+    def _kept(self, job: Job) -> Kept | None:
         if self.store is None:
-            return self.crew.do(job)
+            return None
         if self._fresh and job.key not in self._begun:
             self.start_over([job])
-        kept = self.store.find(job)
-        if kept is not None:
-            return kept.answer
-        begin = perf_counter()
-        answer = self.crew.do(job)
-        self.store.keep(job, answer, perf_counter() - begin)
+        return self.store.find(job)
+
+    def _done(self, jobs: Sequence[Job]) -> list[Done]:
+        """What the crew does, kept."""
+        done = self.crew.do(jobs)
+        for job, (answer, seconds) in zip(jobs, done, strict=True):
+            if self.store is not None:
+                self.store.keep(job, answer, seconds)
         with self._lock:
-            self.done += 1
-        return answer
+            self.done += len(done)
+            self._seconds += sum(seconds for _, seconds in done)
+        return done
 
     def start_over(self, jobs: Iterable[Job]) -> None:
         """Let jobs count as not yet done, all of them at once: should this be interrupted, it goes on from here."""
@@ -104,14 +141,20 @@ class Runner:
         """The answers of many jobs, as they come. Jobs are taken as they are needed: there may be millions."""
         waiting = iter(jobs)
         with self.threads() as threads:
-            under_way: dict[Future[Any], Job] = {}
+            under_way: dict[Future[list[Any]], list[Job]] = {}
             while True:
-                for job in islice(waiting, 2 * self.crew.size - len(under_way)):
-                    under_way[threads.submit(self.answer, job)] = job
+                while len(under_way) < 2 * self.crew.size and (portion := list(islice(waiting, self._portion()))):
+                    under_way[threads.submit(self._answers, portion)] = portion
                 if not under_way:
                     return
-                for done in wait(under_way, return_when=FIRST_COMPLETED).done:
-                    yield under_way.pop(done), done.result()
+                for future in wait(under_way, return_when=FIRST_COMPLETED).done:
+                    yield from zip(under_way.pop(future), future.result(), strict=True)
+
+    def _portion(self) -> int:
+        """How many jobs are a portion for the crew, by how long they took so far."""
+        if not self.crew.portion or not self.done:
+            return 1
+        return max(1, min(MOST, int(self.crew.portion * self.done / self._seconds)))
 
     @contextmanager
     def threads(self, count: int | None = None) -> Iterator[ThreadPoolExecutor]:

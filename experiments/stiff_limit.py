@@ -11,6 +11,7 @@ from engines.engine import find as find_engine
 from engines.isolation import EngineStepper
 from experiments.comparison import Progress, finite
 from experiments.experiment import Experiment, Result, Table
+from experiments.runner import answer
 from reference.exact import exact
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
@@ -29,7 +30,9 @@ def run(progress: Progress) -> Result:
     rods = exact(find("string").system({}), DT, steps, equations=PendulumMotion)
     progress("MuJoCo cable")
     every = round(DT / CABLE_DT)
-    outcome = EngineStepper(find_engine("mujoco_cable_rk4")).run(find("string").system({}), CABLE_DT, steps * every)
+    outcome = EngineStepper(find_engine("mujoco_cable_rk4"), isolate=answer).run(
+        find("string").system({}), CABLE_DT, steps * every
+    )
     cable = outcome.trajectory.positions[::every] if outcome.ending == "done" and outcome.trajectory else None
     rows: list[list[float | None]] = []
     for stiffness in STIFFNESSES:

@@ -9,14 +9,13 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
-from itertools import count, islice
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
 import click
 import pytest
 
-from experiments import runner as runner_module
 from experiments.job import Job
 from experiments.results import rows
 from experiments.runner import LocalCrew, Runner, answer, current, using
@@ -68,12 +67,22 @@ def test_many_jobs_are_done_once_each_by_many_threads(store: Store) -> None:
     assert (sorted(crew.asked), runner.done) == ([*range(150)], 150)
 
 
-def test_the_seconds_it_took_are_kept(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Those of the crew."""
-    ticks = count(10.0, 2.5)
-    monkeypatch.setattr(runner_module, "perf_counter", lambda: next(ticks))
+def test_the_seconds_it_took_are_kept(store: Store) -> None:
+    """Those that the crew tells."""
     Runner(FakeCrew(), store).answer(job(1))
-    assert rows(store.file, {})[0]["seconds"] == 2.5
+    assert rows(store.file, {})[0]["seconds"] == 0.01
+
+
+def test_a_crew_far_away_is_given_portions_that_keep_it_busy(store: Store) -> None:
+    """A first job each, as nobody knows how long one takes; then as many as fill 0.2 s. Kept ones are no work."""
+    crew = FakeCrew(portion=0.2)
+    assert answered(Runner(crew, store), *range(100)) == {number: number for number in range(100)}
+    assert sorted(crew.asked) == [*range(100)]
+    assert crew.portions[:2] == [1, 1]
+    assert set(crew.portions[2:-1]) == {20}
+    again = FakeCrew(portion=0.2)
+    assert answered(Runner(again, store), *range(101)) == {number: number for number in range(101)}
+    assert again.asked == [100]
 
 
 # --- Starting over ---
@@ -207,7 +216,7 @@ def test_a_job_given_to_the_crew_after_it_was_stopped_is_stopped_too(store: Stor
     looking, stops, late = threading.Event(), [], []
 
     class Crew(FakeCrew):
-        def do(self, job: Job) -> Any:
+        def do_one(self, job: Job) -> Any:
             if job.arguments == (0,):
                 looking.wait(10)
                 raise StoreError("store: the disk is full")
@@ -283,7 +292,7 @@ def test_what_experiments_ask_for_the_runner_at_work_does(store: Store) -> None:
     asked: list[Job] = []
 
     class Crew(FakeCrew):
-        def do(self, job: Job) -> Any:
+        def do_one(self, job: Job) -> Any:
             asked.append(job)
             return "an answer"
 

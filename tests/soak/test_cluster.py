@@ -161,9 +161,9 @@ def test_a_worker_with_other_versions_says_which() -> None:
     with pytest.raises(
         InputError, match=f"^a worker of the cluster has Still in version {here}: expected 0.1, as here$"
     ):
-        do_there(job, "another", "0.1")
+        do_there([(job, "another", "0.1")])
     with pytest.raises(InputError, match=r"has another springlab, NumPy, Numba, SciPy or processor than we have$"):
-        do_there(job, "another", here)
+        do_there([(job, "another", here)])
 
 
 def test_without_dask_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,13 +8,14 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Sequence
 from pathlib import Path
 from random import Random
 
 import pytest
 
 from experiments.job import Job
-from experiments.runner import Runner
+from experiments.runner import Done, Runner
 from tests.engines import misbehaving
 from tests.soak.children import check_all_end, family, start
 from tests.soak.conftest import Size
@@ -88,17 +89,18 @@ def test_interrupted_with_runs_that_hang_it_ends_at_once(tmp_path: Path, options
 class SlowToBegin:
     """A crew that looks whether it has been stopped only a while after it was given a job."""
 
-    size = 1
+    size, portion = 1, 0.0
 
     def __init__(self) -> None:
         self.stops = 0
 
-    def do(self, job: Job) -> None:
+    def do(self, jobs: Sequence[Job]) -> list[Done]:
         """Begin late, and end when stopped after that."""
         time.sleep(0.3)
         stops, begin = self.stops, time.monotonic()
         while self.stops == stops and time.monotonic() - begin < 2 * PATIENCE:
             time.sleep(0.01)
+        return [Done(None, 0.0) for _ in jobs]
 
     def stop(self) -> None:
         """Once more."""
