@@ -70,17 +70,17 @@ def test_many_jobs_are_done_once_each_by_many_threads(store: Store) -> None:
 def test_the_seconds_it_took_are_kept(store: Store) -> None:
     """Those that the crew tells."""
     Runner(FakeCrew(), store).answer(job(1))
-    assert rows(store.file, {})[0]["seconds"] == 0.01
+    assert rows(store.file, {})[0]["seconds"] == 1 / 64
 
 
 def test_a_crew_far_away_is_given_portions_that_keep_it_busy(store: Store) -> None:
-    """A first job each, as nobody knows how long one takes; then as many as fill 0.2 s. Kept ones are no work."""
-    crew = FakeCrew(portion=0.2)
+    """A first job each, as nobody knows how long one takes; then as many as fill 1/4 s. Kept ones are no work."""
+    crew = FakeCrew(portion=0.25)
     assert answered(Runner(crew, store), *range(100)) == {number: number for number in range(100)}
     assert sorted(crew.asked) == [*range(100)]
     assert crew.portions[:2] == [1, 1]
-    assert set(crew.portions[2:-1]) == {20}
-    again = FakeCrew(portion=0.2)
+    assert set(crew.portions[2:-1]) == {16}
+    again = FakeCrew(portion=0.25)
     assert answered(Runner(again, store), *range(101)) == {number: number for number in range(101)}
     assert again.asked == [100]
 
