@@ -84,6 +84,15 @@ class Worker:
     def __init__(self, python: Path | None = None) -> None:
         self.fresh = True
         self._scratch = Path(tempfile.mkdtemp(prefix="springlab-"))
+        for _ in range(STARTS - 1):
+            with suppress(OSError, EOFError):  # the server was killed just now; once it is gone, a try starts a new one
+                self._start(python)
+                return
+            time.sleep(LOOK)
+        self._start(python)
+
+    def _start(self, python: Path | None) -> None:
+        """Start it, with pipes that nobody else holds: a try that failed may have left a process."""
         start = _Forked if python is None else _Launched
         self._connection, theirs = multiprocessing.Pipe()
         lifeline, self._lifeline = multiprocessing.Pipe(duplex=False)
@@ -150,16 +159,8 @@ class _Forked:
             context = multiprocessing.get_context("forkserver")
             context.set_forkserver_preload(["engines.isolation"])
         self._process = context.Process(target=work, args=(connection, lifeline, scratch))
-        self._start()
-        self.pid, self.sentinel = self._process.pid, self._process.sentinel
-
-    def _start(self) -> None:
-        for _ in range(STARTS - 1):
-            with suppress(OSError, EOFError):  # the server was killed just now; once it is gone, a try starts a new one
-                self._process.start()
-                return
-            time.sleep(LOOK)
         self._process.start()
+        self.pid, self.sentinel = self._process.pid, self._process.sentinel
 
     def kill(self) -> None:
         self._process.kill()

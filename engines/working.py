@@ -26,15 +26,13 @@ OUTPUT = "output.txt"
 
 def work(connection: Connection, lifeline: Connection, scratch: Path) -> None:
     """What the process does: tasks, one after another, until nobody is left to send one."""
-    from engines.supervisor import stop_supervisors  # of the processes that our tasks have made in turn
-
-    _prepare(scratch)
     _hang_on(lifeline)
-    with suppress(EOFError, OSError):
+    with suppress(EOFError, OSError):  # nobody is there any more, or not even our folder
+        _prepare(scratch)
         while True:
             _do(connection, connection.recv_bytes(), scratch / "run")
-    stop_supervisors()
     shutil.rmtree(scratch, ignore_errors=True)
+    os._exit(0)  # at once: Python would wait for what our tasks have started, and that ends when we do
 
 
 def _prepare(scratch: Path) -> None:

@@ -10,6 +10,7 @@ import threading
 import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from random import Random
 
@@ -22,7 +23,10 @@ SOON = 5.0
 
 
 def start(*words: str, environment: dict[str, str] | None = None) -> subprocess.Popen[str]:
-    """A program in a session of its own, in the project's folder; its output can be read."""
+    """A program in a session of its own, in the project's folder; its output can be read, and it hears Ctrl-C.
+
+    A shell that runs the tests in its background has them, and all they start, ignore it.
+    """
     return subprocess.Popen(
         words,
         stdout=subprocess.PIPE,
@@ -31,6 +35,7 @@ def start(*words: str, environment: dict[str, str] | None = None) -> subprocess.
         cwd=ROOT,
         env={**os.environ, "PYTHONPATH": str(ROOT), **(environment or {})},
         start_new_session=True,
+        preexec_fn=partial(signal.signal, signal.SIGINT, signal.SIG_DFL),
     )
 
 

@@ -34,9 +34,11 @@ HOST = "127.0.0.1"
 #: Whatever is waited for is there after so long [s].
 PATIENCE = 300.0
 
-#: `springlab sweep`, with less patience for a scheduler that is gone.
-PROGRAM = "from experiments import cluster, command_line; cluster.PATIENCE = 2.0; command_line.main()"
-SWEEP = ("-c", PROGRAM, "sweep", "string", "--stepper", "heun", "--over", "stiffness=100:200:200")
+#: `springlab`, with less patience for a scheduler that is gone, and more for one that is slow.
+PROGRAM = "from experiments import cluster, command_line; cluster.PATIENCE = {}; command_line.main()"
+WORDS = ("sweep", "string", "--stepper", "heun", "--over", "stiffness=100:200:200")
+SWEEP = ("-c", PROGRAM.format(2.0), *WORDS)
+PATIENT = ("-c", PROGRAM.format(PATIENCE), *WORDS)
 
 
 class Cluster:
@@ -146,7 +148,7 @@ def wait_for_rows(child: subprocess.Popen[str], store: Path, count: int) -> None
 def test_workers_that_may_not_start_processes_are_one_line(tmp_path: Path) -> None:
     """It says how to start them."""
     with running(tmp_path / "dask", workers=1, daemons=True) as made:
-        words = (sys.executable, *SWEEP, "--store", str(tmp_path / "store.sqlite"), "--cluster", made.address)
+        words = (sys.executable, *PATIENT, "--store", str(tmp_path / "store.sqlite"), "--cluster", made.address)
         child = start(*words)
         out, err = child.communicate(timeout=120)
     assert (child.returncode, out) == (2, ""), err
