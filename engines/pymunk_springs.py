@@ -79,10 +79,13 @@ class PymunkSimulation:
         self._space.iterations = engine.rounds
         bodies = [_body(pymunk, system, i) for i in range(len(system.masses))]
         self._moving = [body for body, fixed in zip(bodies, system.fixed, strict=True) if not fixed]
-        self._springs = [
-            pymunk.DampedSpring(bodies[a], bodies[b], (0, 0), (0, 0), 0, 0, 0) for a, b in system.springs.tolist()
-        ]
-        self._space.add(*bodies, *self._springs)
+        # Pymunk refuses those between two fixed masses, which move nothing
+        self._springs = {
+            j: pymunk.DampedSpring(bodies[a], bodies[b], (0, 0), (0, 0), 0, 0, 0)
+            for j, (a, b) in enumerate(system.springs.tolist())
+            if not (system.fixed[a] and system.fixed[b])
+        }
+        self._space.add(*bodies, *self._springs.values())
         self._set_parameters()
         self._batch, self._buffer = batch, batch.Buffer()
         self._fields = batch.BodyFields.POSITION | batch.BodyFields.VELOCITY
@@ -117,7 +120,7 @@ class PymunkSimulation:
         for body, mass in zip(self._moving, system.masses[~system.fixed].tolist(), strict=True):
             body.mass = mass
         damping = self._damping()
-        for j, spring in enumerate(self._springs):
+        for j, spring in self._springs.items():
             spring.rest_length = float(system.rest_lengths[j])
             spring.stiffness = float(system.stiffness[j])
             spring.damping = float(damping[j])

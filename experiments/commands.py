@@ -24,7 +24,7 @@ def show_list(as_json: bool) -> None:
     from reference.stepper import SchemeStepper
 
     scene_rows = [
-        [s.name, s.slides, s.summary, ", ".join(f"{k}={v:g}" for k, v in s.parameters.items())]
+        [s.name, s.slides, s.summary, ", ".join(f"{k}={v}" for k, v in s.parameters.items())]
         for s in scenes().values()
     ]
     stepper_rows = []

@@ -11,7 +11,7 @@ from engines.isolation import EngineStepper
 from experiments.runner import current
 from reference.changes import whole_steps
 from reference.exact import exact
-from reference.identify import Identification, candidates, identify_run
+from reference.identify import Identification, candidates_for, identify_run
 from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
@@ -79,10 +79,11 @@ def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lamb
     steps = whole_steps(setup.dt, setup.duration)
     progress("true motion")
     true = exact(setup.system, setup.dt, steps, setup.changes)
+    outcomes = list(_outcomes(setup, steps, steppers, progress))
     progress("catalogue of schemes")
-    known = candidates(setup.system, setup.dt, steps, setup.changes)
+    known = candidates_for(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []
-    for stepper, outcome in _outcomes(setup, steps, steppers, progress):
+    for stepper, outcome in outcomes:
         identification = identify_run(stepper.name, outcome, setup.system, known)
         named = identification.identified_as
         trajectory = outcome.trajectory

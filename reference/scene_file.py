@@ -116,7 +116,10 @@ def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
     if (content.scene is None) == (content.system is None):
         raise InputError('expected either scene = "..." or a table [system]')
+    words = find(content.scene).choices if content.scene is not None else ()
     for name, value in content.parameters.items():
+        if name in words:
+            continue
         numbers = value if isinstance(value, list) else [value]
         if any(isinstance(number, bool) or not isinstance(number, int | float) for number in numbers):
             raise InputError(f"parameters.{name} = {value!r}: expected a number or a list of numbers")

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from experiments.command_line import COMMANDS
+from reference.scenes import scenes
 from tests.experiments.terminal import Said, python, springlab
 
 #: Words after `springlab`, and what the line must say.
@@ -24,7 +25,7 @@ LINES = [
     ("report --only erata", "unknown experiment 'erata': did you mean 'errata'?"),
     ("compare --steper heun", "No such option '--steper'"),
     # A name like no other: all there are.
-    ("compare xyz", "unknown scene 'xyz': expected one of spring, string"),
+    ("compare xyz", f"unknown scene 'xyz': expected one of {', '.join(sorted(scenes()))}"),
     # Negative, zero, NaN, infinite.
     ("compare --set mass=-1", "mass = -1: expected a number > 0 [kg]"),
     ("compare --set mass=0", "mass = 0: expected a number > 0 [kg]"),
