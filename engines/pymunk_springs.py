@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from engines.engine import refuse_beyond
+from engines.pymunk_obstacles import add_obstacles
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -43,7 +44,7 @@ class PymunkSprings:
     package: str = "pymunk"
     capabilities: frozenset[str] = frozenset(
         {"mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping", "drag"}
-        | {"tilted gravity", "no fixed mass"}
+        | {"tilted gravity", "no fixed mass", "circle", "plane"}
     )
 
     @property
@@ -86,6 +87,7 @@ class PymunkSimulation:
             if not (system.fixed[a] and system.fixed[b])
         }
         self._space.add(*bodies, *self._springs.values())
+        add_obstacles(pymunk, self._space, system, self._moving)
         self._set_parameters()
         self._batch, self._buffer = batch, batch.Buffer()
         self._fields = batch.BodyFields.POSITION | batch.BodyFields.VELOCITY

@@ -120,6 +120,8 @@ def compare_command(
     columns = ["stepper", "outcome", "error [m]", "identified as", "deviation [m]", "reason"]
     keys = ["stepper", "outcome", "error_m", "identified_as", "identification_error_m", "reason"]
     show_table(title, columns, [[run.row[key] for key in keys] for run in comparison.runs])
+    if comparison.why_no_true_motion:
+        click.echo(f"No error is known: {comparison.why_no_true_motion}.")
 
 
 @click.command("identify")

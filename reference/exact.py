@@ -21,6 +21,9 @@ from reference.system import MassSpringSystem
 
 TOLERANCE = 1e-12
 
+#: What is said of systems with obstacles. A run of tiny steps would only be one scheme's word against another's.
+WHY_NOT_EXACT = "no true motion: a mass that meets an obstacle loses velocity at once, which no solver here can follow"
+
 
 def damped_oscillator(
     mass: float, stiffness: float, damping: float, y0: float, v0: float, times: npt.ArrayLike
@@ -70,8 +73,10 @@ def exact(
         equations: what to make of the system; `pendulum.PendulumMotion` hangs rods in place of the springs.
 
     Raises:
-        SolverError: if the solver gives up.
+        SolverError: if the solver gives up; for a system with obstacles.
     """
+    if system.obstacles:
+        raise SolverError(WHY_NOT_EXACT)
     pending = changes_by_step(changes, dt)
     starts = sorted({0, *(i for i in pending if i < steps)})
     motion = equations(system)
@@ -117,8 +122,10 @@ def equilibrium(system: MassSpringSystem) -> State:
     systems see `least_energy`.
 
     Raises:
-        SolverError: if there is none nearby (a free system falls for ever).
+        SolverError: if there is none nearby (a free system falls for ever); for a system with obstacles.
     """
+    if system.obstacles:
+        raise SolverError("no equilibrium: with obstacles the forces need not balance, and a push is no small push")
     if system.is_string and system.stiffness.all() and not system.gravity[0] and not system.gravity[2:].any():
         return hanging_string(system)
     from scipy.optimize import minimize

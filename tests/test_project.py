@@ -26,10 +26,12 @@ ROOMS = ("reference", "engines", "experiments", "report")
 
 #: Of the reference, the files that must work in a bare environment.
 BARE_REFERENCE = (
+    "barrier",
     "cache",
     "changes",
     "errors",
     "lattices",
+    "obstacles",
     "outcome",
     "probe",
     "scenes",
