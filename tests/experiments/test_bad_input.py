@@ -92,8 +92,8 @@ FILES = {
     "an unknown parameter": ('scene = "string"\n[parameters]\nmas = 1.0\n', "'mas': did you mean 'mass'?"),
     "no TOML": ('scene = "string\n', "line 1"),
     "not UTF-8": ('scene = "\udcff"\n', ": expected UTF-8 text"),
-    "empty": ("", ': expected either scene = "..." or a table [system]'),
-    "both": ('scene = "string"\n' + MESH, ': expected either scene = "..." or a table [system]'),
+    "empty": ("", ': expected either scene = "..." or a table [system] or a table [mesh]'),
+    "both": ('scene = "string"\n' + MESH, ': expected either scene = "..." or a table [system] or a table [mesh]'),
     "a missing node": (
         MESH.replace("[[0, 1]]", "[[0, 2]]"),
         ", line 3: springs[0] = [0, 2]: expected masses from 0 to 1",

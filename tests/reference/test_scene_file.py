@@ -172,12 +172,12 @@ def test_an_empty_list_of_springs_is_a_heap_of_masses(tmp_path: Path) -> None:
         ),
         ('scene = "strng"\n', "", "unknown scene 'strng': did you mean 'string'?"),
         # What there must be one of.
-        ("dt = 1e-3\n", "", 'expected either scene = "..." or a table [system]'),
-        ("", "", 'expected either scene = "..." or a table [system]'),
+        ("dt = 1e-3\n", "", 'expected either scene = "..." or a table [system] or a table [mesh]'),
+        ("", "", 'expected either scene = "..." or a table [system] or a table [mesh]'),
         (
             'scene = "string"\n' + WRITTEN_OUT,
             "",
-            'expected either scene = "..." or a table [system]',
+            'expected either scene = "..." or a table [system] or a table [mesh]',
         ),
         (
             WRITTEN_OUT + "[parameters]\nmass = 3.0\n",
