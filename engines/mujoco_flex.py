@@ -24,9 +24,6 @@ SCHEMES: Mapping[Integrator, str] = {"Euler": "kick_drift", "RK4": "rk4"}
 #: What is switched off: with EULERDAMP, Euler's step would take the drag implicitly.
 FLEX_OFF = (*OFF, "EULERDAMP")
 
-#: Edges meet nothing: masses do.
-NO_CONTACT = '<contact contype="0" conaffinity="0" selfcollide="none"/>'
-
 #: The numbers of the springs that are one flex, in the order of its edges.
 Group = IntArray
 
@@ -130,17 +127,22 @@ def compiled(
         <equality>{equality}</equality>
     </mujoco>"""
     try:
+        if not system.obstacles:
+            return mujoco.MjModel.from_xml_string(xml)
         spec = mujoco.MjSpec.from_string(xml)
         add_obstacles(mujoco, spec, system, dt)
-        return spec.compile()
+        model = spec.compile()
     except ValueError as error:
         raise Unsupported("MuJoCo: " + " ".join(str(error).split())) from None
+    # masses meet obstacles, edges meet nothing
+    model.flex_contype[:] = model.flex_conaffinity[:] = model.flex_selfcollide[:] = 0
+    return model
 
 
 def _flex(name: str, springs: IntArray, edge: str) -> str:
     masses, elements = np.unique(springs, return_inverse=True)
     bodies, pairs = " ".join(map(str, masses)), " ".join(map(str, elements.ravel()))
-    return f'<flex name="{name}" dim="1" radius="0.001" body="{bodies}" element="{pairs}">{edge}{NO_CONTACT}</flex>'
+    return f'<flex name="{name}" dim="1" radius="0.001" body="{bodies}" element="{pairs}">{edge}</flex>'
 
 
 def write_masses_and_lengths(mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:

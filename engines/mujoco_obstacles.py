@@ -50,8 +50,9 @@ def add_obstacles(mujoco: ModuleType, spec: Any, system: MassSpringSystem, dt: f
     if not system.obstacles:
         return
     bead = BEAD * min([system.size or 1.0, *(getattr(obstacle, "radius", np.inf) for obstacle in system.obstacles)])
-    # of two geoms that meet: no friction, and the parameters of one of them are those of both
-    common = {"condim": 1, "solref": [2 * dt, DAMPING], "solimp": [IMPEDANCE, IMPEDANCE, bead, 0.5, 2.0], "mass": 0.0}
+    # of two geoms that meet: no friction, and the parameters of one of them are those of both; what masses are is said
+    # elsewhere, but old versions make inertia of their geoms, and refuse too little of it
+    common = {"condim": 1, "solref": [2 * dt, DAMPING], "solimp": [IMPEDANCE, IMPEDANCE, bead, 0.5, 2.0], "mass": 1.0}
     for body in spec.bodies[1 : 1 + int((~system.fixed).sum())]:
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[bead, 0, 0], contype=1, conaffinity=0, **common)
     for obstacle in system.obstacles:

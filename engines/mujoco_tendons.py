@@ -91,7 +91,7 @@ class MujocoTendons:
         try:
             model = _spec(mujoco, system, self.nested, dt).compile()
         except ValueError as error:
-            raise Unsupported(f"MuJoCo: {error}") from None
+            raise Unsupported("MuJoCo: " + " ".join(str(error).split())) from None
         model.opt.timestep = dt
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
         model.opt.disableflags = without(mujoco, off(system, self.disabled))

@@ -221,8 +221,8 @@ def _findings(slides: dict[tuple[str, str], list[Slide | None]]) -> list[str]:
         deepest = max(engines, key=lambda key: engines[key].depth)
         where = f"at {leaves[furthest]:.1f} degrees" if furthest in leaves else "not at all"
         sentences.append(
-            f"Of {len(engines)} engine settings the one furthest from the true angle, {furthest[0]}, leaves {where}; the deepest "
-            f"inside, {deepest[0]}, is by {engines[deepest].depth:.1e} m."
+            f"Of {len(engines)} engine settings the one furthest from the true angle, {furthest[0]}, leaves {where}; "
+            f"the deepest inside, {deepest[0]}, is by {engines[deepest].depth:.1e} m."
         )
     return sentences
 

@@ -24,8 +24,7 @@ def show_list(as_json: bool) -> None:
     from reference.stepper import SchemeStepper
 
     scene_rows = [
-        [s.name, s.slides, s.summary, ", ".join(f"{k}={v}" for k, v in s.parameters.items())]
-        for s in scenes().values()
+        [s.name, s.slides, s.summary, ", ".join(f"{k}={v}" for k, v in s.parameters.items())] for s in scenes().values()
     ]
     stepper_rows = []
     for stepper in all_steppers().values():

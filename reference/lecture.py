@@ -1,4 +1,4 @@
-"""The lecture's own algorithms, executed: Heun on a string, as loops and as whole arrays (slides 7 to 11), with its barrier (17).
+"""The lecture's own algorithms, executed: Heun on a string, as loops and as whole arrays (slides 7-11); a barrier (17).
 
 Bailey, *Modeling the World as a Mesh of Springs* (2021). The mathematics is the lecture's, the code is ours: a string
 of links below an anchor at (x0, y0), link i hanging by spring i. Each link's derivatives come from a function of their
