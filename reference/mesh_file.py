@@ -1,6 +1,6 @@
 """Mesh files: vertices become masses, and the edges of elements become springs, each once.
 
-Read by meshlane, the fork of meshio that is maintained (meshio's last release is of January 2024). Surfaces come as
+Read by meshio. Surfaces come as
 OBJ, triangles and other polygons; solids as VTK's unstructured grids in its older format (.vtk), text or binary: of
 lines, triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and hexahedra.
 """
@@ -28,7 +28,7 @@ FORMATS = {".obj": 1, ".vtk": 0}
 #: A triangle with less area than this part of its longest side squared is none; so for tetrahedra, volume and cube.
 FLAT = 1e-12
 
-#: Edges of elements by the kinds' names in meshlane, as corners of the element.
+#: Edges of elements by the kinds' names in meshio, as corners of the element.
 EDGES: Mapping[str, list[tuple[int, int]]] = {
     "line": [(0, 1)],
     "triangle": [(0, 1), (1, 2), (2, 0)],
@@ -97,7 +97,7 @@ def _mesh(path: Path) -> Mesh:
 
 
 def _read(path: Path) -> Any:
-    """What meshlane makes of a file. Whatever it raises, it raises because of the file."""
+    """What meshio makes of a file. Whatever it raises, it raises because of the file."""
     try:
         if not path.is_file():
             raise InputError("no such file")
@@ -115,22 +115,22 @@ def _read(path: Path) -> Any:
 
 
 def _read_obj(path: Path) -> Any:
-    """Only of its vertices and faces: where there are normals, meshlane wants one for every vertex."""
-    import meshlane
+    """Only of its vertices and faces: where there are normals, meshio wants one for every vertex."""
+    import meshio
 
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     used = [line for line in lines if line.split(maxsplit=1)[:1] in (["v"], ["f"])]
-    return meshlane.read(io.StringIO("\n".join(used)), file_format="obj")
+    return meshio.read(io.StringIO("\n".join(used)), file_format="obj")
 
 
 def _read_vtk(path: Path) -> Any:
     """Only with elements: a grid without them can be larger, by a few numbers, than any memory."""
-    import meshlane
+    import meshio
 
     for kind in re.findall(rb"^\s*DATASET\s+(\S*)", path.read_bytes(), re.IGNORECASE | re.MULTILINE):
         if kind.upper() != b"UNSTRUCTURED_GRID":
             raise InputError(f"DATASET {kind.decode(errors='replace')!r}: expected UNSTRUCTURED_GRID")
-    return meshlane.vtk.read(path)
+    return meshio.vtk.read(path)
 
 
 def _reason(error: Exception) -> str:
