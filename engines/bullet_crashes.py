@@ -44,6 +44,12 @@ def a_corner_that_is_no_number() -> str:
 
 
 @breaks("pybullet")
+def triangles_that_touch_at_a_corner_only() -> str:
+    """Load two triangles without a side in common."""
+    return _bullet_mesh("0 0 0, 1 0 0, 0 1 0, -1 0 0, 0 -1 0", "f 1 2 3\nf 1 4 5\n")
+
+
+@breaks("pybullet")
 def no_triangles() -> str:
     """Load a mesh that has corners only."""
     return _bullet_mesh("0 0 0, 1 0 0, 0 1 0", "")

@@ -1,9 +1,4 @@
-"""Bullet's deformable mass-spring body as a chain of springs in the plane.
-
-Bullet takes its springs from the edges of a mesh of triangles, and a chain has no triangles. So each link of the chain
-gets one, with a common third corner: an apex, pinned at a great height above the plane. The springs to the apex stand
-upright on the plane and pull on nothing that moves in it.
-"""
+"""Bullet's deformable mass-spring body: cloth, solids, and by a device of our own (`bullet_mesh`) any plane mesh."""
 
 from __future__ import annotations
 
@@ -12,15 +7,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from engines.bullet_mesh import APEX, apex_height, bending_apart, mesh_of
+from engines.bullet_obstacles import add_obstacles
+from engines.bullet_rest import rest_shape
 from engines.bullet_world import World
 from engines.engine import Unsupported, refuse_beyond
+from reference.obstacles import Sphere
 from reference.state import Array
 from reference.system import MassSpringSystem
-
-#: Height of the apex over the plane, in lengths of the chain. From 2^27 on, the length of a spring to the apex is the
-#: height, whatever mass hangs on it wherever: the rest is lost in rounding. With a power of two for the height, the
-#: direction times the length is exact too, and the spring pulls with exactly no force.
-APEX = 2.0**40
 
 
 @dataclass(frozen=True)
@@ -31,7 +25,19 @@ class BulletSoftbody:
     package: str = "pybullet"
     settings: Mapping[str, object] = field(default_factory=lambda: {"world": "deformable", "apex": APEX})
     capabilities: frozenset[str] = frozenset(
-        {"rest_lengths", "stretched", "velocities", "damping", "drag", "tilted gravity"}
+        {
+            "3d",
+            "mesh",
+            "rest_lengths",
+            "stretched",
+            "velocities",
+            "damping",
+            "drag",
+            "tilted gravity",
+            "no fixed mass",
+            "circle",
+            "plane",
+        }
     )
     identified_as: Mapping[str, str] = field(
         default_factory=lambda: {"plain": "kick_drift", "damping": "kick_drift_truncated_damping", "drag": "kick_drift"}
@@ -41,27 +47,41 @@ class BulletSoftbody:
         "1e-8 m/s; drag: Bullet has none, dt Cd/m v is taken off the velocities v before each step"
     )
 
-    def start(self, system: MassSpringSystem, dt: float) -> SoftString:
-        """The chain as a soft body, ready for its first step.
+    def start(self, system: MassSpringSystem, dt: float) -> SoftBody:
+        """The system as a soft body, ready for its first step.
+
+        Beyond the capabilities, springs of two stiffnesses are taken where the one kind are sides of triangles and the
+        other Bullet's springs for bending; and spheres where there is no apex.
 
         Raises:
-            Unsupported: for anything but a chain in the plane, and for one without stiffness.
+            Unsupported: for springs that Bullet has no mesh for, and for springs without stiffness.
         """
-        refuse_beyond(self, system)
-        return SoftString(system, dt)
+        refuse_beyond(self, _without_what_this_mesh_can(system))
+        return SoftBody(system, dt)
 
 
-class SoftString:
-    """One chain in a Bullet world of its own: a Simulation.
+def _without_what_this_mesh_can(system: MassSpringSystem) -> MassSpringSystem:
+    asked = system
+    if bending_apart(system) is not None:
+        asked = system.with_parameter("stiffness", float(system.stiffness[0]))
+    if any(isinstance(obstacle, Sphere) for obstacle in system.obstacles) and not mesh_of(system).has_apex:
+        others = tuple(obstacle for obstacle in system.obstacles if not isinstance(obstacle, Sphere))
+        asked = replace(asked, obstacles=others)
+    return asked
+
+
+class SoftBody:
+    """One system in a Bullet world of its own: a Simulation.
 
     Args:
-        system: a chain in the plane.
+        system: masses alike on springs that Bullet has a mesh for.
         dt: step [s].
     """
 
     def __init__(self, system: MassSpringSystem, dt: float) -> None:
         self._dt = dt
         self._system = system
+        self._rest = in_space(system.positions)
         self._world = World()
         self._build(system)
 
@@ -77,10 +97,11 @@ class SoftString:
         return self._world.bare_step()
 
     def state(self) -> tuple[Array, Array]:
-        """Positions [m] and velocities [m/s], each (n, 2)."""
+        """Positions [m] and velocities [m/s], each (n, d)."""
+        n, d = self._system.positions.shape
         return (
-            self._world.positions(self._body)[:-1, :2].copy(),
-            self._world.velocities(self._body)[:-1, :2].copy(),
+            self._world.positions(self._body)[:n, :d].copy(),
+            self._world.velocities(self._body)[:n, :d].copy(),
         )
 
     def change(self, parameter: str, value: float) -> None:
@@ -90,12 +111,12 @@ class SoftString:
         around the positions and velocities there are. A step depends on nothing else, so nothing is lost.
 
         Raises:
-            Unsupported: for stiffness 0.
+            Unsupported: for stiffness 0, and for what there is no mesh for.
         """
         system = self._system.with_parameter(parameter, value)
         if parameter == "gravity":
             self._system = system
-            self._world.set_gravity(system.gravity)
+            self._world.set_gravity(in_space(system.gravity))
             return
         positions, velocities = self.state()
         self._build(replace(system, positions=positions, velocities=velocities))
@@ -105,50 +126,38 @@ class SoftString:
 
         Bullet measures the rest lengths in its first step, from the positions it finds then.
         """
-        if system.stiffness[0] == 0:
+        mesh = mesh_of(system)
+        if mesh.stiffness == 0:
             raise Unsupported("bullet_softbody cannot do stiffness 0: Bullet then leaves out the damping too")
+        if mesh.has_apex and system.dimension == 3 and system.obstacles:
+            # an obstacle meets the triangles to the apex too
+            raise Unsupported(
+                "bullet_softbody cannot do obstacles in three dimensions unless triangles of springs, side by side, "
+                "have all springs for sides"
+            )
+        self._rest = rest_shape(system, self._rest)
         self._system = system
-        self._drag = self._dt * system.drag / system.masses[-1]
-        self._world.reset(self._dt)
-        n = len(system.masses)
         # All nodes of a soft body have the same mass, whatever becomes of the pinned ones.
-        total_mass = (n + 1) * system.masses[-1]
-        self._body = self._world.load(mesh(n), total_mass, system.stiffness[0], system.damping[0])
-        for pinned in (0, n):
+        mass = float(system.masses[np.argmin(system.fixed)])
+        self._drag = self._dt * system.drag / mass
+        self._world.reset(self._dt)
+        apex = np.zeros((int(mesh.has_apex), 3))
+        apex[:, 2] = apex_height(system)
+        nodes = mesh.nodes + len(apex)
+        self._body = self._world.load(mesh.obj(), nodes * mass, mesh.stiffness, system.damping[0], mesh.bending)
+        for pinned in [*np.flatnonzero(system.fixed).tolist(), *range(mesh.nodes, nodes)]:
             self._world.pin(self._body, pinned)
-        apex = np.array([0.0, 0.0, apex_height(system)])
-        self._world.set_positions(self._body, np.vstack([rest_positions(system), apex]))
+        self._world.set_positions(self._body, np.vstack([self._rest, apex]))
         self._world.step()
-        self._world.set_positions(self._body, np.vstack([np.pad(system.positions, ((0, 0), (0, 1))), apex]))
-        self._world.set_velocities(self._body, np.pad(system.velocities, ((0, 1), (0, 1))))
-        self._world.set_gravity(system.gravity)
+        self._world.set_positions(self._body, np.vstack([in_space(system.positions), apex]))
+        self._world.set_velocities(self._body, np.vstack([in_space(system.velocities), 0 * apex]))
+        add_obstacles(self._world, system)
+        self._world.set_gravity(in_space(system.gravity))
 
 
-def mesh(n: int) -> str:
-    """A mesh of n nodes and an apex, one triangle per link, in the text format OBJ.
-
-    Where the nodes are does not matter yet, except that Bullet crashes on a triangle without area.
-    """
-    corners = [f"v {i} 0 0" for i in range(n)] + ["v 0 0 1"]
-    triangles = [f"f {i} {i + 1} {n + 1}" for i in range(1, n)]
-    return "\n".join(corners + triangles) + "\n"
-
-
-def rest_positions(system: MassSpringSystem) -> Array:
-    """The chain with every spring at its rest length, folded on itself, from the origin: shape (n, 3) [m].
-
-    Folded, because 0, L, 0, L, ... are exactly L apart and 0, L, 2 L, 3 L, ... only to rounding.
-    """
-    there_and_back = np.where(np.arange(len(system.rest_lengths)) % 2 == 0, 1.0, -1.0)
-    positions = np.zeros((len(system.positions), 3))
-    positions[1:, 0] = np.cumsum(there_and_back * system.rest_lengths)
-    return positions
-
-
-def apex_height(system: MassSpringSystem) -> float:
-    """APEX times a length the chain keeps within, to the next power of two [m]."""
-    reach = float(np.abs(system.positions).max() + system.rest_lengths.sum())
-    return float(2.0 ** np.ceil(np.log2(APEX * reach)))
+def in_space(vectors: Array) -> Array:
+    """Vectors of the plane as vectors in space, and those in space as they are: shape (..., 3)."""
+    return np.concatenate([vectors, np.zeros((*vectors.shape[:-1], 3 - vectors.shape[-1]))], axis=-1)
 
 
 ENGINES = (BulletSoftbody(),)

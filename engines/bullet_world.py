@@ -54,28 +54,36 @@ class World:
         # A mesh file is otherwise remembered by its name, whatever is in it.
         self._bullet.b3PhysicsParamSetEnableFileCaching(command, 0)
         self._send(command)
-        self.set_gravity(np.zeros(2))
+        self.set_gravity(np.zeros(3))
 
     def set_gravity(self, gravity: Array) -> None:
-        """Gravity [m/s^2], shape (2,)."""
+        """Gravity [m/s^2], shape (3,)."""
         command = self._bullet.b3InitPhysicsParamCommand(self._client)
-        self._bullet.b3PhysicsParamSetGravity(command, gravity[0], gravity[1], 0.0)
+        self._bullet.b3PhysicsParamSetGravity(command, *gravity)
         self._send(command)
 
-    def load(self, obj: str, mass: float, stiffness: float, damping: float) -> int:
-        """A soft body of this mesh, awake for ever; its number."""
+    def load(self, obj: str, mass: float, stiffness: float, damping: float, bending: float = 0.0) -> int:
+        """A soft body of this mesh, awake for ever; its number.
+
+        Args:
+            obj: the mesh, in the text format OBJ.
+            mass: of all nodes together [kg].
+            stiffness: of the edges [N/m].
+            damping: of all springs [N s/m].
+            bending: stiffness of springs between all nodes two edges apart [N/m]; 0 for none.
+        """
         with tempfile.TemporaryDirectory() as folder:
-            file = Path(folder) / "chain.obj"
+            file = Path(folder) / "mesh.obj"
             file.write_text(obj)
             command = self._bullet.b3LoadSoftBodyCommandInit(self._client, bytes(file))
             self._bullet.b3LoadSoftBodySetMass(command, mass)
             self._bullet.b3LoadSoftBodyAddMassSpringForce(command, stiffness, damping)
-            # Otherwise there are bending springs: 0.1 N/m between all nodes two links apart, even when switched off.
-            self._bullet.b3LoadSoftBodyUseBendingSprings(command, 0, 0.0)
+            # Unless told otherwise there are bending springs of 0.1 N/m, even when switched off.
+            self._bullet.b3LoadSoftBodyUseBendingSprings(command, bending > 0, bending)
             self._bullet.b3LoadSoftBodyUseAllDirectionDampingSprings(command, 0)
             body = int(self._bullet.b3GetStatusBodyIndex(self._send(command)))
         if body < 0:
-            raise RuntimeError("Bullet could not load the chain's mesh")
+            raise RuntimeError("Bullet could not load the mesh")
         command = self._bullet.b3InitChangeDynamicsInfo(self._client)
         self._bullet.b3ChangeDynamicsInfoSetActivationState(command, body, DISABLE_SLEEPING)
         self._send(command)
@@ -85,6 +93,23 @@ class World:
         """Fix a node where it is."""
         nowhere = (ctypes.c_double * 3)()
         self._send(self._bullet.b3InitCreateSoftBodyAnchorConstraintCommand(self._client, body, node, -1, -1, nowhere))
+
+    def add_sphere(self, centre: Array, radius: float) -> None:
+        """A sphere that never moves; centre (3,) [m], radius [m]."""
+        command = self._bullet.b3CreateCollisionShapeCommandInit(self._client)
+        self._bullet.b3CreateCollisionShapeAddSphere(command, radius)
+        self._add_static(command, centre)
+
+    def _add_static(self, shape_command: int, place: Array) -> None:
+        """A body without mass or friction, of the shape that a command makes."""
+        shape = int(self._bullet.b3GetStatusCollisionShapeUniqueId(self._send(shape_command)))
+        command = self._bullet.b3CreateMultiBodyCommandInit(self._client)
+        straight, nowhere = _vector(0.0, 0.0, 0.0, 1.0), _vector(0.0, 0.0, 0.0)
+        self._bullet.b3CreateMultiBodyBase(command, 0.0, shape, -1, _vector(*place), straight, nowhere, straight)
+        body = int(self._bullet.b3GetStatusBodyIndex(self._send(command)))
+        command = self._bullet.b3InitChangeDynamicsInfo(self._client)
+        self._bullet.b3ChangeDynamicsInfoSetLateralFriction(command, body, -1, 0.0)
+        self._send(command)
 
     def step(self) -> None:
         """Advance by dt."""
@@ -134,6 +159,10 @@ class World:
         return int(self._submit(self._client, command))
 
 
+def _vector(*numbers: float) -> ctypes.Array[ctypes.c_double]:
+    return (ctypes.c_double * len(numbers))(*numbers)
+
+
 @cache
 def library() -> ctypes.CDLL:
     """Bullet's library with the types of the functions used here.
@@ -165,6 +194,12 @@ def library() -> ctypes.CDLL:
         ("b3InitChangeDynamicsInfo", handle, handle),
         ("b3ChangeDynamicsInfoSetActivationState", number, handle, number, number),
         ("b3InitCreateSoftBodyAnchorConstraintCommand", handle, handle, number, number, number, number, handle),
+        ("b3CreateCollisionShapeCommandInit", handle, handle),
+        ("b3CreateCollisionShapeAddSphere", number, handle, real),
+        ("b3GetStatusCollisionShapeUniqueId", number, handle),
+        ("b3CreateMultiBodyCommandInit", handle, handle),
+        ("b3CreateMultiBodyBase", number, handle, real, number, number, handle, handle, handle, handle),
+        ("b3ChangeDynamicsInfoSetLateralFriction", number, handle, number, number, real),
         ("b3InitStepSimulationCommand", handle, handle),
         ("b3GetMeshDataCommandInit", handle, handle, number, number),
         ("b3GetMeshDataSimulationMesh", None, handle),

@@ -19,6 +19,15 @@ from reference.errors import unknown_name
 from reference.state import Array
 from reference.system import MassSpringSystem
 
+#: What masses may not enter, by its kind. An engine that takes one holds masses out of it in its own way, without
+#: friction: where nothing touches it, it steps as the engine does without.
+OBSTACLES = {
+    "circle": "a circle that masses may not enter",
+    "sphere": "a sphere that masses may not enter",
+    "cylinder": "a cylinder that masses may not enter",
+    "plane": "a plane that masses may not enter",
+}
+
 #: What a system may ask of an engine, and how the lack of it is said.
 CAPABILITIES = {
     "3d": "motion in three dimensions",
@@ -33,6 +42,7 @@ CAPABILITIES = {
     "drag": "drag on the masses",
     "tilted gravity": "gravity along any axis but the second",
     "no fixed mass": "a system with no fixed mass",
+    **OBSTACLES,
 }
 
 
@@ -106,6 +116,7 @@ def demands(system: MassSpringSystem) -> list[str]:
         "drag": system.drag > 0,
         "tilted gravity": bool(gravity[0] or gravity[2:].any()),
         "no fixed mass": not system.fixed.any(),
+        **{kind: any(obstacle.kind == kind for obstacle in system.obstacles) for kind in OBSTACLES},
     }
     return [name for name, needed in asked.items() if needed]
 

@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, refuse_beyond
+from engines.engine import CAPABILITIES, OBSTACLES, refuse_beyond
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -39,9 +39,9 @@ class ExudynSprings:
 
     @property
     def capabilities(self) -> frozenset[str]:
-        """Everything; for VelocityVerlet everything but damping and drag."""
+        """Everything but obstacles; for VelocityVerlet everything but those, damping and drag."""
         left_out = {"damping", "dampings", "drag"} if self.solver == "VelocityVerlet" else set()
-        return frozenset(CAPABILITIES) - left_out
+        return frozenset(CAPABILITIES) - set(OBSTACLES) - left_out
 
     @property
     def identified_as(self) -> Mapping[str, str]:

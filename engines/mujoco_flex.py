@@ -13,6 +13,7 @@ import numpy as np
 from engines.engine import CAPABILITIES, Unsupported
 from engines.mujoco_common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco_masses import SlidingMasses, three
+from engines.mujoco_obstacles import add_obstacles, off
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 
@@ -60,10 +61,10 @@ class MujocoFlex:
         """The system as bodies and flexes. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
         mujoco = mujoco_module()
         groups = groups_of(system, system.stiffness, system.damping)
-        model = compiled(mujoco, system, groups, '<edge stiffness="1"/>')
+        model = compiled(mujoco, system, groups, '<edge stiffness="1"/>', dt=dt)
         model.opt.timestep = dt
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
-        model.opt.disableflags = without(mujoco, FLEX_OFF)
+        model.opt.disableflags = without(mujoco, off(system, FLEX_OFF))
         return FlexSimulation(mujoco, model, system, groups)
 
 
@@ -97,13 +98,19 @@ def groups_of(system: MassSpringSystem, *alike: Array) -> list[Group]:
 
 
 def compiled(
-    mujoco: ModuleType, system: MassSpringSystem, groups: Sequence[Group], edge: str, equality: str = ""
+    mujoco: ModuleType,
+    system: MassSpringSystem,
+    groups: Sequence[Group],
+    edge: str,
+    equality: str = "",
+    dt: float = 0.0,
 ) -> Any:
     """Bodies, joints and flexes: what is joined to what. The numbers are written later.
 
     Args:
         edge: the element that says what edges are.
         equality: the elements that say what of them is held.
+        dt: the step [s], which decides how hard obstacles are.
 
     Raises:
         Unsupported: with MuJoCo's own message.
@@ -120,9 +127,16 @@ def compiled(
         <equality>{equality}</equality>
     </mujoco>"""
     try:
-        return mujoco.MjModel.from_xml_string(xml)
+        if not system.obstacles:
+            return mujoco.MjModel.from_xml_string(xml)
+        spec = mujoco.MjSpec.from_string(xml)
+        add_obstacles(mujoco, spec, system, dt)
+        model = spec.compile()
     except ValueError as error:
         raise Unsupported("MuJoCo: " + " ".join(str(error).split())) from None
+    # masses meet obstacles, edges meet nothing
+    model.flex_contype[:] = model.flex_conaffinity[:] = model.flex_selfcollide[:] = 0
+    return model
 
 
 def _flex(name: str, springs: IntArray, edge: str) -> str:

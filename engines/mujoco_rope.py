@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, Unsupported
+from engines.engine import CAPABILITIES, OBSTACLES, Unsupported, refuse_beyond
 from engines.mujoco_common import mujoco_module, without
 from engines.mujoco_flex import FLEX_OFF, Group, compiled, groups_of, write_masses_and_lengths
 from engines.mujoco_masses import SlidingMasses
@@ -43,7 +43,7 @@ class MujocoRope:
     package: str = "mujoco"
     impedance: float = 0.9999
     weight: float = 1e-3
-    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(OBSTACLES)
     semantics: str = (
         "stiffness: infinite, whatever is given; damping: without effect, as nothing stretches for long; "
         "drag is Cd [N s/m] as damping of every slide joint, explicit"
@@ -69,6 +69,7 @@ class MujocoRope:
 
     def start(self, system: MassSpringSystem, dt: float) -> RopeSimulation:
         """The system, its springs held. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
+        refuse_beyond(self, system)
         mujoco = mujoco_module()
         groups = groups_of(system)
         held = "".join(f'<flex flex="flex {i}"/>' for i in range(len(groups)))

@@ -12,6 +12,7 @@ import numpy as np
 from engines.engine import CAPABILITIES, Unsupported
 from engines.mujoco_common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco_masses import SlidingMasses, three
+from engines.mujoco_obstacles import add_obstacles, off
 from reference.system import MassSpringSystem
 
 Integrator = Literal["Euler", "RK4", "implicit"]
@@ -88,12 +89,12 @@ class MujocoTendons:
         """The system as bodies and tendons. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
         mujoco = mujoco_module()
         try:
-            model = _spec(mujoco, system, self.nested).compile()
+            model = _spec(mujoco, system, self.nested, dt).compile()
         except ValueError as error:
-            raise Unsupported(f"MuJoCo: {error}") from None
+            raise Unsupported("MuJoCo: " + " ".join(str(error).split())) from None
         model.opt.timestep = dt
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
-        model.opt.disableflags = without(mujoco, self.disabled)
+        model.opt.disableflags = without(mujoco, off(system, self.disabled))
         return TendonSimulation(mujoco, model, system, self.nested)
 
 
@@ -111,7 +112,7 @@ class TendonSimulation(SlidingMasses):
         self._system = changed
 
 
-def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool) -> Any:
+def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float) -> Any:
     """Bodies, joints, sites and tendons: what is joined to what. The numbers come in _write_numbers."""
     spec = mujoco.MjSpec()
     if nested:
@@ -132,6 +133,7 @@ def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool) -> Any:
         tendon = spec.add_tendon()
         tendon.wrap_site(f"mass {a}")
         tendon.wrap_site(f"mass {b}")
+    add_obstacles(mujoco, spec, system, dt)
     return spec
 
 

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from engines.engine import refuse_beyond
+from engines.pymunk_obstacles import add_obstacles
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -43,7 +44,7 @@ class PymunkSprings:
     package: str = "pymunk"
     capabilities: frozenset[str] = frozenset(
         {"mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping", "drag"}
-        | {"tilted gravity", "no fixed mass"}
+        | {"tilted gravity", "no fixed mass", "circle", "plane"}
     )
 
     @property
@@ -79,10 +80,14 @@ class PymunkSimulation:
         self._space.iterations = engine.rounds
         bodies = [_body(pymunk, system, i) for i in range(len(system.masses))]
         self._moving = [body for body, fixed in zip(bodies, system.fixed, strict=True) if not fixed]
-        self._springs = [
-            pymunk.DampedSpring(bodies[a], bodies[b], (0, 0), (0, 0), 0, 0, 0) for a, b in system.springs.tolist()
-        ]
-        self._space.add(*bodies, *self._springs)
+        # Pymunk refuses those between two fixed masses, which move nothing
+        self._springs = {
+            j: pymunk.DampedSpring(bodies[a], bodies[b], (0, 0), (0, 0), 0, 0, 0)
+            for j, (a, b) in enumerate(system.springs.tolist())
+            if not (system.fixed[a] and system.fixed[b])
+        }
+        self._space.add(*bodies, *self._springs.values())
+        add_obstacles(pymunk, self._space, system, self._moving)
         self._set_parameters()
         self._batch, self._buffer = batch, batch.Buffer()
         self._fields = batch.BodyFields.POSITION | batch.BodyFields.VELOCITY
@@ -117,7 +122,7 @@ class PymunkSimulation:
         for body, mass in zip(self._moving, system.masses[~system.fixed].tolist(), strict=True):
             body.mass = mass
         damping = self._damping()
-        for j, spring in enumerate(self._springs):
+        for j, spring in self._springs.items():
             spring.rest_length = float(system.rest_lengths[j])
             spring.stiffness = float(system.stiffness[j])
             spring.damping = float(damping[j])

@@ -8,9 +8,14 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from reference.obstacles import Circle, Cylinder, Plane, Sphere
 from reference.scenes import find
 from reference.state import Array
 from reference.system import MassSpringSystem
+
+#: Obstacles that nothing comes near in the 200 steps of a trial: there an engine is to step as it does without them.
+AWAY = (0.6, 1.0, 0.0)
+FLOOR, BAR = Plane((0.0, -3.0), (0.0, 1.0)), Cylinder(AWAY, (0.0, 0.0, 1.0), 0.3)
 
 
 def for_each_capability() -> Mapping[str, MassSpringSystem]:
@@ -26,8 +31,9 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
         stiffness=np.array(200.0),
         fixed=np.array([True, False, False, False]),
     )
+    in_space = replace(plain, positions=off_the_plane, velocities=np.zeros(1), gravity=np.array(9.81))
     return {
-        "3d": replace(plain, positions=off_the_plane, velocities=np.zeros(1), gravity=np.array(9.81)),
+        "3d": in_space,
         "mesh": triangles,
         "masses": string({"masses": 3, "mass": "0.02,0.01,0.03"}),
         "rest_lengths": string({"masses": 3, "rest_length": "0.1,0.15,0.125"}),
@@ -39,6 +45,8 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
         "drag": string({"drag": 0.02}),
         "tilted gravity": replace(plain, gravity=np.array([3.0, -9.0])),
         "no fixed mass": replace(triangles, fixed=np.zeros(4, dtype=bool)),
+        **{obstacle.kind: replace(plain, obstacles=(obstacle,)) for obstacle in (Circle(AWAY[:2], 0.3), FLOOR)},
+        **{obstacle.kind: replace(in_space, obstacles=(obstacle,)) for obstacle in (Sphere(AWAY, 0.3), BAR)},
     }
 
 

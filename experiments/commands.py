@@ -24,8 +24,7 @@ def show_list(as_json: bool) -> None:
     from reference.stepper import SchemeStepper
 
     scene_rows = [
-        [s.name, s.slides, s.summary, ", ".join(f"{k}={v:g}" for k, v in s.parameters.items())]
-        for s in scenes().values()
+        [s.name, s.slides, s.summary, ", ".join(f"{k}={v}" for k, v in s.parameters.items())] for s in scenes().values()
     ]
     stepper_rows = []
     for stepper in all_steppers().values():
@@ -120,6 +119,8 @@ def compare_command(
     columns = ["stepper", "outcome", "error [m]", "identified as", "deviation [m]", "reason"]
     keys = ["stepper", "outcome", "error_m", "identified_as", "identification_error_m", "reason"]
     show_table(title, columns, [[run.row[key] for key in keys] for run in comparison.runs])
+    if comparison.why_no_true_motion:
+        click.echo(f"No error is known: {comparison.why_no_true_motion}.")
 
 
 @click.command("identify")

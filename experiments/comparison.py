@@ -7,11 +7,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from engines.isolation import EngineStepper
 from experiments.runner import current
 from reference.changes import whole_steps
-from reference.exact import exact
-from reference.identify import Identification, candidates, identify_run
+from reference.exact import WHY_NOT_EXACT, exact
+from reference.identify import Identification, candidates_for, identify_run
 from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
@@ -29,7 +31,7 @@ class Run:
         stepper: who stepped.
         outcome: how it ended.
         identification: which scheme it was.
-        error: distance from the true motion at each time [m], shape (m,); None without a trajectory.
+        error: distance from the true motion at each time [m], shape (m,); None without one of the two.
         deviation: distance from the identified scheme at each time [m], shape (m,); None where there is none.
     """
 
@@ -56,18 +58,30 @@ class Run:
 
 @dataclass(frozen=True)
 class Comparison:
-    """All steppers on one system; the true motion; the catalogue's trajectories."""
+    """All steppers on one system, and its true motion: None for a system with obstacles."""
 
     setup: Setup
-    true: Trajectory
+    true: Trajectory | None
     runs: tuple[Run, ...]
 
     @property
+    def times(self) -> Array:
+        """Of all steps [s], shape (m,)."""
+        return np.array([i * self.setup.dt for i in range(whole_steps(self.setup.dt, self.setup.duration) + 1)])
+
+    @property
+    def why_no_true_motion(self) -> str | None:
+        """What there is to say where the true motion is not known, and so no run has an error."""
+        return WHY_NOT_EXACT if self.true is None else None
+
+    @property
     def document(self) -> dict[str, Any]:
-        """The comparison as the command line's JSON has it."""
+        """The comparison as the command line's JSON has it; where the true motion is not known it says why."""
         setup = self.setup
         rows = [run.row for run in self.runs]
-        return {"scene": setup.name, "dt_s": setup.dt, "duration_s": setup.duration, "runs": rows}
+        asked = {"scene": setup.name, "dt_s": setup.dt, "duration_s": setup.duration}
+        why = {"why_no_true_motion": self.why_no_true_motion} if self.why_no_true_motion else {}
+        return {**asked, **why, "runs": rows}
 
 
 def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lambda _: None) -> Comparison:
@@ -78,15 +92,16 @@ def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lamb
     """
     steps = whole_steps(setup.dt, setup.duration)
     progress("true motion")
-    true = exact(setup.system, setup.dt, steps, setup.changes)
+    true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
+    outcomes = list(_outcomes(setup, steps, steppers, progress))
     progress("catalogue of schemes")
-    known = candidates(setup.system, setup.dt, steps, setup.changes)
+    known = candidates_for(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []
-    for stepper, outcome in _outcomes(setup, steps, steppers, progress):
+    for stepper, outcome in outcomes:
         identification = identify_run(stepper.name, outcome, setup.system, known)
         named = identification.identified_as
         trajectory = outcome.trajectory
-        error = None if trajectory is None else trajectory.distance(true)
+        error = None if trajectory is None or true is None else trajectory.distance(true)
         deviation = None if trajectory is None or named is None else trajectory.distance(known[named])
         runs.append(Run(stepper, outcome, identification, error, deviation))
     return Comparison(setup, true, tuple(runs))

@@ -63,7 +63,7 @@ def _over_time(comparison: Comparison) -> Table:
     """One row per time and run: what the figure draws."""
     rows = []
     for run in comparison.runs:
-        for i, time in enumerate(comparison.true.times.tolist()):
+        for i, time in enumerate(comparison.times.tolist()):
             error, deviation = (None if a is None else finite(float(a[i])) for a in (run.error, run.deviation))
             rows.append([run.stepper.name, time, error, deviation])
     return Table("divergence_over_time", ["stepper", "time [s]", "error [m]", "deviation [m]"], rows)

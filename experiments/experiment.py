@@ -25,6 +25,7 @@ NAMES = (
     "first_order_instability",
     "numbering",
     "errata",
+    "barrier",
     "cost",
     "speed",
     "million_runs",

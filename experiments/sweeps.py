@@ -102,19 +102,21 @@ def judged(
     from experiments.comparison import finite
     from experiments.steppers import all_steppers
     from reference.exact import exact
-    from reference.identify import candidates, identify_run
+    from reference.identify import candidates_for, identify_run
 
+    made_by = all_steppers()[stepper] if engine is None else EngineStepper(engine)
     if engine is None:
-        outcome = all_steppers()[stepper].run(system, dt, steps, changes)
+        outcome = made_by.run(system, dt, steps, changes)
     else:
         outcome = run_engine(engine, system, dt, steps, changes)
     answer: dict[str, Any] = {"outcome": outcome if keep else replace(outcome, trajectory=None)}
-    if outcome.trajectory is not None:
+    if outcome.trajectory is not None and not system.obstacles:
         frames = len(outcome.trajectory)
         distance = outcome.trajectory.distance(exact(system, dt, frames - 1, changes))
         answer["error_m"] = finite(float(distance.max()))
     if identify:
-        found = identify_run(stepper, outcome, system, candidates(system, dt, steps, changes))
+        known = candidates_for([(made_by, outcome)], system, dt, steps, changes)
+        found = identify_run(stepper, outcome, system, known)
         answer |= {"identified_as": found.identified_as, "identification_error_m": finite(found.error)}
     return answer
 

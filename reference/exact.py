@@ -10,15 +10,19 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from reference.assembly import assemble, spring_blocks
+from reference.assembly import DENSE_UP_TO, assemble, spring_blocks
 from reference.changes import Change, changes_by_step
 from reference.errors import InputError, SolverError
 from reference.forces import SpringMotion
+from reference.least_energy import force_tolerance, least_energy
 from reference.motion import Motion
 from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 
 TOLERANCE = 1e-12
+
+#: What is said of systems with obstacles. A run of tiny steps would only be one scheme's word against another's.
+WHY_NOT_EXACT = "no true motion: a mass that meets an obstacle loses velocity at once, which no solver here can follow"
 
 
 def damped_oscillator(
@@ -69,8 +73,10 @@ def exact(
         equations: what to make of the system; `pendulum.PendulumMotion` hangs rods in place of the springs.
 
     Raises:
-        SolverError: if the solver gives up.
+        SolverError: if the solver gives up; for a system with obstacles.
     """
+    if system.obstacles:
+        raise SolverError(WHY_NOT_EXACT)
     pending = changes_by_step(changes, dt)
     starts = sorted({0, *(i for i in pending if i < steps)})
     motion = equations(system)
@@ -112,11 +118,14 @@ def _solve(motion: Motion, state: State, times: Array, size: float) -> list[Stat
 def equilibrium(system: MassSpringSystem) -> State:
     """The state at rest in which all forces balance, reached by giving way from the start.
 
-    In closed form for a string hanging down; else least energy by L-BFGS, then Newton's method to rounding.
+    In closed form for a string hanging down; else least energy by L-BFGS, then Newton's method to rounding. Of large
+    systems see `least_energy`.
 
     Raises:
-        SolverError: if there is none nearby (a free system falls for ever).
+        SolverError: if there is none nearby (a free system falls for ever); for a system with obstacles.
     """
+    if system.obstacles:
+        raise SolverError("no equilibrium: with obstacles the forces need not balance, and a push is no small push")
     if system.is_string and system.stiffness.all() and not system.gravity[0] and not system.gravity[2:].any():
         return hanging_string(system)
     from scipy.optimize import minimize
@@ -126,6 +135,8 @@ def equilibrium(system: MassSpringSystem) -> State:
     free = ~system.fixed
     if free.all() and system.gravity.any():
         raise SolverError("no equilibrium: nothing holds the system, it falls for ever")
+    if free.sum() * system.dimension > DENSE_UP_TO:
+        return least_energy(system)
     motion = SpringMotion(system)
 
     def at(coordinates: Array) -> State:
@@ -152,7 +163,7 @@ def equilibrium(system: MassSpringSystem) -> State:
         q = q + change
         if np.abs(change).max() < 1e-14 * system.size:
             break
-    if not np.abs(force(q)).max() < 1e-9 * weight:
+    if not np.abs(force(q)).max() < force_tolerance(system, weight):
         raise SolverError("no equilibrium: the forces do not balance anywhere near the start")
     return at(q)
 
@@ -178,17 +189,28 @@ def hanging_string(system: MassSpringSystem) -> State:
     return State(0.0, positions, np.zeros_like(positions))
 
 
-def squared_frequencies(system: MassSpringSystem, state: State) -> Array:
+def squared_frequencies(system: MassSpringSystem, state: State, lowest: int | None = None) -> Array:
     """The squares w^2 [1/s^2] of the small oscillations about an equilibrium, rising, shape (free masses x d,).
 
     From K q = w^2 M q with K the derivative of the forces, damping and drag left out.
+
+    Args:
+        lowest: only so many, the slowest, by sparse matrices: for systems of thousands of masses that are held.
     """
+    mass = np.repeat(system.masses[~system.fixed], system.dimension)
+    if lowest is not None and lowest < len(mass) - 1:
+        from scipy.sparse import diags_array
+        from scipy.sparse.linalg import eigsh
+
+        stiffness = -assemble(system, spring_blocks(system, state)[0], sparse=True)
+        # always the same start, and one that no symmetry keeps from any of them
+        start = np.random.default_rng(0).normal(size=len(mass))
+        return np.sort(eigsh(stiffness, lowest, diags_array(mass).tocsc(), sigma=0.0, v0=start)[0])
     from scipy.linalg import eigh
 
     stiffness = -assemble(system, spring_blocks(system, state)[0], sparse=False)
-    mass = np.repeat(system.masses[~system.fixed], system.dimension)
     values: Array = eigh(stiffness, np.diag(mass), eigvals_only=True)
-    return values
+    return values if lowest is None else values[:lowest]
 
 
 def laguerre_frequencies(links: int, length: float, gravity: float) -> Array:

@@ -8,7 +8,7 @@ catalogue by largest deviation has a cliff in it, and a name is given only to wh
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -23,6 +23,12 @@ TOLERANCE = 1e-12
 
 #: Deviations below this part of the size are one as good as the other: the simpler scheme is named.
 NOISE = 1e-14
+
+#: Systems of more masses than that are large: not every scheme is followed on them to the end.
+LARGE = 50
+
+#: Schemes that differ at all differ by far more than rounding after so many steps.
+FIRST_STEPS = 10
 
 #: A run that blows up is compared while no spring is longer than this many times its length.
 STRAIN = 3.0
@@ -79,14 +85,15 @@ class Identification:
 def identify(
     stepper: Stepper, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()
 ) -> Identification:
-    """Run a stepper and the whole catalogue, and say which scheme it is.
+    """Run a stepper and the catalogue, and say which scheme it is.
 
     Args:
         dt: the step [s].
         steps: how many; a few hundred tell schemes apart well and keep rounding small.
     """
     outcome = stepper.run(system, dt, steps, changes)
-    return identify_run(stepper.name, outcome, system, candidates(system, dt, steps, changes))
+    known = candidates_for([(stepper, outcome)], system, dt, steps, changes)
+    return identify_run(stepper.name, outcome, system, known)
 
 
 def candidates(
@@ -95,6 +102,63 @@ def candidates(
     """The trajectories of all catalogued schemes that can step the system, the simplest scheme first."""
     outcomes = {name: stepper.run(system, dt, steps, changes) for name, stepper in catalogued().items()}
     return {name: outcome.trajectory for name, outcome in outcomes.items() if outcome.trajectory is not None}
+
+
+def candidates_for(
+    runs: Sequence[tuple[Stepper, Outcome]],
+    system: MassSpringSystem,
+    dt: float,
+    steps: int,
+    changes: Sequence[Change] = (),
+) -> dict[str, Trajectory]:
+    """The catalogue's trajectories that these runs can be identified with, the simplest scheme first.
+
+    All of them; but the whole catalogue would take minutes on a large system. There a scheme is tried for a few steps
+    and followed to the end only if some run is still with it, and once every run has its scheme the search ends. A run
+    that has none gets the one that is nearest in those first steps.
+
+    Args:
+        runs: each with who made it; what the catalogue's own schemes have made is not made again.
+    """
+    if len(system.masses) <= LARGE:
+        return candidates(system, dt, steps, changes)
+    catalogue = catalogued()
+    known = {s.name: run.trajectory for s, run in runs if catalogue.get(s.name) == s and run.trajectory is not None}
+    unknown = [run for s, run in runs if s.name not in known and run.trajectory is not None]
+    beginnings: dict[str, Trajectory] = {}
+    for name, stepper in catalogue.items():
+        unknown = [run for run in unknown if not _is_one_of(known, run, system)]
+        if not unknown:
+            break
+        begun = None if name in known else stepper.run(system, dt, min(steps, FIRST_STEPS), changes).trajectory
+        if begun is not None:
+            beginnings[name] = begun
+            if any(_is_one_of({name: begun}, _beginning(run), system) for run in unknown):
+                known |= _followed(name, system, dt, steps, changes)
+    for run in unknown:
+        for match in identify_run("", _beginning(run), system, beginnings).ranking[:1]:
+            if match.scheme not in known:
+                known |= _followed(match.scheme, system, dt, steps, changes)
+    return {name: known[name] for name in catalogue if name in known}
+
+
+def _followed(
+    name: str, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change]
+) -> dict[str, Trajectory]:
+    trajectory = catalogued()[name].run(system, dt, steps, changes).trajectory
+    return {} if trajectory is None else {name: trajectory}
+
+
+def _is_one_of(known: Mapping[str, Trajectory], run: Outcome, system: MassSpringSystem) -> bool:
+    return identify_run("", run, system, known).identified_as is not None
+
+
+def _beginning(run: Outcome) -> Outcome:
+    """What a run had done after the first steps."""
+    assert run.trajectory is not None
+    few = slice(FIRST_STEPS + 1)
+    at = run.trajectory
+    return replace(run, trajectory=Trajectory(at.times[few], at.positions[few], at.velocities[few]))
 
 
 def identify_run(

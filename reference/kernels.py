@@ -10,6 +10,7 @@ import importlib.util
 import os
 import sys
 import tempfile
+from collections.abc import Mapping, Sequence
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -21,8 +22,9 @@ from reference.catalogue import Scheme
 from reference.errors import Unsupported
 from reference.forces import springs_of_masses
 from reference.loops import Loops
+from reference.obstacles import keep_out
 from reference.state import Array, State
-from reference.system import MassSpringSystem
+from reference.system import BoolArray, MassSpringSystem
 from reference.tracing import trace
 
 #: From this many springs on, threads are worth their waking (`springlab run speed` shows where).
@@ -52,6 +54,7 @@ class Kernel:
     def __init__(self, system: MassSpringSystem, scheme: Scheme, threads: int | None = None) -> None:
         if threads is None:
             threads = (os.cpu_count() or 1) if len(system.springs) >= THREADS_FROM else 1
+        self._system = system
         self._threads = threads
         self._loops = loops_for(scheme, system, threads=threads > 1)
         self._arrays = arrays_of(system, self._loops)
@@ -70,8 +73,10 @@ class Kernel:
             import numba
 
             numba.set_num_threads(min(self._threads, numba.config.NUMBA_NUM_THREADS))
-        arrays = (self._arrays[name] for name in (*self._loops.arrays, "drag"))
-        self._function(*arrays, dt, *self._lists, steps)
+        arrays = [self._arrays[name] for name in (*self._loops.arrays, "drag")]
+        for count in strides(self._system, steps):
+            self._function(*arrays, dt, *self._lists, count)
+            push_out(self._system, self._loops, self._arrays, self._system.fixed)
 
     def state(self) -> tuple[Array, Array]:
         """Positions [m] and velocities [m/s] now, each (n, d)."""
@@ -108,6 +113,25 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
         arrays |= {f"pull{i}": np.zeros(s + 2 if loops.string else s), f"weight{i}": system.masses * system.gravity[i]}
         arrays |= {f"a{k}_{i}": np.zeros(n) for k in loops.kept}
     return arrays
+
+
+def strides(system: MassSpringSystem, steps: int) -> Sequence[int]:
+    """The steps of each call of a kernel: all in one; with obstacles, which end a step, one in each."""
+    return [1] * steps if system.obstacles else [steps]
+
+
+def push_out(system: MassSpringSystem, loops: Loops, arrays: Mapping[str, Any], fixed: BoolArray) -> None:
+    """The end of a step, in place: what is inside an obstacle comes out.
+
+    Args:
+        arrays: as `arrays_of` has them, or in lanes. fixed: a shape that goes with theirs.
+    """
+    if not system.obstacles:
+        return
+    x, v = (np.stack([arrays[f"{q}{i}"] for i in loops.axes], axis=-1) for q in "xv")
+    x, v = keep_out(system.obstacles, fixed[..., None], x, v)
+    for i in loops.axes:
+        arrays[f"x{i}"][...], arrays[f"v{i}"][...] = x[..., i], v[..., i]
 
 
 def lists(system: MassSpringSystem, loops: Loops) -> list[Any]:

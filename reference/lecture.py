@@ -1,4 +1,4 @@
-"""The lecture's own algorithms, executed: Heun on a string, as loops and as whole arrays (slides 7, 8, 9-10 and 11).
+"""The lecture's own algorithms, executed: Heun on a string, as loops and as whole arrays (slides 7-11); a barrier (17).
 
 Bailey, *Modeling the World as a Mesh of Springs* (2021). The mathematics is the lecture's, the code is ours: a string
 of links below an anchor at (x0, y0), link i hanging by spring i. Each link's derivatives come from a function of their
@@ -14,6 +14,7 @@ from math import sqrt
 import numpy as np
 
 from reference.changes import Change, changes_by_step
+from reference.obstacles import Circle
 from reference.outcome import Outcome, outcome_of
 from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
@@ -44,13 +45,16 @@ class StringConstants:
     mass: list[float]
     gravity: float
     drag: float
+    #: x, y and radius [m] of each circle.
+    circles: Sequence[tuple[float, float, float]] = ()
 
     @classmethod
     def of(cls, system: MassSpringSystem) -> StringConstants:
         """The constants of a string."""
         x0, y0 = system.positions[0].tolist()
         springs = (system.stiffness.tolist(), system.rest_lengths.tolist())
-        return cls(x0, y0, *springs, system.masses[1:].tolist(), -float(system.gravity[1]), system.drag)
+        circles = [(c.centre[0], c.centre[1], c.radius) for c in system.obstacles if isinstance(c, Circle)]
+        return cls(x0, y0, *springs, system.masses[1:].tolist(), -float(system.gravity[1]), system.drag, circles)
 
 
 #: (vx, vy, ax, ay) of one link.
@@ -123,6 +127,21 @@ def heun_fused_loops(links: Links, string: StringConstants, dt: float) -> None:
         _move_on(links, i, first[i], derivatives(guess, i, string), dt)
 
 
+def heun_with_barrier(links: Links, string: StringConstants, dt: float) -> None:
+    """Slides 7 and 17: the circle's "tangential velocity" is a product of components, as it is printed."""
+    heun_loops(links, string, dt)
+    for centre_x, centre_y, radius in string.circles:
+        for i in range(len(links.x)):
+            dx, dy = links.x[i] - centre_x, links.y[i] - centre_y
+            square = dx * dx + dy * dy
+            if square < radius * radius:
+                distance = sqrt(square)
+                dx, dy = dx / distance, dy / distance
+                links.x[i], links.y[i] = centre_x + radius * dx, centre_y + radius * dy
+                links.vx[i] *= dy
+                links.vy[i] *= -dx
+
+
 def heun_arrays(links: Links, string: StringConstants, dt: float) -> None:
     """Slide 8: the same with whole arrays in place of the loops (NumPy for the slide's array notation)."""
     x, y, vx, vy = (np.array(values) for values in (links.x, links.y, links.vx, links.vy))
@@ -180,7 +199,7 @@ class LectureListing:
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """See reference.stepper.Stepper."""
         pending = changes_by_step(tuple(changes), dt)
-        reason = why_no_string(system)
+        reason = why_no_string(system) or self._why_no_barrier(system)
         if reason:
             return Outcome("unsupported", reason)
         links = Links(*system.positions[1:].T.tolist(), *system.velocities[1:].T.tolist())
@@ -200,6 +219,13 @@ class LectureListing:
         except (OverflowError, ZeroDivisionError) as error:
             return Outcome("diverged", f"{error} at t = {step * dt:.6g} s", Trajectory.of(states))
         return outcome_of(system, Trajectory.of(states))
+
+    def _why_no_barrier(self, system: MassSpringSystem) -> str | None:
+        if not all(isinstance(obstacle, Circle) for obstacle in system.obstacles):
+            return "the lecture's only barrier is a circle"
+        if system.obstacles and self.advance is not heun_with_barrier:
+            return "this listing knows no barrier, slide 17's does: lecture_barrier"
+        return None
 
 
 def why_no_string(system: MassSpringSystem) -> str | None:
@@ -225,5 +251,6 @@ def listings() -> Mapping[str, LectureListing]:
         LectureListing("lecture_heun_loops", heun_loops),
         LectureListing("lecture_heun_arrays", heun_arrays),
         LectureListing("lecture_heun_incorrect", heun_fused_loops),
+        LectureListing("lecture_barrier", heun_with_barrier),
     )
     return {listing.name: listing for listing in known}

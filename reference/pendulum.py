@@ -81,6 +81,8 @@ def why_no_pendulum(system: MassSpringSystem) -> str | None:
     """Why a system's stiff limit is not a pendulum hung at its first mass, or None if it is."""
     if system.dimension != 2 or not system.is_string:
         return "expected a string in 2D, fixed at its first mass only"
+    if system.obstacles:
+        return "expected no obstacles: a rod that meets one is no pendulum"
     gap = np.diff(system.positions, axis=0)
     length = np.linalg.norm(gap, axis=1)
     if (np.abs(length - system.rest_lengths) > 1e-12 * length).any():

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reference.catalogue import Scheme
-from reference.errors import SolverError
+from reference.errors import InputError, SolverError
 from reference.state import Array, Slope, State, Trajectory
 from reference.system import MassSpringSystem
 
@@ -48,10 +48,16 @@ class RopeMotion:
     """Equations of motion of a mesh whose springs have become rods.
 
     Args:
-        system: any. Where rods hold one another, more of them than can move, only `held` with some give is defined.
+        system: any without obstacles. Where rods hold one another, more of them than can move, only `held` with some
+            give is defined.
+
+    Raises:
+        InputError: for a system with obstacles.
     """
 
     def __init__(self, system: MassSpringSystem) -> None:
+        if system.obstacles:
+            raise InputError("no rope: expected no obstacles, which would push its masses off their rods")
         self.system = system
         self.start = system.start
         self._inverse = np.where(system.fixed, 0.0, 1 / system.masses)

@@ -13,15 +13,34 @@
     parameter = "stiffness"
     value = 100.0
 
+    [[obstacles]]               # what masses may not enter: added to the scene's own, with either form of file
+    kind = "circle"             # circle, sphere: centre [m], radius [m]; cylinder: also its axis, a direction;
+    centre = [0.5, -0.6]        # plane: point [m], normal (a direction, out of it)
+    radius = 0.3
+
 In place of `scene` and [parameters], a table [system] has the fields of `MassSpringSystem`: positions, springs, masses,
 rest_lengths (left out: as long as the springs are at the start), stiffness, damping, drag, gravity, velocities, fixed
 (the indices of the fixed masses).
+
+Or a table [mesh] takes masses and springs from a mesh file, an OBJ or a VTK file (`reference.mesh_file`). Vertices are
+masses, in the file's order and counted from 0; edges of elements are springs, each once, unstretched at the start.
+
+    [mesh]
+    file = "blanket.obj"        # beside the scene file, or a path from there
+    scale = 0.01                # m in a unit of the mesh file; 1 where left out
+    total_mass = 0.3            # kg, shared evenly; or masses = ..., kg, one number or one for each
+    stiffness = 50.0            # N/m, of every spring
+    damping = 0.02              # N s/m, of every spring, along it; 0 where left out
+    drag = 0.0                  # N s/m, on every mass; 0 where left out
+    gravity = [0.0, 0.0, -9.81] # m/s^2; one number: downwards, along the second axis; 9.81 where left out
+    fixed = [0, 7]              # masses that never move; none where left out
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +49,8 @@ import numpy as np
 
 from reference.changes import Change
 from reference.errors import InputError
+from reference.mesh_file import read_mesh
+from reference.obstacles import KINDS, Obstacle, obstacle
 from reference.scenes import Setup, find
 from reference.system import MassSpringSystem
 
@@ -50,8 +71,8 @@ class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
     velocities: list[list[float]] | None = None
     fixed: list[int] = []
 
-    def system(self) -> MassSpringSystem:
-        """The system it describes. Raises InputError as MassSpringSystem does."""
+    def system(self, folder: Path | None = None) -> MassSpringSystem:
+        """The system it describes, all of it here. Raises InputError as MassSpringSystem does."""
         n = len(self.positions)
         for place, i in enumerate(self.fixed):
             if not 0 <= i < n:
@@ -69,6 +90,39 @@ class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
         return MassSpringSystem(**values)
 
 
+class MeshTable(msgspec.Struct, forbid_unknown_fields=True):
+    """The table [mesh]."""
+
+    file: str
+    stiffness: float
+    masses: Numbers | None = None
+    total_mass: float | None = None
+    scale: float = 1.0
+    damping: float = 0.0
+    drag: float = 0.0
+    gravity: Numbers = 9.81
+    fixed: list[int] = []
+
+    def system(self, folder: Path) -> MassSpringSystem:
+        """The system it describes, its file looked for from a folder. Raises InputError, as `read_mesh` too."""
+        for name in ("scale", "total_mass"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < np.inf:
+                raise InputError(f"mesh.{name} = {value:g}: expected a number > 0 [{'m' if name == 'scale' else 'kg'}]")
+        if (self.masses is None) == (self.total_mass is None):
+            raise InputError("mesh: expected either masses or total_mass")
+        mesh = read_mesh(folder / self.file)
+        shared = {name: getattr(self, name) for name in ("stiffness", "damping", "drag", "gravity", "fixed")}
+        with np.errstate(over="ignore"):
+            positions = self.scale * mesh.positions
+        return SystemTable(
+            positions=positions.tolist(),
+            springs=mesh.edges.tolist(),
+            masses=(self.total_mass or 0.0) / len(mesh.positions) if self.masses is None else self.masses,
+            **shared,
+        ).system()
+
+
 class ChangeTable(msgspec.Struct, forbid_unknown_fields=True):
     """One of the tables [[changes]]."""
 
@@ -82,10 +136,12 @@ class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
 
     scene: str | None = None
     system: SystemTable | None = None
+    mesh: MeshTable | None = None
     parameters: dict[str, Any] = {}
     dt: float | None = None
     duration: float | None = None
     changes: list[ChangeTable] = []
+    obstacles: list[dict[str, Any]] = []
 
 
 def load(path: Path, settings: Mapping[str, Any]) -> Setup:
@@ -114,25 +170,41 @@ def load(path: Path, settings: Mapping[str, Any]) -> Setup:
 
 def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup:
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
-    if (content.scene is None) == (content.system is None):
-        raise InputError('expected either scene = "..." or a table [system]')
+    if [content.scene, content.system, content.mesh].count(None) != 2:
+        raise InputError('expected either scene = "..." or a table [system] or a table [mesh]')
+    words = find(content.scene).choices if content.scene is not None else ()
     for name, value in content.parameters.items():
+        if name in words:
+            continue
         numbers = value if isinstance(value, list) else [value]
         if any(isinstance(number, bool) or not isinstance(number, int | float) for number in numbers):
             raise InputError(f"parameters.{name} = {value!r}: expected a number or a list of numbers")
-    if content.system is not None:
+    written_out = content.system or content.mesh
+    if written_out is not None:
         if settings or content.parameters:
             name = next(iter([*settings, *content.parameters]))
             raise InputError(f"{name}: expected no parameters, the system is written out")
-        system, dt, duration = content.system.system(), 1e-3, 0.5
+        system, dt, duration = written_out.system(path.parent), 1e-3, 0.5
     else:
         scene = find(content.scene or "")
         system, dt, duration = scene.system({**content.parameters, **settings}), scene.dt, scene.duration
+    if content.obstacles:
+        given = tuple(_obstacle(i, table) for i, table in enumerate(content.obstacles))
+        system = replace(system, obstacles=(*system.obstacles, *given))
     dt = dt if content.dt is None else content.dt
     duration = duration if content.duration is None else content.duration
     setup = Setup(path.stem, system, dt, duration, changes)
     setup.check()
     return setup
+
+
+def _obstacle(i: int, table: dict[str, Any]) -> Obstacle:
+    if "kind" not in table:
+        raise InputError(f"obstacles[{i}].kind is missing: expected one of {', '.join(KINDS)}")
+    try:
+        return obstacle(**table)
+    except InputError as error:
+        raise InputError(f"obstacles[{i}].{error}") from None
 
 
 def _plain(message: str) -> str:

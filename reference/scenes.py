@@ -1,22 +1,25 @@
 """The scenes: systems with a name and parameters, after the lecture's pictures.
 
 A scene is one function from keyword parameters to a system; its signature says which parameters there are, their types
-and defaults; the decorator `scene` enters it. All quantities in SI units, angles in degrees.
+and defaults; the decorator `scene` enters it. All quantities in SI units, angles in degrees. Here are the string's; the
+others stand in files by subject.
 """
 
 from __future__ import annotations
 
+import importlib
 import inspect
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, radians, sin
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 from reference.changes import Change, changes_by_step, whole_steps
 from reference.errors import InputError, unknown_name
+from reference.state import Array
 from reference.system import MassSpringSystem, check_parameter
 
 #: One number for all, or one for each.
@@ -25,6 +28,8 @@ PerItem = float | Sequence[float]
 #: More masses than that are a slip of the finger, and would fill the memory.
 MOST_MASSES = 10_000_000
 
+#: Where the scenes stand, in the order they are shown.
+_FILES = ("reference.scenes", "reference.barrier", "reference.lattices", "reference.trusses")
 _SCENES: dict[str, Scene] = {}
 
 
@@ -59,8 +64,14 @@ class Scene:
         """Parameter names and their defaults."""
         return {name: p.default for name, p in inspect.signature(self.build).parameters.items()}
 
+    @property
+    def choices(self) -> Mapping[str, tuple[str, ...]]:
+        """The parameters that are a word, with the words there are."""
+        hints = get_type_hints(self.build)
+        return {name: get_args(hints[name]) for name in self.parameters if get_origin(hints[name]) is Literal}
+
     def system(self, settings: Mapping[str, Any]) -> MassSpringSystem:
-        """The system with some parameters set, given as numbers, lists of numbers, or text of either.
+        """The system with some parameters set, given as words, numbers, lists of numbers, or text of either.
 
         Raises:
             InputError: for an unknown parameter or a value of the wrong type or range.
@@ -69,9 +80,14 @@ class Scene:
         for name, value in settings.items():
             if name not in self.parameters:
                 raise unknown_name(f"parameter of scene {self.name!r}", name, self.parameters)
+            if name in self.choices:
+                values[name] = _chosen(name, value, self.choices[name])
+                continue
             several = self.build.__annotations__[name] in (PerItem, "PerItem")
             values[name] = _converted(name, value, self.parameters[name], several)
-        return self.build(**values)
+        # of numbers that are too large the system itself says so
+        with np.errstate(all="ignore"):
+            return self.build(**values)
 
 
 @dataclass(frozen=True)
@@ -113,14 +129,22 @@ def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., Ma
 
 def scenes() -> Mapping[str, Scene]:
     """All scenes by name."""
-    return MappingProxyType(_SCENES)
+    for file in _FILES:
+        importlib.import_module(file)
+    # By file, whichever was imported first: sorting is stable, and keeps the order within each.
+    return MappingProxyType(dict(sorted(_SCENES.items(), key=lambda entry: _place(entry[1]))))
+
+
+def _place(entry: Scene) -> int:
+    module = entry.build.__module__
+    return _FILES.index(module) if module in _FILES else len(_FILES)
 
 
 def find(name: str) -> Scene:
     """The scene of that name. Raises InputError, with a suggestion, where there is none."""
-    if name not in _SCENES:
-        raise unknown_name("scene", name, _SCENES)
-    return _SCENES[name]
+    if name not in scenes():
+        raise unknown_name("scene", name, scenes())
+    return scenes()[name]
 
 
 @scene(dt=1e-3, duration=2.0, slides="2, 4")
@@ -173,33 +197,53 @@ def string(
     It hangs from an anchor at (x0, y0), which is mass 0 of the system and fixed; spring j joins masses j and j + 1.
     mass, rest_length, stiffness and damping are one number, or one for each of the masses.
     """
-    if not 1 <= masses <= MOST_MASSES:
-        raise InputError(f"masses = {masses:g}: expected a whole number from 1 to {MOST_MASSES:,}")
-    lengths = _each("rest_length", rest_length, masses)
+    counted("masses", masses)
+    lengths = each("rest_length", rest_length, masses)
     reach = np.concatenate([[0.0], np.cumsum(lengths)])
     if np.ptp(lengths) == 0:
         reach = lengths[0] * np.arange(masses + 1)
     # Exactly horizontal or vertical where that is asked for: cos(90 degrees) is 6e-17 on a computer.
     across, down = (round(f(radians(angle)), 15) if angle % 90 == 0 else f(radians(angle)) for f in (cos, sin))
-    carried = _each("mass", mass, masses)
+    carried = each("mass", mass, masses)
     return MassSpringSystem(
         positions=np.column_stack([x0 + across * reach, y0 - down * reach]),
         springs=np.column_stack([np.arange(masses), np.arange(1, masses + 1)]),
         masses=np.concatenate([carried[:1], carried]),
         rest_lengths=lengths,
-        stiffness=_each("stiffness", stiffness, masses),
-        damping=_each("damping", damping, masses),
+        stiffness=each("stiffness", stiffness, masses),
+        damping=each("damping", damping, masses),
         drag=drag,
         gravity=np.array(gravity),
         fixed=np.arange(masses + 1) == 0,
     )
 
 
-def _each(name: str, value: PerItem, count: int) -> np.ndarray[Any, np.dtype[np.float64]]:
+def counted(name: str, value: int, least: int = 1, most: int = MOST_MASSES) -> int:
+    """The number, if it is in that range. Raises InputError."""
+    if not least <= value <= most:
+        raise InputError(f"{name} = {value:g}: expected a whole number from {least} to {most:,}")
+    return value
+
+
+def not_below_zero(**values: float) -> None:
+    """Refuse a number below zero, by its name. Raises InputError."""
+    for name, value in values.items():
+        if not value >= 0:
+            raise InputError(f"{name} = {value:g}: expected a number >= 0")
+
+
+def each(name: str, value: PerItem, count: int) -> Array:
+    """One number for each of `count` items, shape (count,). Raises InputError for another number of numbers."""
     values = np.asarray(value, dtype=np.float64)
     if values.ndim == 1 and len(values) != count:
         raise InputError(f"{name} has {len(values)} numbers: expected one, or one for each of {count}")
     return np.array(np.broadcast_to(values, (count,)))
+
+
+def _chosen(name: str, value: Any, words: tuple[str, ...]) -> str:
+    if value not in words:
+        raise InputError(f"{name} = {value!r}: expected one of {', '.join(words)}")
+    return str(value)
 
 
 def _converted(name: str, value: Any, default: Any, several: bool) -> Any:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from reference import obstacles as barriers
 from reference.errors import InputError, unknown_name
 from reference.state import Array, State
 
@@ -48,6 +49,7 @@ class MassSpringSystem:
         gravity: [m/s^2], shape (d,); a single number g means downwards, along the second axis.
         velocities: [m/s], shape (n, d); zero unless given.
         fixed: which masses never move, shape (n,).
+        obstacles: what free masses may not enter; they are pushed out at the end of every step, in this order.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.
@@ -63,6 +65,7 @@ class MassSpringSystem:
     gravity: Array = field(default_factory=lambda: np.array(9.81))
     velocities: Array = field(default_factory=lambda: np.zeros(1))
     fixed: BoolArray = field(default_factory=lambda: np.zeros(1, dtype=bool))
+    obstacles: tuple[barriers.Obstacle, ...] = ()
 
     def __post_init__(self) -> None:
         positions = _finite("positions", self.positions, "m")
@@ -94,6 +97,8 @@ class MassSpringSystem:
         if len(moving_anchor):
             i = moving_anchor[0]
             raise InputError(f"velocities[{i}] = {self.velocities[i].tolist()}: expected zero, mass {i} is fixed")
+        obstacles = barriers.checked(self.obstacles, self.positions, self.fixed, self.size)
+        object.__setattr__(self, "obstacles", obstacles)
 
     @property
     def dimension(self) -> int:
@@ -156,6 +161,7 @@ class MassSpringSystem:
     def to_dict(self) -> dict[str, Any]:
         """Plain lists and numbers, the fields by name: what a digest or a JSON file is made of."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
+        values["obstacles"] = [obstacle.to_dict() for obstacle in self.obstacles]
         return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
 
 

@@ -20,7 +20,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         metavar="NAME",
         help="Run the conformance suite for these engines only.",
     )
-    parser.addoption("--full", action="store_true", help="Run the soak tests in full: 2,000 runs, 20 kills.")
+    parser.addoption(
+        "--full",
+        action="store_true",
+        help="Run the soak tests and the fuzz test in full: 2,000 runs, 20 kills; 1,000 files.",
+    )
 
 
 def pytest_configure(config: pytest.Config) -> None:

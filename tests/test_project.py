@@ -25,7 +25,20 @@ ROOT = Path(__file__).parents[1]
 ROOMS = ("reference", "engines", "experiments", "report")
 
 #: Of the reference, the files that must work in a bare environment.
-BARE_REFERENCE = ("cache", "changes", "errors", "outcome", "probe", "scenes", "state", "system")
+BARE_REFERENCE = (
+    "barrier",
+    "cache",
+    "changes",
+    "errors",
+    "lattices",
+    "obstacles",
+    "outcome",
+    "probe",
+    "scenes",
+    "state",
+    "system",
+    "trusses",
+)
 
 #: What may be imported at the top of the files that must work in a bare environment, beside the standard library.
 LIGHT = ["numpy", "engines"]

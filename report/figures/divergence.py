@@ -21,7 +21,7 @@ def draw(result: Result) -> Picture:
     comparison: Comparison = result.data["comparison"]
     runs = [run for run in comparison.runs if run.stepper.kind == "engine" and run.error is not None]
     figure, axes = new_figure(figsize=(10, max(HEIGHT, ENTRY * (len(runs) + 2))))
-    times = comparison.true.times
+    times = comparison.times
     for i, run in enumerate(runs):
         _line(axes, times, run.error, i, len(runs), "-", _label(run))
         _line(axes, times, run.deviation, i, len(runs), "--", None)

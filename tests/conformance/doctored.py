@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from engines.engine import CAPABILITIES, refuse_beyond
+from reference.obstacles import keep_out
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -26,6 +27,11 @@ class KickDrift:
         """Advance by dt."""
         self.v += self.dt * self.acceleration()
         self.x += self.dt * self.v
+        self.meet_obstacles()
+
+    def meet_obstacles(self) -> None:
+        """The masses inside come out."""
+        self.x, self.v = keep_out(self.system.obstacles, self.system.fixed[:, None], self.x, self.v)
 
     def acceleration(self) -> Array:
         """Of all masses [m/s^2], shape (n, d)."""
@@ -83,6 +89,33 @@ class OneMassForAll(KickDrift):
 
     def __init__(self, system: MassSpringSystem, dt: float) -> None:
         super().__init__(system.with_parameter("mass", float(system.masses[0])), dt)
+
+
+class PassesThrough(KickDrift):
+    """Knows of no obstacle, and does not say so."""
+
+    def meet_obstacles(self) -> None:
+        """Nothing."""
+
+
+class Bounces(KickDrift):
+    """Is thrown back by an obstacle as fast as it came."""
+
+    def meet_obstacles(self) -> None:
+        """The velocity across is turned."""
+        before = self.v
+        super().meet_obstacles()
+        self.v = 2 * self.v - before
+
+
+class Rubs(KickDrift):
+    """Loses some of the velocity along an obstacle."""
+
+    def meet_obstacles(self) -> None:
+        """A tenth of it, at each meeting."""
+        before = self.v
+        super().meet_obstacles()
+        self.v = np.where((self.v != before).any(axis=1, keepdims=True), 0.9 * self.v, self.v)
 
 
 class ResetsSilently(KickDrift):

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from experiments.command_line import COMMANDS
+from reference.scenes import scenes
 from tests.experiments.terminal import Said, python, springlab
 
 #: Words after `springlab`, and what the line must say.
@@ -24,7 +25,7 @@ LINES = [
     ("report --only erata", "unknown experiment 'erata': did you mean 'errata'?"),
     ("compare --steper heun", "No such option '--steper'"),
     # A name like no other: all there are.
-    ("compare xyz", "unknown scene 'xyz': expected one of spring, string"),
+    ("compare xyz", f"unknown scene 'xyz': expected one of {', '.join(sorted(scenes()))}"),
     # Negative, zero, NaN, infinite.
     ("compare --set mass=-1", "mass = -1: expected a number > 0 [kg]"),
     ("compare --set mass=0", "mass = 0: expected a number > 0 [kg]"),
@@ -91,8 +92,8 @@ FILES = {
     "an unknown parameter": ('scene = "string"\n[parameters]\nmas = 1.0\n', "'mas': did you mean 'mass'?"),
     "no TOML": ('scene = "string\n', "line 1"),
     "not UTF-8": ('scene = "\udcff"\n', ": expected UTF-8 text"),
-    "empty": ("", ': expected either scene = "..." or a table [system]'),
-    "both": ('scene = "string"\n' + MESH, ': expected either scene = "..." or a table [system]'),
+    "empty": ("", ': expected either scene = "..." or a table [system] or a table [mesh]'),
+    "both": ('scene = "string"\n' + MESH, ': expected either scene = "..." or a table [system] or a table [mesh]'),
     "a missing node": (
         MESH.replace("[[0, 1]]", "[[0, 2]]"),
         ", line 3: springs[0] = [0, 2]: expected masses from 0 to 1",

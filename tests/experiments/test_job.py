@@ -23,6 +23,7 @@ from engines.pymunk_springs import PymunkSprings
 from experiments import job as job_module
 from experiments.job import Job, digest
 from reference.changes import Change
+from reference.obstacles import Circle
 from tests.experiments import jobs
 from tests.experiments.jobs import STRING, numbered, stepped
 from tests.experiments.terminal import python
@@ -69,6 +70,8 @@ def other(value: Any) -> Any:
         changed = value.copy()
         changed.flat[-1] = np.nextafter(changed.flat[-1], np.inf)
         return changed
+    if isinstance(value, tuple):
+        return (*value, Circle((0.0, -9.0), 0.1))
     return math.nextafter(value, math.inf)
 
 

@@ -12,10 +12,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import reference.identify
 from reference.catalogue import Scheme, find, schemes
 from reference.changes import Change
 from reference.exact import exact
-from reference.identify import NOISE, TOLERANCE, Identification, Match, candidates, identify, identify_run
+from reference.identify import (
+    NOISE,
+    TOLERANCE,
+    Identification,
+    Match,
+    candidates,
+    candidates_for,
+    identify,
+    identify_run,
+)
 from reference.outcome import Outcome
 from reference.rope import ROPE_KICK_DRIFT
 from reference.scenes import find as find_scene
@@ -325,3 +335,71 @@ def test_steppers_of_rods_do_not_enter_where_there_are_none() -> None:
     """On a stretched string the catalogue has no pendulum candidates; a rope's rods are brought to their lengths."""
     _, trajectories = known("plain")
     assert set(trajectories) == {*schemes(), ROPE_KICK_DRIFT.name}
+
+
+# --- Large systems ---
+
+
+@pytest.fixture
+def all_are_large(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every system counts as large, so that small ones can be identified both ways."""
+    monkeypatch.setattr(reference.identify, "LARGE", 0)
+
+
+@pytest.mark.usefixtures("all_are_large")
+@pytest.mark.parametrize("case", PARAMETERS)
+@pytest.mark.parametrize("scheme", schemes().values(), ids=label)
+def test_on_large_systems_schemes_are_identified_as_on_small_ones(scheme: Scheme, case: str) -> None:
+    """As itself or as the one that theory says is the same there, though few are followed to the end."""
+    system, _ = known(case)
+    recorded = Recorded(SchemeStepper(scheme).run(system, DT, STEPS))
+    found = identify(recorded, system, DT, STEPS)
+    assert found.identified_as == SAME_AS[case].get(scheme.name, scheme.name)
+    assert found.error <= 1e-12 * system.size
+
+
+@pytest.mark.usefixtures("all_are_large")
+def test_on_large_systems_only_what_a_run_can_be_is_followed() -> None:
+    """Of a run by Heun, that is Heun; the catalogue's own run is not run again, and is itself."""
+    system, _ = known("plain")
+    stepper = SchemeStepper(find("heun"))
+    outcome = stepper.run(system, DT, STEPS)
+    assert list(candidates_for([(Recorded(outcome), outcome)], system, DT, STEPS)) == ["heun"]
+    own = candidates_for([(stepper, outcome)], system, DT, STEPS)
+    assert own["heun"] is outcome.trajectory
+
+
+@pytest.mark.usefixtures("all_are_large")
+def test_who_only_has_a_schemes_name_is_not_taken_at_its_word() -> None:
+    """A run by rk4 whose stepper calls itself Heun is rk4."""
+    system, _ = known("plain")
+    outcome = SchemeStepper(find("rk4")).run(system, DT, STEPS)
+    assert identify(Recorded(outcome, name="heun"), system, DT, STEPS).identified_as == "rk4"
+
+
+@pytest.mark.usefixtures("all_are_large")
+def test_on_large_systems_a_stranger_gets_the_nearest() -> None:
+    """Wrong by a part in 1e9: not identified, and Heun is the nearest."""
+    system, _ = known("both")
+    stranger = SchemeStepper(wrong.stepped(wrong.slightly_stronger, find("heun")))
+    found = identify(stranger, system, DT, STEPS)
+    assert found.identified_as is None
+    assert found.ranking[0].scheme == "heun"
+
+
+@pytest.mark.usefixtures("all_are_large")
+def test_on_large_systems_what_shows_late_is_still_seen() -> None:
+    """Damping that is switched on after 50 steps: until then two schemes are the same, and the search goes on."""
+    system, _ = known("plain")
+    changes = (Change(0.05, "damping", 0.3),)
+    stepper = SchemeStepper(find("kick_drift_implicit_damping"))
+    recorded = Recorded(stepper.run(system, DT, STEPS, changes))
+    assert identify(recorded, system, DT, STEPS, changes).identified_as == "kick_drift_implicit_damping"
+
+
+@pytest.mark.usefixtures("all_are_large")
+def test_on_large_systems_what_left_nothing_or_blew_up_at_once_is_not_identified() -> None:
+    """As on small ones."""
+    system, _ = known("plain")
+    for outcome in (Outcome("crashed", "killed"), Outcome("diverged", "gone", shifted(system, 1e9))):
+        assert identify(Recorded(outcome), system, DT, STEPS).ranking == ()

@@ -233,6 +233,6 @@ def test_links_copied_are_links_of_their_own() -> None:
 
 def test_listings_say_what_they_are() -> None:
     """Slide and heading, in a sentence; the kind is the lecture's."""
-    assert [listing.kind for listing in LISTINGS] == ["lecture"] * 3
+    assert [listing.kind for listing in LISTINGS] == ["lecture"] * 4
     assert "headed incorrect" in INCORRECT.summary
     assert LOOPS.version is None

@@ -172,12 +172,12 @@ def test_an_empty_list_of_springs_is_a_heap_of_masses(tmp_path: Path) -> None:
         ),
         ('scene = "strng"\n', "", "unknown scene 'strng': did you mean 'string'?"),
         # What there must be one of.
-        ("dt = 1e-3\n", "", 'expected either scene = "..." or a table [system]'),
-        ("", "", 'expected either scene = "..." or a table [system]'),
+        ("dt = 1e-3\n", "", 'expected either scene = "..." or a table [system] or a table [mesh]'),
+        ("", "", 'expected either scene = "..." or a table [system] or a table [mesh]'),
         (
             'scene = "string"\n' + WRITTEN_OUT,
             "",
-            'expected either scene = "..." or a table [system]',
+            'expected either scene = "..." or a table [system] or a table [mesh]',
         ),
         (
             WRITTEN_OUT + "[parameters]\nmass = 3.0\n",
@@ -325,3 +325,17 @@ def test_a_mutated_file_makes_a_setup_or_one_line(tmp_path: Path, text: str, edi
     else:
         assert message.startswith(f"scene file {file}")
         assert "\n" not in message
+
+
+def test_a_parameter_that_is_a_word_is_given_as_one(tmp_path: Path) -> None:
+    """A truss by its name; another word, or a word where a number is expected, is refused with its line."""
+    text = 'scene = "bridge"\n[parameters]\nkind = "howe"\n'
+    assert loaded(tmp_path, text).system.to_dict() == find("bridge").system({"kind": "howe"}).to_dict()
+    for wrong, message in (
+        (text.replace("howe", "roof"), "line 3: kind = 'roof': expected one of warren, pratt, howe"),
+        (text.replace('"howe"', "3"), "line 3: kind = 3: expected one of warren, pratt, howe"),
+        (text.replace("kind", "deck"), "line 3: parameters.deck = 'howe': expected a number or a list of numbers"),
+    ):
+        with pytest.raises(InputError) as refused:
+            loaded(tmp_path, wrong)
+        assert str(refused.value).endswith(message)

@@ -44,7 +44,10 @@ def test_every_parameter_changes_the_system(scene: Any) -> None:
     """None is ignored."""
     plain = scene.system({}).to_dict()
     for name, value in scene.parameters.items():
-        assert scene.system({name: value + 1}).to_dict() != plain, name
+        a_little = 1 if isinstance(value, int) else 0.01
+        others = [word for word in scene.choices.get(name, ()) if word != value] or [value + a_little]
+        for other in others:
+            assert scene.system({name: other}).to_dict() != plain, name
 
 
 def test_the_spring_hangs_at_its_stretch() -> None:
@@ -155,6 +158,24 @@ def test_one_number_for_each_mass_or_spring(as_text: bool) -> None:
         ("string", {"drag": "0.1,0.2"}, "drag = '0.1,0.2': expected one number"),
         ("string", {"gravity": "inf"}, "gravity = inf: expected a finite number [m/s^2]"),
         ("spring", {"mass": [0.1, 0.2]}, "mass = [0.1, 0.2]: expected one number"),
+        ("cloth", {"pinned": "corner"}, "pinned = 'corner': expected one of corners, four_corners, edge"),
+        ("cloth", {"pinned": ["edge"]}, "pinned = ['edge']: expected one of corners, four_corners, edge"),
+        ("cloth", {"rows": 1}, "rows = 1: expected a whole number from 2 to 2,000,000"),
+        ("cloth", {"rows": 2000, "columns": 2000}, "rows x columns = 4,000,000 masses: expected at most 2,000,000"),
+        ("cloth", {"bend": -1}, "bend = -1: expected a number >= 0"),
+        ("cloth", {"mass": [0.1, 0.2]}, "mass has 2 numbers: expected one, or one for each of 100"),
+        ("jello", {"diagonals": "-1"}, "diagonals = -1: expected a number >= 0"),
+        ("bridge", {"kind": "pratt", "panels": 5}, "panels = 5: expected an even number, a pratt truss is symmetric"),
+        ("bridge", {"panels": 0}, "panels = 0: expected a whole number from 1 to 100,000"),
+        ("bridge", {"truck_position": 25}, "truck_position = 25: expected a number from 0 to 24 [m]"),
+        ("bridge", {"height": 0}, "height = 0: expected a number > 0 [m]"),
+        (
+            "bridge",
+            {"axial_stiffness": [1e7] * 3},
+            "axial_stiffness has 3 numbers: expected one, or one for each of 31",
+        ),
+        ("soil", {"margin": -1}, "margin = -1: expected a whole number from 0 to 10,000,000"),
+        ("soil", {"soil_damping": -1}, "soil_damping = -1: expected a number >= 0"),
         ("spring", {"stretch": -0.125}, "springs[0] = [0, 1]: expected a length > 0, both masses start at [0.0, 0.0]"),
     ],
 )

@@ -24,7 +24,7 @@ TRIANGLE: dict[str, Any] = {
 }
 
 #: The fields that hold arrays.
-ARRAYS = [f.name for f in dataclasses.fields(MassSpringSystem) if f.name != "drag"]
+ARRAYS = [f.name for f in dataclasses.fields(MassSpringSystem) if f.name not in ("drag", "obstacles")]
 
 NAN, INF = float("nan"), float("inf")
 

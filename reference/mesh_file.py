@@ -1,0 +1,224 @@
+"""Mesh files: vertices become masses, and the edges of elements become springs, each once.
+
+Read by meshio. Surfaces come as
+OBJ, triangles and other polygons; solids as VTK's unstructured grids in its older format (.vtk), text or binary: of
+lines, triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and hexahedra.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+import warnings
+from collections.abc import Mapping
+from contextlib import redirect_stderr
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from reference.errors import InputError
+from reference.state import Array
+from reference.system import IntArray
+
+#: By the end of a file's name, the number of its first vertex.
+FORMATS = {".obj": 1, ".vtk": 0}
+
+#: A triangle with less area than this part of its longest side squared is none; so for tetrahedra, volume and cube.
+FLAT = 1e-12
+
+#: Edges of elements by the kinds' names in meshio, as corners of the element.
+EDGES: Mapping[str, list[tuple[int, int]]] = {
+    "line": [(0, 1)],
+    "triangle": [(0, 1), (1, 2), (2, 0)],
+    "quad": [(0, 1), (1, 2), (2, 3), (3, 0)],
+    "tetra": [(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)],
+    "pyramid": [(0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)],
+    "wedge": [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)],
+    "hexahedron": [(i, (i + 1) % 4) for i in range(4)]
+    + [(4 + i, 4 + (i + 1) % 4) for i in range(4)]
+    + [(i, 4 + i) for i in range(4)],
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """What a mesh file has.
+
+    Attributes:
+        positions: of the vertices in the file's order and its own unit of length, shape (n, 3).
+        edges: the two vertices of each, from 0, shape (s, 2): each edge once, in the order of the elements.
+    """
+
+    positions: Array
+    edges: IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class _Block:
+    """Elements of one kind that follow one another: corners (m, c), and the number of the first in the file, from 1."""
+
+    kind: str
+    corners: IntArray
+    first: int
+
+    @property
+    def edges(self) -> list[tuple[int, int]]:
+        c = self.corners.shape[1]
+        return [(i, (i + 1) % c) for i in range(c)] if self.kind == "polygon" else EDGES[self.kind]
+
+
+def read_mesh(path: Path) -> Mesh:
+    """The mesh in a file.
+
+    Raises:
+        InputError: naming the file, the vertex or element (counted from 1) and what was expected.
+    """
+    try:
+        return _mesh(path)
+    except InputError as error:
+        raise InputError(f"mesh file {path}: {error}") from None
+
+
+def _mesh(path: Path) -> Mesh:
+    if path.suffix.lower() not in FORMATS:
+        raise InputError(f"expected a name that ends in {' or '.join(FORMATS)}")
+    first_vertex = FORMATS[path.suffix.lower()]
+    found = _read(path)
+    positions, blocks = _positions(found.points, first_vertex), _blocks(found.cells)
+    for block in blocks:
+        _check(block, positions, first_vertex)
+    edges = _edges(blocks)
+    unused = np.setdiff1d(np.arange(len(positions)), edges)
+    if len(unused):
+        raise InputError(f"vertex {unused[0] + first_vertex} is in no element: expected every vertex to be in one")
+    return Mesh(positions, edges)
+
+
+def _read(path: Path) -> Any:
+    """What meshio makes of a file. Whatever it raises, it raises because of the file."""
+    try:
+        if not path.is_file():
+            raise InputError("no such file")
+        with warnings.catch_warnings(), redirect_stderr(io.StringIO()) as said:
+            # it warns, and goes on without, where there is less than announced or what it does not know
+            warnings.simplefilter("error")
+            found = _read_obj(path) if path.suffix.lower() == ".obj" else _read_vtk(path)
+        if said.getvalue():
+            raise ValueError(said.getvalue())
+        return found
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(f"expected a mesh in the format {path.suffix.lower()}: {_reason(error)}") from None
+
+
+def _read_obj(path: Path) -> Any:
+    """Only of its vertices and faces: where there are normals, meshio wants one for every vertex."""
+    import meshio
+
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    used = [line for line in lines if line.split(maxsplit=1)[:1] in (["v"], ["f"])]
+    return meshio.read(io.StringIO("\n".join(used)), file_format="obj")
+
+
+def _read_vtk(path: Path) -> Any:
+    """Only with elements: a grid without them can be larger, by a few numbers, than any memory."""
+    import meshio
+
+    for kind in re.findall(rb"^\s*DATASET\s+(\S*)", path.read_bytes(), re.IGNORECASE | re.MULTILINE):
+        if kind.upper() != b"UNSTRUCTURED_GRID":
+            raise InputError(f"DATASET {kind.decode(errors='replace')!r}: expected UNSTRUCTURED_GRID")
+    return meshio.vtk.read(path)
+
+
+def _reason(error: Exception) -> str:
+    if "inhomogeneous" in str(error):
+        return "lines of one kind have as many numbers as one another"
+    # a reader may quote the file, which may have anything in it
+    printable = "".join(c if c.isprintable() else " " for c in str(error))
+    return " ".join(printable.split())[:200] or "what it announces is not what follows"
+
+
+def _positions(points: Any, first_vertex: int) -> Array:
+    positions = np.asarray(points, dtype=np.float64)
+    if positions.size == 0:
+        raise InputError("it has no vertices")
+    if positions.ndim != 2 or positions.shape[1] < 3:
+        raise InputError("expected three coordinates of every vertex")
+    # what OBJ has beyond three is a colour
+    positions = np.ascontiguousarray(positions[:, :3])
+    bad = np.flatnonzero(~np.isfinite(positions).all(axis=1))
+    if len(bad):
+        where = positions[bad[0]].tolist()
+        raise InputError(f"vertex {bad[0] + first_vertex} = {where}: expected finite numbers")
+    return positions
+
+
+def _blocks(cells: Any) -> list[_Block]:
+    blocks, first = [], 1
+    for block in cells:
+        corners = np.asarray(block.data)
+        if block.type != "polygon" and block.type not in EDGES:
+            known = ", ".join([*EDGES, "polygon"])
+            raise InputError(f"element {first} is of the kind {block.type}: expected one of {known}")
+        if corners.ndim != 2 or corners.size == 0:
+            raise InputError(f"element {first}: expected the numbers of its vertices")
+        blocks.append(_Block(block.type, corners, first))
+        first += len(corners)
+    if first == 1:
+        raise InputError("it has no elements: expected at least one, as their edges are the springs")
+    return blocks
+
+
+def _check(block: _Block, positions: Array, first_vertex: int) -> None:
+    """Refuse the first element with a corner out of range, a corner twice, too few of them, or without extent."""
+    corners, n = block.corners, len(positions)
+    if block.kind == "polygon" and corners.shape[1] < 3:
+        raise InputError(f"element {block.first}: expected three vertices or more, not {corners.shape[1]}")
+    outside = (corners < 0) | (corners >= n)
+    if outside.any():
+        i, j = np.argwhere(outside)[0]
+        last = n - 1 + first_vertex
+        raise InputError(
+            f"element {block.first + i} names vertex {int(corners[i, j]) + first_vertex}: "
+            f"expected one from {first_vertex} to {last}"
+        )
+    in_order = np.sort(corners, axis=1)
+    twice = in_order[:, 1:] == in_order[:, :-1]
+    if twice.any():
+        i, j = np.argwhere(twice)[0]
+        raise InputError(f"element {block.first + i} names vertex {in_order[i, j] + first_vertex} twice")
+    _check_extent(block, positions, first_vertex)
+
+
+def _check_extent(block: _Block, positions: Array, first_vertex: int) -> None:
+    corners = block.corners
+    pairs = corners[:, block.edges].astype(np.int64)
+    with np.errstate(over="ignore"):
+        lengths = np.linalg.norm(positions[pairs[:, :, 1]] - positions[pairs[:, :, 0]], axis=2)
+    if not np.isfinite(lengths).all():
+        raise InputError("expected coordinates whose distances are finite")
+    if (lengths == 0).any():
+        i, j = np.argwhere(lengths == 0)[0]
+        a, b = pairs[i, j] + first_vertex
+        raise InputError(f"element {block.first + i}: vertices {a} and {b} are in one place, expected a length > 0")
+    if block.kind not in ("triangle", "tetra"):
+        return
+    # in the longest edge's unit: no product is too large or too small
+    sides = (positions[corners[:, 1:]] - positions[corners[:, :1]]) / lengths.max(axis=1)[:, None, None]
+    across = np.cross(sides[:, 0], sides[:, 1])
+    what = "area" if block.kind == "triangle" else "volume"
+    extent = np.linalg.norm(across, axis=1) if what == "area" else np.abs((across * sides[:, -1]).sum(axis=1))
+    if (extent <= FLAT).any():
+        raise InputError(
+            f"element {block.first + np.argmax(extent <= FLAT)} is flat: expected a {block.kind} with {what}"
+        )
+
+
+def _edges(blocks: list[_Block]) -> IntArray:
+    pairs = np.concatenate([block.corners[:, block.edges].reshape(-1, 2).astype(np.int64) for block in blocks])
+    pairs.sort(axis=1)
+    _, first = np.unique(pairs, axis=0, return_index=True)
+    return pairs[np.sort(first)]

@@ -1,0 +1,238 @@
+"""Every kind of obstacle: what the rule promises, how it ends a step, and what is refused."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+
+from reference import catalogue
+from reference.errors import InputError, SolverError
+from reference.exact import equilibrium, exact
+from reference.kernels import advance
+from reference.obstacles import KINDS, Circle, Cylinder, Obstacle, Plane, Sphere, keep_out, obstacle
+from reference.pendulum import PendulumMotion
+from reference.rope import RopeMotion
+from reference.scenes import find
+from reference.simulate import simulate
+from reference.state import Array
+from reference.stepper import catalogued
+from reference.sweep import sweep
+from reference.system import MassSpringSystem
+from tests.reference.systems import property_test, seeds
+
+OBSTACLES: list[Obstacle] = [
+    Circle((0.3, -0.2), 0.5),
+    Sphere((0.3, -0.2, 0.1), 0.5),
+    Cylinder((0.3, -0.2, 0.1), (1.0, 2.0, -2.0), 0.5),
+    Plane((0.3, -0.2), (0.6, 0.8)),
+    Plane((0.3, -0.2, 0.1), (1.0, 2.0, -2.0)),
+]
+
+Rule = Callable[[Array, Array], tuple[Array, Array]]
+
+BARRIER = find("barrier").system({})
+
+
+def label(made: Obstacle) -> str:
+    """Kind and dimension."""
+    return f"{made.kind} {made.dimension}D"
+
+
+def check_rule(made: Obstacle, rule: Rule, seed: int) -> None:
+    """Nobody inside; along the surface v is kept and across it zero; no speed gained; twice does what once does.
+
+    To rounding: positions are of 1 m and speeds of 5 m/s, which a normal off by 1e-15 leaves 1e-14 of.
+    """
+    rng = np.random.default_rng(seed)
+    x = np.array([0.3, -0.2, 0.1])[: made.dimension] + rng.uniform(-0.7, 0.7, (40, made.dimension))
+    v = rng.uniform(-5, 5, x.shape)
+    gap, normal = made.gap(x)
+    pushed, kept = rule(x, v)
+    inside = gap[:, 0] < 0
+    assert made.gap(pushed)[0].min() >= -1e-14
+    assert pushed[~inside].tolist() == x[~inside].tolist()
+    assert kept[~inside].tolist() == v[~inside].tolist()
+    across = (kept * normal).sum(axis=1)
+    assert np.abs(across[inside]).max(initial=0.0) <= 1e-13
+    along = [q - (q * normal).sum(axis=1, keepdims=True) * normal for q in (v, kept)]
+    assert along[1][inside] == pytest.approx(along[0][inside], abs=1e-13)
+    # straight out: no other point of the surface is nearer
+    assert np.linalg.norm(pushed - x, axis=1)[inside] == pytest.approx(-gap[inside, 0], abs=1e-14)
+    assert ((kept**2).sum(axis=1) <= (v**2).sum(axis=1) * (1 + 1e-14)).all()
+    again = rule(pushed, kept)
+    assert again[0] == pytest.approx(pushed, abs=1e-14)
+    assert again[1] == pytest.approx(kept, abs=1e-13)
+
+
+@pytest.mark.parametrize("made", OBSTACLES, ids=label)
+@property_test
+@given(seed=seeds)
+def test_the_rule_keeps_its_promises(made: Obstacle, seed: int) -> None:
+    """Wherever masses are, however they move."""
+    check_rule(made, made.push_out, seed)
+
+
+def reflecting(made: Obstacle) -> Rule:
+    """Throws back."""
+
+    def rule(x: Array, v: Array) -> tuple[Array, Array]:
+        pushed, kept = made.push_out(x, v)
+        return pushed, 2 * kept - v
+
+    return rule
+
+
+def halfway(made: Obstacle) -> Rule:
+    """Moves half of the way out."""
+
+    def rule(x: Array, v: Array) -> tuple[Array, Array]:
+        pushed, kept = made.push_out(x, v)
+        return (x + pushed) / 2, kept
+
+    return rule
+
+
+def stopping(made: Obstacle) -> Rule:
+    """Takes all the velocity."""
+
+    def rule(x: Array, v: Array) -> tuple[Array, Array]:
+        pushed, kept = made.push_out(x, v)
+        return pushed, np.where((pushed != x).any(axis=1, keepdims=True), 0 * v, kept)
+
+    return rule
+
+
+@pytest.mark.parametrize("wrong", [reflecting, halfway, stopping])
+@pytest.mark.parametrize("made", OBSTACLES, ids=label)
+def test_the_promises_fail_on_wrong_rules(made: Obstacle, wrong: Callable[[Obstacle], Rule]) -> None:
+    """And on the circle's as it is printed."""
+    with pytest.raises(AssertionError):
+        check_rule(made, wrong(made), 1)
+    if isinstance(made, Circle):
+        with pytest.raises(AssertionError):
+            check_rule(made, made.push_out_as_printed, 1)
+
+
+@pytest.mark.parametrize("made", OBSTACLES, ids=label)
+def test_a_mass_at_a_centre_comes_out_somewhere(made: Obstacle) -> None:
+    """There is no way straight out: one is chosen."""
+    middle = np.array([[0.3, -0.2, 0.1][: made.dimension]])
+    x, v = made.push_out(middle, np.ones_like(middle))
+    assert abs(float(made.gap(x)[0][0, 0])) <= 1e-15
+    assert np.isfinite(v).all()
+
+
+@pytest.mark.parametrize("made", OBSTACLES, ids=label)
+def test_an_obstacle_in_plain_values_makes_the_same(made: Obstacle) -> None:
+    """Through JSON and back, to the bit."""
+    assert obstacle(**json.loads(json.dumps(made.to_dict()))) == made
+    assert KINDS[made.kind] is type(made)
+
+
+@pytest.mark.parametrize("made", [*BARRIER.obstacles, Plane((0.0, -0.6), (0.1, 1.0))], ids=label)
+@pytest.mark.parametrize("scheme", ["euler", "heun", "rk4", "kick_drift", "implicit_midpoint"])
+def test_no_mass_is_ever_inside(scheme: str, made: Obstacle) -> None:
+    """Of the scene's string, after any step of any scheme; the fixed one may be."""
+    system = replace(BARRIER, obstacles=(made, Circle((0.0, 0.0), 0.05)))
+    motion = simulate(system, catalogue.find(scheme), 1e-3, 0.6)
+    gaps = made.gap(motion.positions[:, 1:])[0]
+    assert gaps.min() >= -1e-14
+    assert gaps.min() <= 1e-14, "it was never met"
+    assert (motion.positions[:, 0] == 0).all(), "a fixed mass has moved"
+
+
+def test_obstacles_are_met_in_their_order() -> None:
+    """In a corner the last one has its way."""
+    floor, wall = Plane((0.0, 0.0), (0.6, 0.8)), Plane((0.0, 0.0), (1.0, 0.0))
+    x, v = np.array([[-0.1, -0.1]]), np.zeros((1, 2))
+    held = np.array([[False]])
+    for order in ((floor, wall), (wall, floor)):
+        pushed, _ = keep_out(order, held, x, v)
+        assert abs(float(order[-1].gap(pushed)[0][0, 0])) <= 1e-16
+    assert keep_out((floor, wall), ~held, x, v)[0].tolist() == x.tolist()
+
+
+@pytest.mark.parametrize("scheme", ["heun", "kick_drift", "rk4"])
+def test_the_loops_do_the_same_to_the_bit(scheme: str) -> None:
+    """`advance` and `sweep`, on a string and, its masses renumbered, on a mesh."""
+    made = catalogue.find(scheme)
+    for system in (BARRIER, BARRIER.renumbered(np.roll(np.arange(len(BARRIER.masses)), 3))):
+        end = simulate(system, made, 1e-3, 0.5).states()[-1]
+        state = advance(system, made, 1e-3, 500)
+        assert state.positions.tolist() == end.positions.tolist()
+        assert state.velocities.tolist() == end.velocities.tolist()
+        many = sweep(system, made, np.full(3, 1e-3), 500)
+        assert many.positions[2].tolist() == end.positions.tolist()
+
+
+def test_what_changes_a_system_keeps_its_obstacles() -> None:
+    """Renumbering, reversing, swapping, another parameter; and they are in its dictionary."""
+    for other in (
+        BARRIER.renumbered(np.arange(11)[::-1]),
+        BARRIER.with_springs_reversed(),
+        BARRIER.with_ends_swapped(),
+        BARRIER.with_parameter("drag", 0.1),
+        MassSpringSystem(**json.loads(json.dumps(BARRIER.to_dict()))),
+    ):
+        assert other.obstacles == BARRIER.obstacles
+
+
+def test_what_knows_no_obstacles_says_so() -> None:
+    """True motion, equilibrium, rods, and the listings before slide 17's."""
+    with pytest.raises(SolverError, match="no true motion"):
+        exact(BARRIER, 1e-3, 10)
+    with pytest.raises(SolverError, match="no equilibrium: with obstacles"):
+        equilibrium(BARRIER)
+    for motion in (PendulumMotion, RopeMotion):
+        with pytest.raises(InputError, match="expected no obstacles"):
+            motion(BARRIER)
+    for name in ("pendulum_heun", "rope_kick_drift"):
+        outcome = catalogued()[name].run(BARRIER, 1e-3, 10)
+        assert (outcome.ending, "obstacles" in outcome.reason) == ("unsupported", True)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Circle((0.0, 0.0), -1.0), "radius = -1.0: expected a finite number > 0 [m]"),
+        (lambda: Circle((0.0, 0.0), True), "radius = True: expected a finite number > 0 [m]"),
+        (lambda: Circle((0.0, 0.0), float("nan")), "radius = nan: expected a finite number > 0 [m]"),
+        (lambda: Circle((0.0, 0.0), 10**400), f"radius = {10**400}: expected a finite number > 0 [m]"),
+        (lambda: Circle((0.0,), 1.0), "centre = (0.0,): expected 2 finite numbers [m]"),
+        (lambda: Sphere((0.0, 0.0), 1.0), "centre = (0.0, 0.0): expected 3 finite numbers [m]"),
+        (lambda: Plane((0.0,), (0.0, 1.0)), "point = (0.0,): expected 2 or 3 finite numbers [m]"),
+        (lambda: Plane((0.0, 0.0), (0.0, 0.0)), "normal = (0.0, 0.0): expected a direction, not zero"),
+        (lambda: Plane((0.0, 0.0), (0.0, 0.0, 1.0)), "normal = (0.0, 0.0, 1.0): expected 2 finite numbers [m]"),
+        (lambda: obstacle("circel"), "unknown kind 'circel': did you mean 'circle'?"),
+        (lambda: obstacle("circle", center=1), "unknown number of a circle 'center': did you mean 'centre'?"),
+        (lambda: obstacle("circle", radius=1.0), "centre is missing: a circle has centre, radius"),
+        (lambda: replace(BARRIER, obstacles=3), "obstacles = 3: expected a list of obstacles"),
+        (lambda: replace(BARRIER, obstacles=(3,)), "obstacles[0] = 3: expected one of circle, sphere, cylinder, plane"),
+        (
+            lambda: replace(BARRIER, obstacles=(Sphere((0, 0, 9), 1),)),
+            "obstacles[0] is a sphere in 3D: expected one in 2D",
+        ),
+        (
+            lambda: replace(BARRIER, obstacles=(Circle((0.0, 0.0), 0.25),)),
+            "positions[1] = [0.125, 0.0]: expected a start outside the circle obstacles[0], it is 0.125 m inside",
+        ),
+    ],
+)
+def test_bad_obstacles_are_refused_in_one_line(make: Callable[[], Any], message: str) -> None:
+    """Naming field, value, and what was expected."""
+    with pytest.raises(InputError) as caught:
+        make()
+    assert str(caught.value) == message
+
+
+def test_directions_become_unit_vectors() -> None:
+    """However long they are."""
+    for scale in (1e-300, 1.0, 1e300):
+        assert Plane((0.0, 0.0), (3 * scale, 4 * scale)).normal == pytest.approx((0.6, 0.8), abs=1e-15)
+    assert Plane((0.0, 0.0), (0.6, 0.8)).normal == (0.6, 0.8)
