@@ -78,8 +78,8 @@ def test_a_crew_far_away_is_given_portions_that_keep_it_busy(store: Store) -> No
     crew = FakeCrew(portion=0.25)
     assert answered(Runner(crew, store), *range(100)) == {number: number for number in range(100)}
     assert sorted(crew.asked) == [*range(100)]
-    assert crew.portions[:2] == [1, 1]
-    assert set(crew.portions[2:-1]) == {16}
+    assert crew.portions[0] == 1
+    assert set(crew.portions[2:-1]) == {16}, "the second may have been handed out before the first was done"
     again = FakeCrew(portion=0.25)
     assert answered(Runner(again, store), *range(101)) == {number: number for number in range(101)}
     assert again.asked == [100]
