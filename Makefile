@@ -15,8 +15,9 @@ report: $(READY)  ## Run the lab's main job: every experiment, on one page in re
 test: $(READY)  ## Run all tests, with formatting and types
 	$(BIN)/python -m pytest --numprocesses auto
 
-soak: $(READY)  ## Runs that crash, processes and programs that are killed, a cluster that loses a worker: nothing is lost
-	$(BIN)/python -m pytest tests/soak --full -s -p no:xdist
+soak: $(READY)  ## What `make test` does in small, in full: thousands of runs and kills, all kept versions of the engines
+	$(BIN)/python -m pytest tests/soak tests/reference/test_fuzzed_files.py --full -s -p no:xdist
+	$(BIN)/springlab versions --check
 
 check: $(READY)  ## Formatting and types only
 	$(BIN)/ruff format --check .
