@@ -6,6 +6,7 @@ Needs NumPy only, and the standard library.
 from __future__ import annotations
 
 import faulthandler
+import multiprocessing
 import os
 import pickle
 import shutil
@@ -43,6 +44,8 @@ def _prepare(scratch: Path) -> None:
         os.dup2(output, standard)
     faulthandler.disable()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # Under forkserver, which it would be here, Numba makes a semaphore that is left behind where a process is killed.
+    multiprocessing.set_start_method("spawn", force=True)
 
 
 def _hang_on(lifeline: Connection) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -132,3 +134,15 @@ def test_a_run_that_diverges_keeps_its_trajectory_up_to_there() -> None:
     outcome = EngineStepper(Misbehaving(misbehaving.GoesToNan)).run(STRING, 1e-3, 10)
     assert outcome.trajectory is not None
     assert len(outcome.trajectory) == 4
+
+
+def test_a_process_whose_numba_has_threads_leaves_nothing_to_complain_of() -> None:
+    """Python names semaphores that are left behind, on standard error, when the program ends."""
+    program = (
+        "from tests.engines import used; from engines.isolation import isolated; print(isolated(used.start_threads))"
+    )
+    root = str(Path(__file__).parents[2])
+    environment = {**os.environ, "PYTHONPATH": root}
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=environment, cwd=root)
+    assert int(said.stdout) >= 1
+    assert said.stderr == ""

@@ -93,3 +93,10 @@ def have_it_done(file: Path) -> object:
 def prefix() -> str:
     """Where the interpreter is at home."""
     return sys.prefix
+
+
+def start_threads() -> int:
+    """Let Numba start its threads, and say how many there are."""
+    import numba
+
+    return int(numba.get_num_threads())
