@@ -21,9 +21,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from engines.isolation import EngineStepper
-from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import side_by_side
+from experiments.runs import Progress, side_by_side
 from experiments.steppers import all_steppers
 from reference.conserved import energy
 from reference.obstacles import Circle

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from engines.isolation import EngineStepper
-from experiments.runner import current
+from experiments.runs import Progress, side_by_side
 from reference.changes import whole_steps
 from reference.exact import WHY_NOT_EXACT, exact
 from reference.identify import Identification, candidates_for, identify_run
@@ -18,9 +17,6 @@ from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
 from reference.stepper import Stepper
-
-#: Called with what is being done now.
-Progress = Callable[[str], None]
 
 
 @dataclass(frozen=True)
@@ -93,7 +89,7 @@ def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lamb
     steps = whole_steps(setup.dt, setup.duration)
     progress("true motion")
     true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
-    outcomes = list(_outcomes(setup, steps, steppers, progress))
+    outcomes = list(side_by_side(steppers, lambda s: s.run(setup.system, setup.dt, steps, setup.changes), progress))
     progress("catalogue of schemes")
     known = candidates_for(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []
@@ -105,21 +101,6 @@ def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lamb
         deviation = None if trajectory is None or named is None else trajectory.distance(known[named])
         runs.append(Run(stepper, outcome, identification, error, deviation))
     return Comparison(setup, true, tuple(runs))
-
-
-def _outcomes(
-    setup: Setup, steps: int, steppers: Sequence[Stepper], progress: Progress
-) -> Iterator[tuple[Stepper, Outcome]]:
-    """The outcomes in the steppers' order. Engines, in processes of their own, run beside one another."""
-
-    def run(stepper: Stepper) -> Outcome:
-        progress(stepper.name)
-        return stepper.run(setup.system, setup.dt, steps, setup.changes)
-
-    with current().threads() as pool:
-        engines = {s.name: pool.submit(run, s) for s in steppers if isinstance(s, EngineStepper)}
-        for stepper in steppers:
-            yield stepper, engines[stepper.name].result() if stepper.name in engines else run(stepper)
 
 
 def finite(value: float | None) -> float | None:

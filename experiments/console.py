@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from reference.errors import InputError, SolverError
 
 if TYPE_CHECKING:  # these import NumPy, Numba and the engines' adapters: `springlab --help` does without
-    from experiments.comparison import Progress
     from experiments.experiment import Experiment, Result, Table
+    from experiments.runs import Progress
 
 #: Where results go unless told otherwise.
 RESULTS = Path("results")

@@ -17,9 +17,10 @@ from time import perf_counter
 import numpy as np
 
 from engines.isolation import EngineStepper, isolated
-from experiments.comparison import Progress, finite
+from experiments.comparison import finite
 from experiments.environment import processor
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs import Progress
 from experiments.steppers import all_steppers
 from experiments.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from reference.catalogue import Scheme

@@ -5,8 +5,9 @@
 
 from __future__ import annotations
 
-from experiments.comparison import Comparison, Progress, Run, compare, finite
+from experiments.comparison import Comparison, Run, compare, finite
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs import Progress
 from experiments.steppers import default_steppers
 from reference.scenes import Setup, find
 

@@ -15,9 +15,9 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from experiments.comparison import Progress, finite
+from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Equations, identify_start, scheme_of, side_by_side
+from experiments.runs import Equations, Progress, identify_start, scheme_of, side_by_side
 from experiments.steppers import all_steppers
 from reference.conserved import angular_momentum, energy, momentum
 from reference.exact import hanging_string

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs import Progress
 from reference import catalogue
 from reference.exact import exact, hanging_string
 from reference.identify import identify

@@ -13,8 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from experiments.comparison import Progress, finite
+from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs import Progress
 from reference.catalogue import Scheme
 from reference.catalogue import find as find_scheme
 from reference.exact import exact, hanging_string

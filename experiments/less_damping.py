@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs import Progress
 from reference.conserved import energy
 from reference.exact import exact, hanging_string
 from reference.scenes import find

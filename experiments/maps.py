@@ -9,9 +9,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
 from experiments.map_arguments import axes_for, system_maker
+from experiments.runs import Progress
 from experiments.stability_map import StabilityMap, stability_map
 from experiments.steppers import all_steppers
 from reference.errors import InputError

@@ -18,9 +18,9 @@ from typing import Any, Literal
 from engines.isolation import EngineStepper, isolated
 from engines.supervisor import supervisor
 from experiments.cluster import PORTION
-from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
 from experiments.job import Job
+from experiments.runs import Progress
 from experiments.steppers import all_steppers
 from experiments.store import Store
 from experiments.sweeps import Sweep

@@ -15,10 +15,11 @@ import numpy as np
 
 from engines.isolation import EngineStepper
 from engines.pymunk_springs import PymunkSprings
-from experiments.comparison import Progress, finite
+from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
 from experiments.renaming import CHANGES, Renamed, differences
 from experiments.runner import answer, current
+from experiments.runs import Progress
 from experiments.steppers import default_steppers
 from reference.catalogue import Scheme
 from reference.identify import TOLERANCE

@@ -14,10 +14,10 @@ from functools import partial
 import numpy as np
 
 from engines.isolation import EngineStepper
-from experiments.comparison import Progress, finite
+from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
 from experiments.ladder import engine_ladder
-from experiments.runs import Equations, identify_start, scheme_of, side_by_side
+from experiments.runs import Equations, Progress, identify_start, scheme_of, side_by_side
 from experiments.steppers import all_steppers
 from reference.exact import TOLERANCE, exact
 from reference.forces import SpringMotion

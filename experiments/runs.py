@@ -6,7 +6,6 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from engines.isolation import EngineStepper
-from experiments.comparison import Progress
 from experiments.runner import current
 from reference.identify import Identification, identify_run
 from reference.motion import Motion
@@ -16,6 +15,9 @@ from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
 
 T = TypeVar("T")
+
+#: Called with what is being done now.
+Progress = Callable[[str], None]
 
 #: What a system is taken for: springs, or the rods they become.
 Equations = Callable[[MassSpringSystem], Motion]

@@ -15,9 +15,9 @@ import numpy as np
 
 from engines.engine import Engine, registry
 from engines.isolation import isolated
-from experiments.comparison import Progress
 from experiments.environment import processor
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs import Progress
 from experiments.timing import adapter_overhead
 from experiments.tuned import TunedHeun
 from reference import catalogue

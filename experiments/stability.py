@@ -15,9 +15,9 @@ import numpy as np
 from engines.engine import Engine
 from engines.isolation import EngineStepper
 from engines.limits import limit_of_engine
-from experiments.comparison import Progress
 from experiments.experiment import Experiment, Result, Table
 from experiments.runner import current
+from experiments.runs import Progress
 from experiments.steppers import all_steppers
 from reference.catalogue import Scheme
 from reference.errors import SolverError

@@ -11,7 +11,7 @@ import numpy as np
 
 from engines.isolation import EngineStepper
 from engines.limits import growths_of_engine
-from experiments.comparison import Progress
+from experiments.runs import Progress
 from experiments.stability import IDENTIFYING_STEPS, at_rest_and_pushed, rest_of_engine
 from reference.catalogue import Scheme
 from reference.errors import InputError

@@ -9,9 +9,10 @@ import numpy as np
 
 from engines.engine import find as find_engine
 from engines.isolation import EngineStepper
-from experiments.comparison import Progress, finite
+from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
 from experiments.runner import answer
+from experiments.runs import Progress
 from reference.exact import exact
 from reference.pendulum import PendulumMotion
 from reference.scenes import find

@@ -18,8 +18,8 @@ from engines.engine import Engine, registry
 from engines.environments import environment, numpy_version
 from engines.isolation import EngineStepper, isolated
 from engines.supervisor import supervisor
-from experiments.comparison import Progress
 from experiments.conformance import Value, measure
+from experiments.runs import Progress
 from reference.errors import InputError, unknown_name
 
 #: What was measured of a version: by engine (the crash list by package), by measure.

@@ -12,11 +12,11 @@ from functools import partial
 from pathlib import Path
 
 from engines.isolation import isolated
-from experiments.comparison import Progress
 from experiments.console import plain
 from experiments.environment import environment
 from experiments.experiment import Experiment, Result, find, write_tables
 from experiments.runner import LocalCrew, Runner, current, using
+from experiments.runs import Progress
 from experiments.store import Store, StoreError
 from report.figures import draw
 
