@@ -12,7 +12,7 @@ import numpy as np
 from experiments.runs import Progress, side_by_side
 from reference.changes import whole_steps
 from reference.exact import WHY_NOT_EXACT, exact
-from reference.identify import Identification, candidates_for, identify_run
+from reference.identify import Identification, candidates_for, identify_by_rounding
 from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
@@ -94,7 +94,9 @@ def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lamb
     known = candidates_for(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []
     for stepper, outcome in outcomes:
-        identification = identify_run(stepper.name, outcome, setup.system, known)
+        identification = identify_by_rounding(
+            stepper.name, outcome, setup.system, known, setup.dt, steps, setup.changes
+        )
         named = identification.identified_as
         trajectory = outcome.trajectory
         error = None if trajectory is None or true is None else trajectory.distance(true)

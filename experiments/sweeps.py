@@ -102,7 +102,7 @@ def judged(
     from experiments.comparison import finite
     from experiments.steppers import all_steppers
     from reference.exact import exact
-    from reference.identify import candidates_for, identify_run
+    from reference.identify import candidates_for, identify_by_rounding
 
     made_by = all_steppers()[stepper] if engine is None else EngineStepper(engine)
     if engine is None:
@@ -116,7 +116,7 @@ def judged(
         answer["error_m"] = finite(float(distance.max()))
     if identify:
         known = candidates_for([(made_by, outcome)], system, dt, steps, changes)
-        found = identify_run(stepper, outcome, system, known)
+        found = identify_by_rounding(stepper, outcome, system, known, dt, steps, changes)
         answer |= {"identified_as": found.identified_as, "identification_error_m": finite(found.error)}
     return answer
 

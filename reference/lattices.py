@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 
 from reference.errors import InputError
+from reference.obstacles import Plane
 from reference.scenes import PerItem, counted, each, not_below_zero, scene
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
@@ -45,8 +46,8 @@ def cloth(
     mass: PerItem = 0.002,
     rest_length: float = 0.06,
     stiffness: float = 40.0,
-    shear: float = 10.0,
-    bend: float = 2.0,
+    shear: float = 40.0,
+    bend: float = 40.0,
     damping: float = 0.0,
     drag: float = 0.0,
     gravity: float = 9.81,
@@ -74,29 +75,34 @@ def jello(
     deep: int = 4,
     mass: PerItem = 0.01,
     rest_length: float = 0.03,
-    stiffness: float = 120.0,
-    diagonals: float = 60.0,
+    stiffness: float = 80.0,
+    diagonals: float = 80.0,
     damping: float = 0.0,
     drag: float = 0.0,
     gravity: float = 9.81,
     speed: float = 0.8,
-    held: Literal["bottom", "top"] = "bottom",
+    drop: float = 0.05,
+    held: Literal["bottom", "top", "nothing"] = "bottom",
     cells: Literal["lattice", "tetrahedra"] = "lattice",
 ) -> MassSpringSystem:
-    """A block of jello, standing on a fixed bottom or hung by its top, pushed sideways and let go.
+    """A block of jello, standing on a fixed bottom or hung by its top, pushed and let go; or dropped on a floor.
 
     It has across x high x deep masses along x, y and z, each joined to its 26 neighbours: with `stiffness` [N/m] along
     the edges of the cells, with `diagonals` [N/m] across their faces and through their bodies; or as tetrahedra, to the
     14 neighbours that share one with it. mass is one number or one for each mass. It starts as if it were sheared on,
-    its free end at `speed` [m/s] along x, masses in between in proportion.
+    its free end at `speed` [m/s] along x, masses in between in proportion; held by nothing, at rest, `drop` [m] above a
+    hard floor without friction.
     """
-    not_below_zero(diagonals=diagonals)
+    not_below_zero(diagonals=diagonals, drop=drop)
     numbers = lattice(across=across, high=high, deep=deep)
     offsets = NEIGHBOURS if cells == "lattice" else TETRAHEDRA
     edges = [o for o in offsets if sum(map(abs, o)) == 1]
     groups = [(edges, stiffness), ([o for o in offsets if o not in edges], diagonals)]
     face = numbers[:, 0 if held == "bottom" else -1]
-    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, face.ravel())
+    held_masses = face.ravel() if held != "nothing" else face.ravel()[:0]
+    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, held_masses)
+    if held == "nothing":
+        return replace(block, obstacles=(Plane((0.0, -drop, 0.0), (0.0, 1.0, 0.0)),))
     height = np.abs(block.positions[:, 1] - block.positions[face[0, 0], 1])
     velocities = np.outer(height / ((high - 1) * rest_length), [speed, 0.0, 0.0])
     return replace(block, velocities=velocities)

@@ -115,6 +115,7 @@ def bridge(
     deck: float = 800.0,
     truck: float = 5000.0,
     truck_position: float = 12.0,
+    joint_mass: float = 0.0,
     damping: float = 0.0,
     drag: float = 0.0,
     gravity: float = 9.81,
@@ -123,13 +124,16 @@ def bridge(
 
     axial_stiffness EA [N] is one number or one for each member, in the order of `Truss.members`; the rocker, the last
     spring, is as stiff as the stiffest member and weighs nothing that moves. mass_per_length is the members' and deck
-    the deck's [kg/m]; the truck [kg] stands at truck_position [m] from the left end; damping [N s/m] is along members.
+    the deck's [kg/m]; the truck [kg] stands at truck_position [m] from the left end. joint_mass [kg], where it is not
+    0, is every joint's in place of all these, as textbooks load a truss. damping [N s/m] is along members.
     """
-    not_below_zero(mass_per_length=mass_per_length, deck=deck, truck=truck)
+    not_below_zero(mass_per_length=mass_per_length, deck=deck, truck=truck, joint_mass=joint_mass)
     built = truss(kind, panels, panel, height)
     stiffness = each("axial_stiffness", axial_stiffness, len(built.members)) / built.lengths
     end, foot = panels, len(built.joints)
     masses = built.masses(mass_per_length, deck, truck, truck_position)
+    if joint_mass:
+        masses = np.full(len(masses), joint_mass)
     return MassSpringSystem(
         positions=np.concatenate([built.joints, [[panels * panel, -height]]]),
         springs=np.concatenate([built.members, [[end, foot]]]),
