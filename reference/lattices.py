@@ -37,6 +37,9 @@ NEIGHBOURS: tuple[Offset, ...] = tuple(o for o in product((0, 1, -1), repeat=3) 
 #: The edges of the six tetrahedra that each cell falls into, all around its diagonal (1, 1, 1) (Freudenthal 1942).
 TETRAHEDRA: tuple[Offset, ...] = tuple(o for o in NEIGHBOURS if min(o) == 0 or min(o) == 1)
 
+#: What a block of jello is made of.
+Cells = Literal["lattice", "tetrahedra"]
+
 
 @scene(dt=1e-3, duration=0.5, slides="18-22")
 def cloth(
@@ -81,31 +84,50 @@ def jello(
     drag: float = 0.0,
     gravity: float = 9.81,
     speed: float = 0.8,
-    drop: float = 0.05,
-    held: Literal["bottom", "top", "nothing"] = "bottom",
-    cells: Literal["lattice", "tetrahedra"] = "lattice",
+    held: Literal["bottom", "top"] = "bottom",
+    cells: Cells = "lattice",
 ) -> MassSpringSystem:
-    """A block of jello, standing on a fixed bottom or hung by its top, pushed and let go; or dropped on a floor.
+    """A block of jello, standing on a fixed bottom or hung by its top, pushed sideways and let go.
 
     It has across x high x deep masses along x, y and z, each joined to its 26 neighbours: with `stiffness` [N/m] along
     the edges of the cells, with `diagonals` [N/m] across their faces and through their bodies; or as tetrahedra, to the
     14 neighbours that share one with it. mass is one number or one for each mass. It starts as if it were sheared on,
-    its free end at `speed` [m/s] along x, masses in between in proportion; held by nothing, at rest, `drop` [m] above a
-    hard floor without friction.
+    its free end at `speed` [m/s] along x, masses in between in proportion.
     """
-    not_below_zero(diagonals=diagonals, drop=drop)
     numbers = lattice(across=across, high=high, deep=deep)
-    offsets = NEIGHBOURS if cells == "lattice" else TETRAHEDRA
-    edges = [o for o in offsets if sum(map(abs, o)) == 1]
-    groups = [(edges, stiffness), ([o for o in offsets if o not in edges], diagonals)]
     face = numbers[:, 0 if held == "bottom" else -1]
-    held_masses = face.ravel() if held != "nothing" else face.ravel()[:0]
-    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, held_masses)
-    if held == "nothing":
-        return replace(block, obstacles=(Plane((0.0, -drop, 0.0), (0.0, 1.0, 0.0)),))
+    groups = _jello_springs(cells, stiffness, diagonals)
+    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, face.ravel())
     height = np.abs(block.positions[:, 1] - block.positions[face[0, 0], 1])
     velocities = np.outer(height / ((high - 1) * rest_length), [speed, 0.0, 0.0])
     return replace(block, velocities=velocities)
+
+
+@scene(dt=1e-3, duration=0.5, slides="23-26")
+def drop(
+    *,
+    across: int = 4,
+    high: int = 4,
+    deep: int = 4,
+    mass: PerItem = 0.01,
+    rest_length: float = 0.03,
+    stiffness: float = 80.0,
+    diagonals: float = 80.0,
+    damping: float = 0.0,
+    drag: float = 0.0,
+    gravity: float = 9.81,
+    height: float = 0.05,
+    cells: Cells = "lattice",
+) -> MassSpringSystem:
+    """A block of jello, let go at rest above a hard floor without friction.
+
+    It is that of the scene `jello`, held by nothing, its bottom `height` [m] above the floor.
+    """
+    not_below_zero(height=height)
+    numbers = lattice(across=across, high=high, deep=deep)
+    groups = _jello_springs(cells, stiffness, diagonals)
+    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, numbers[:0].ravel())
+    return replace(block, obstacles=(Plane((0.0, -height, 0.0), (0.0, 1.0, 0.0)),))
 
 
 def lattice(**counts: int) -> IntArray:
@@ -138,6 +160,14 @@ def places(shape: Sequence[int], axes: Sequence[int], dimension: int, spacing: f
     positions = np.zeros((prod(shape), dimension))
     positions[:, axes] = spacing * np.indices(shape).reshape(len(shape), -1).T
     return positions
+
+
+def _jello_springs(cells: Cells, stiffness: float, diagonals: float) -> list[tuple[list[Offset], float]]:
+    """Offsets with their stiffness [N/m]: the edges of the cells, then what goes across."""
+    not_below_zero(diagonals=diagonals)
+    offsets = NEIGHBOURS if cells == "lattice" else TETRAHEDRA
+    edges = [o for o in offsets if sum(map(abs, o)) == 1]
+    return [(edges, stiffness), ([o for o in offsets if o not in edges], diagonals)]
 
 
 def _lattice(

@@ -109,7 +109,7 @@ def check_drop(scheme: Scheme) -> None:
     floor, and of its energy there is never more than at first: the floor takes and gives none. Heun's own gain is below
     1e-4 of it.
     """
-    system = find_scene("jello").system({"held": "nothing"})
+    system = find_scene("drop").system({})
     motion = simulate(system, scheme, 1e-3, 0.3)
     fall = motion.positions[:101] - system.positions
     t = motion.times[:101]
@@ -125,7 +125,7 @@ def check_drop(scheme: Scheme) -> None:
 def test_dropped_jello_falls_freely_and_stays_above_the_floor() -> None:
     """And no mass of it is held."""
     check_drop(find("heun"))
-    assert not find_scene("jello").system({"held": "nothing"}).fixed.any()
+    assert not find_scene("drop").system({}).fixed.any()
 
 
 def test_the_drop_fails_on_wrong_integrators() -> None:
