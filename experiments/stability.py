@@ -21,7 +21,7 @@ from experiments.runs import Progress
 from experiments.steppers import all_steppers
 from reference.catalogue import Scheme
 from reference.errors import SolverError
-from reference.identify import Identification, candidates, identify_run
+from reference.identify import Identification, candidates_for, identify_run
 from reference.outcome import Outcome
 from reference.pendulum import why_no_pendulum
 from reference.probe import PUSH, mode_growth
@@ -111,14 +111,17 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
     with current().threads() as pool:
         engines = [s for s in steppers if isinstance(s, EngineStepper)]
         measured = {s.name: pool.submit(measure_engine, s, system, rest, dt) for s in engines}
-        known = candidates(system, 0.1 * dt, IDENTIFYING_STEPS) if engines else {}
+        moved = {s.name: s.run(system, 0.1 * dt, IDENTIFYING_STEPS) for s in engines}
+        seen = [(s, moved[s.name]) for s in engines]
+        known = candidates_for(seen, system, 0.1 * dt, IDENTIFYING_STEPS) if engines else {}
         rows = []
         for stepper in steppers:
             progress(stepper.name)
             if isinstance(stepper, SchemeStepper):
                 rows.append(_scheme_row(stepper, system, rest))
             elif isinstance(stepper, EngineStepper):
-                rows.append(_engine_row(stepper, system, rest, dt, known, measured[stepper.name]))
+                outcome = moved[stepper.name]
+                rows.append(_engine_row(stepper, system, rest, outcome, known, measured[stepper.name]))
             else:
                 none = Limit(None, "stability is of schemes and engines; identify says which scheme this is")
                 rows.append(Row(stepper.name, stepper.kind, system, none, none, "unsupported"))
@@ -167,11 +170,10 @@ def _engine_row(
     stepper: EngineStepper,
     system: MassSpringSystem,
     rest: Equilibrium,
-    dt: float,
+    outcome: Outcome,
     known: Mapping[str, Trajectory],
     measurement: Future[Measured | Outcome],
 ) -> Row:
-    outcome = stepper.run(system, 0.1 * dt, IDENTIFYING_STEPS)
     identification = identify_run(stepper.name, outcome, system, known)
     predicted = _predict(identification, system, rest)
     answer = measurement.result()
