@@ -91,8 +91,11 @@ class FlexSimulation(SlidingMasses):
         """
         system = changed(self._engine, self._system, parameter, value)
         _refuse_unlike(parameter, getattr(system, parameter, None), self._groups)
-        _write_numbers(self._mujoco, self._model, system, self._groups)
         self._system = system
+        if parameter == "gravity":
+            self.set_gravity(system.gravity)
+            return
+        _write_numbers(self._mujoco, self._model, system, self._groups)
 
 
 def groups_of(system: MassSpringSystem, *alike: Array) -> list[Group]:

@@ -104,6 +104,9 @@ class RopeSimulation(SlidingMasses):
         if parameter == "stiffness":
             raise Unsupported("the edges of a rope do not stretch: there is no stiffness to change")
         self._system = changed(self._engine, self._system, parameter, value)
+        if parameter == "gravity":
+            self.set_gravity(self._system.gravity)
+            return
         _write_numbers(self._mujoco, self._model, self._system, self._groups, self._engine.weight)
 
 

@@ -109,6 +109,9 @@ class TendonSimulation(SlidingMasses):
     def change(self, parameter: str, value: Value) -> None:
         """Every parameter can change between two steps; the state stays where it is, to the last bit."""
         self._system = changed(self._engine, self._system, parameter, value)
+        if parameter == "gravity":
+            self.set_gravity(self._system.gravity)
+            return
         _write_numbers(self._mujoco, self._model, self._system, self._nested)
 
 

@@ -114,6 +114,9 @@ class PymunkSimulation:
     def change(self, parameter: str, value: Value) -> None:
         """Every parameter can change between two steps."""
         self._system = changed(self._engine, self._system, parameter, value)
+        if parameter == "gravity":
+            self._space.gravity = tuple(self._system.gravity.tolist())
+            return
         self._set_parameters()
 
     def _set_parameters(self) -> None:
