@@ -232,8 +232,8 @@ def _of_the_ground(rows: Mapping[str, Ran], natural: Array) -> Iterator[str]:
     yield (
         "Shaken up and down, ever faster, the bridge sways most while the ground shakes at "
         + " to ".join(dict.fromkeys([f"{low:.2f}", f"{high:.2f}"]))
-        + f" Hz, measured in {len(peaks)} runs. Predicted: its lowest natural frequency is {lowest:.2f} Hz, and a sweep "
-        f"so fast is late by {late(lowest):.2f} Hz at most{'' if inside else ', which is not what was measured'}."
+        + f" Hz, measured in {len(peaks)} runs. Predicted: its lowest natural frequency is {lowest:.2f} Hz, and a "
+        f"sweep so fast is late by {late(lowest):.2f} Hz at most{'' if inside else ', which is not what was measured'}."
     )
 
 

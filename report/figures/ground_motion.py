@@ -10,6 +10,7 @@ import numpy as np
 from experiments.experiment import Result
 from experiments.ground_motion import DT, SPEEDS, SWEEP, Ran, off_the_line, peak
 from reference.state import Array
+from reference.system import IntArray
 from report.figures import COLOURS, MARKERS, Picture, look, new_figure
 
 #: Predicted is drawn so, everywhere.
@@ -25,10 +26,10 @@ def draw(result: Result) -> Picture:
     return Picture(figure, _alt(result))
 
 
-def crests(motion: Array) -> Array:
+def crests(motion: Array) -> IntArray:
     """The numbers of the frames at which a motion is as far from rest as it gets in each half swing."""
     size = np.abs(motion)
-    return np.flatnonzero((size[1:-1] >= size[:-2]) & (size[1:-1] > size[2:])) + 1
+    return np.asarray(np.flatnonzero((size[1:-1] >= size[:-2]) & (size[1:-1] > size[2:])) + 1, dtype=np.int64)
 
 
 def _draw_sway(axes: Any, rows: Mapping[str, Ran], natural: Array, steady: tuple[Array, Array]) -> None:

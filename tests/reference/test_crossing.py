@@ -1,4 +1,4 @@
-"""A truck that crosses: what joints carry, the influence line by direct stiffness, and bridges cambered for their weight."""
+"""A truck that crosses: what joints carry, the influence line by direct stiffness; bridges cambered for their weight."""
 
 from __future__ import annotations
 
@@ -192,7 +192,9 @@ def test_a_driven_scenes_changes_suit_the_step_and_the_duration(name: str) -> No
 
 def test_too_many_steps_for_a_drive_are_refused() -> None:
     """At once."""
-    with pytest.raises(InputError, match="expected at most 100,000 steps of dt = 1e-06 s where the ground or the load"):
+    with pytest.raises(
+        InputError, match=r"expected at most 100,000 steps of dt = 1e-06 s where the ground or the load"
+    ):
         find_scene("earthquake").setup({}, 1e-6, 1.0)
 
 

@@ -133,8 +133,8 @@ def test_the_frame_fails_on_another_shaking() -> None:
 def duhamel(mass: float, k: float, c: float, ground: Sweep, times: Array) -> Array:
     """How far m x'' + c x' + k x = -m a(t) goes from rest, shape (m,) [m].
 
-    x(t) = -1/w_d times the integral of a(s) exp(-z (t - s)) sin(w_d (t - s)) (Chopra, ch. 4), in closed form for a sine:
-    the steady state, and a free vibration that cancels it at the start.
+    x(t) = -1/w_d times the integral of a(s) exp(-z (t - s)) sin(w_d (t - s)) (Chopra, ch. 4), in closed form for a
+    sine: the steady state, and a free vibration that cancels it at the start.
     """
     forcing, w2, damping = 2 * np.pi * ground.from_frequency, k / mass, c / mass
     steady = -ground.amplitude / (w2 - forcing**2 + 1j * damping * forcing)  # of exp(i w t), its imaginary part
@@ -197,8 +197,8 @@ def check_resonance(sweep: type[Sweep], truck: float = 5000.0) -> None:
     """A bridge on rock shaken up and down sways most when the sweep is 2.157 sqrt(beta) past its lowest frequency.
 
     Without damping the envelope is a Fresnel integral, with its maximum 1.217 of its units (pi/beta)^(1/2) after the
-    sweep, whose frequency rises at beta [rad/s^2], has passed (Lewis, *Trans. ASME* 54 (1932)). The largest sway is seen
-    to half a period; the next mode, at more than twice the frequency, adds as much again.
+    sweep, whose frequency rises at beta [rad/s^2], has passed (Lewis, *Trans. ASME* 54 (1932)). The largest sway is
+    seen to half a period; the next mode, at more than twice the frequency, adds as much again.
     """
     settings = {"on": "rock", "damping": 0.0, "axis": "y", "amplitude": 1e-3}
     system = find_scene("earthquake").system({**settings, "truck": 5000.0})
