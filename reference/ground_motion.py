@@ -20,6 +20,7 @@ from pathlib import Path
 from typing import Literal, Protocol, get_args
 
 import numpy as np
+import numpy.typing as npt
 
 from reference.changes import Change, whole_steps
 from reference.errors import InputError
@@ -105,11 +106,11 @@ class Sweep:
         if not (1 <= len(self.direction) <= 3 and 0 < float(np.linalg.norm(self.direction)) < np.inf):
             raise InputError(f"direction = {list(self.direction)}: expected one to three finite numbers, not all zero")
 
-    def frequency(self, times: Array) -> Array:
+    def frequency(self, times: npt.ArrayLike) -> Array:
         """F at times [s], shape (m,) [Hz]."""
-        part = times / self.duration
+        part = np.asarray(times, dtype=np.float64) / self.duration
         if self.law == "linear":
-            return self.from_frequency + (self.to_frequency - self.from_frequency) * part
+            return np.asarray(self.from_frequency + (self.to_frequency - self.from_frequency) * part)
         return np.asarray(self.from_frequency * (self.to_frequency / self.from_frequency) ** part)
 
     @np.errstate(over="ignore", invalid="ignore")

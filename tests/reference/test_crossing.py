@@ -1,4 +1,4 @@
-"""A truck that crosses: what joints carry, the influence line by direct stiffness; bridges cambered for their weight."""
+"""A truck that crosses: what joints carry, the influence line by direct stiffness; bridges cambered for their load."""
 
 from __future__ import annotations
 
@@ -201,7 +201,7 @@ def test_too_many_steps_for_a_drive_are_refused() -> None:
 def test_one_parameter_is_driven_once() -> None:
     """Else the one would undo what the other does."""
     shaking = GroundMotion(Sweep(1.0, 2.0, 1.0, 1.0))
-    with pytest.raises(InputError, match="^gravity is driven 2 times: expected once$"):
+    with pytest.raises(InputError, match=r"^gravity is driven 2 times: expected once$"):
         Driven(find_scene("string").system({}), (shaking, shaking))
 
 
