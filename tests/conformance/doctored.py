@@ -147,6 +147,15 @@ class IgnoresChanges(KickDrift):
         """Nothing."""
 
 
+class ChangesAllAlike(KickDrift):
+    """Of one number for each takes the first for all."""
+
+    def change(self, parameter: str, value: Value) -> None:
+        """One number."""
+        first = value if isinstance(value, int | float) else value[0]
+        super().change(parameter, first)
+
+
 class HandsOutItsMemory(KickDrift):
     """Answers with the very arrays it works on."""
 
