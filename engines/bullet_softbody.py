@@ -11,10 +11,10 @@ from engines.bullet_mesh import APEX, apex_height, bending_apart, mesh_of
 from engines.bullet_obstacles import add_obstacles
 from engines.bullet_rest import rest_shape
 from engines.bullet_world import World
-from engines.engine import Unsupported, refuse_beyond
+from engines.engine import Unsupported, changed, refuse_beyond
 from reference.obstacles import Sphere
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 
 @dataclass(frozen=True)
@@ -57,7 +57,7 @@ class BulletSoftbody:
             Unsupported: for springs that Bullet has no mesh for, and for springs without stiffness.
         """
         refuse_beyond(self, _without_what_this_mesh_can(system))
-        return SoftBody(system, dt)
+        return SoftBody(self, system, dt)
 
 
 def _without_what_this_mesh_can(system: MassSpringSystem) -> MassSpringSystem:
@@ -78,8 +78,8 @@ class SoftBody:
         dt: step [s].
     """
 
-    def __init__(self, system: MassSpringSystem, dt: float) -> None:
-        self._dt = dt
+    def __init__(self, engine: BulletSoftbody, system: MassSpringSystem, dt: float) -> None:
+        self._engine, self._dt = engine, dt
         self._system = system
         self._rest = in_space(system.positions)
         self._world = World()
@@ -104,20 +104,21 @@ class SoftBody:
             self._world.velocities(self._body)[:n, :d].copy(),
         )
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Set a parameter on the fly.
 
         Bullet changes gravity while the world runs, but no property of a soft body: for those the world is built anew
         around the positions and velocities there are. A step depends on nothing else, so nothing is lost.
 
         Raises:
-            Unsupported: for stiffness 0, and for what there is no mesh for.
+            Unsupported: beyond the capabilities, for stiffness 0, and for what there is no mesh for.
         """
-        system = self._system.with_parameter(parameter, value)
+        system = changed(self._engine, self._system, parameter, value)
         if parameter == "gravity":
             self._system = system
             self._world.set_gravity(in_space(system.gravity))
             return
+        refuse_beyond(self._engine, _without_what_this_mesh_can(system))
         positions, velocities = self.state()
         self._build(replace(system, positions=positions, velocities=velocities))
 

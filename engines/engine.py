@@ -17,7 +17,7 @@ import engines
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 #: What masses may not enter, by its kind. An engine that takes one holds masses out of it in its own way, without
 #: friction: where nothing touches it, it steps as the engine does without.
@@ -58,8 +58,8 @@ class Simulation(Protocol):
     def state(self) -> tuple[Array, Array]:
         """Positions [m] and velocities [m/s] of all masses in the system's order, each (n, d), as new arrays."""
 
-    def change(self, parameter: str, value: float) -> None:
-        """Set one of reference.system.PARAMETERS on the fly. Raises Unsupported where the engine cannot."""
+    def change(self, parameter: str, value: Value) -> None:
+        """Set one of reference.system.PARAMETERS on the fly, as `changed` has it. Raises Unsupported beyond that."""
 
 
 class Engine(Protocol):
@@ -98,27 +98,44 @@ class Engine(Protocol):
         """
 
 
+#: What a parameter that changes on the fly may ask for besides. Once in motion, springs are stretched anyway.
+ASKED_BY: Mapping[str, tuple[str, ...]] = {
+    "mass": ("masses",),
+    "rest_length": ("rest_lengths",),
+    "stiffness": ("stiffnesses",),
+    "damping": ("dampings", "damping"),
+    "drag": ("drag",),
+    "gravity": ("tilted gravity",),
+}
+
+
 def demands(system: MassSpringSystem) -> list[str]:
     """The capabilities a system asks for."""
-    gravity = system.gravity
-    moving = ~system.fixed
-    lengths = _lengths(system)
-    asked = {
-        "3d": system.dimension == 3,
-        "mesh": not system.is_string,
-        "masses": _differ(system.masses[moving]),
-        "rest_lengths": _differ(system.rest_lengths),
-        "stiffnesses": _differ(system.stiffness),
-        "dampings": _differ(system.damping),
-        "stretched": bool((abs(lengths - system.rest_lengths) > 1e-12 * lengths).any()),
-        "velocities": bool(system.velocities.any()),
-        "damping": bool(system.damping.any()),
-        "drag": system.drag > 0,
-        "tilted gravity": bool(gravity[0] or gravity[2:].any()),
-        "no fixed mass": not system.fixed.any(),
-        **{kind: any(obstacle.kind == kind for obstacle in system.obstacles) for kind in OBSTACLES},
-    }
-    return [name for name, needed in asked.items() if needed]
+    return [name for name in CAPABILITIES if _needed(name, system)]
+
+
+def _needed(capability: str, system: MassSpringSystem) -> bool:
+    """Whether a system asks for one of CAPABILITIES."""
+    if capability in OBSTACLES:
+        return any(obstacle.kind == capability for obstacle in system.obstacles)
+    return bool(_NEEDED[capability](system))
+
+
+#: By capability, whether a system asks for it: looked at one by one, as parameters may change at every step.
+_NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
+    "3d": lambda system: system.dimension == 3,
+    "mesh": lambda system: not system.is_string,
+    "masses": lambda system: _differ(system.masses[~system.fixed]),
+    "rest_lengths": lambda system: _differ(system.rest_lengths),
+    "stiffnesses": lambda system: _differ(system.stiffness),
+    "dampings": lambda system: _differ(system.damping),
+    "stretched": lambda system: _stretched(system),
+    "velocities": lambda system: system.velocities.any(),
+    "damping": lambda system: system.damping.any(),
+    "drag": lambda system: system.drag > 0,
+    "tilted gravity": lambda system: system.gravity[0] or system.gravity[2:].any(),
+    "no fixed mass": lambda system: not system.fixed.any(),
+}
 
 
 def refuse_beyond(engine: Engine, system: MassSpringSystem) -> None:
@@ -126,6 +143,19 @@ def refuse_beyond(engine: Engine, system: MassSpringSystem) -> None:
     for demand in demands(system):
         if demand not in engine.capabilities:
             raise Unsupported(f"{engine.name} cannot do {CAPABILITIES[demand]}")
+
+
+def changed(engine: Engine, system: MassSpringSystem, parameter: str, value: Value) -> MassSpringSystem:
+    """The system with a parameter changed on the fly: what every adapter's `change` begins with.
+
+    Raises:
+        Unsupported: where it then asks for what it did not ask for before, and the engine cannot.
+    """
+    other = system.with_parameter(parameter, value)
+    for demand in ASKED_BY[parameter]:
+        if demand not in engine.capabilities and _needed(demand, other) and not _needed(demand, system):
+            raise Unsupported(f"{engine.name} cannot do {CAPABILITIES[demand]}, asked for by a change of {parameter}")
+    return other
 
 
 def version(engine: Engine) -> str | None:
@@ -162,7 +192,8 @@ def _differ(values: Array) -> bool:
     return bool(len(values) and (abs(values - values[0]) > 1e-15 * abs(values[0])).any())
 
 
-def _lengths(system: MassSpringSystem) -> Array:
+def _stretched(system: MassSpringSystem) -> bool:
     a, b = system.springs.T
     gaps = system.positions[b] - system.positions[a]
-    return (gaps**2).sum(axis=1) ** 0.5
+    lengths = (gaps**2).sum(axis=1) ** 0.5
+    return bool((abs(lengths - system.rest_lengths) > 1e-12 * lengths).any())

@@ -11,9 +11,9 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, OBSTACLES, refuse_beyond
+from engines.engine import CAPABILITIES, OBSTACLES, changed, refuse_beyond
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 Solver = Literal["RK44", "ExplicitEuler", "VelocityVerlet"]
 
@@ -107,12 +107,10 @@ class ExudynSimulation:
         self._positions[self._free], self._velocities[self._free] = self._q, self._v
         return self._positions.copy(), self._velocities.copy()
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Every parameter the engine has can change. The solver begins anew, as it keeps the masses and the forces."""
-        changed = self._system.with_parameter(parameter, value)
-        refuse_beyond(self._engine, changed)
+        self._system = changed(self._engine, self._system, parameter, value)
         self.state()
-        self._system = changed
         self._begin()
 
     def _begin(self) -> None:

@@ -10,10 +10,10 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import Unsupported, refuse_beyond
+from engines.engine import Unsupported, changed, refuse_beyond
 from engines.mujoco_common import OFF, check_inertia, mujoco_module, update_constants, without
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 Integrator = Literal["Euler", "RK4"]
 
@@ -78,14 +78,14 @@ class MujocoCable:
         model.opt.timestep = dt
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
         model.opt.disableflags = without(mujoco, OFF)
-        return CableSimulation(mujoco, model, system)
+        return CableSimulation(self, mujoco, model, system)
 
 
 class CableSimulation:
     """A chain in MuJoCo. The coordinates are rotations, each segment's relative to the one before it."""
 
-    def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
-        self._mujoco, self._model, self._system = mujoco, model, system
+    def __init__(self, engine: MujocoCable, mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
+        self._engine, self._mujoco, self._model, self._system = engine, mujoco, model, system
         _write_numbers(mujoco, model, system)
         self._data = mujoco.MjData(model)
         self._reading = mujoco.MjData(model)  # positions are worked out here: the engine's own step stays untouched
@@ -119,15 +119,14 @@ class CableSimulation:
         (segments[:, ::-1] * (rates * QUARTER_TURN)).cumsum(axis=0, out=velocities[1:])
         return positions.copy(), velocities.copy()
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Mass, drag and gravity can change; damping too, without effect. Unsupported: stiffness, rest_length."""
         if parameter == "stiffness":
             raise Unsupported("the segments of a cable do not stretch: there is no stiffness to change")
         if parameter == "rest_length":
             raise Unsupported("the segments of a cable are rigid: another rest length would move the masses")
-        changed = self._system.with_parameter(parameter, value)
-        _write_numbers(self._mujoco, self._model, changed)
-        self._system = changed
+        self._system = changed(self._engine, self._system, parameter, value)
+        _write_numbers(self._mujoco, self._model, self._system)
 
 
 def _compile(mujoco: ModuleType, system: MassSpringSystem) -> Any:

@@ -10,12 +10,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, Unsupported
+from engines.engine import CAPABILITIES, Unsupported, changed
 from engines.mujoco_common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco_masses import SlidingMasses, three
 from engines.mujoco_obstacles import add_obstacles, off
 from reference.state import Array
-from reference.system import IntArray, MassSpringSystem
+from reference.system import IntArray, MassSpringSystem, Value
 
 Integrator = Literal["Euler", "RK4"]
 
@@ -65,22 +65,37 @@ class MujocoFlex:
         model.opt.timestep = dt
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
         model.opt.disableflags = without(mujoco, off(system, FLEX_OFF))
-        return FlexSimulation(mujoco, model, system, groups)
+        return FlexSimulation(self, mujoco, model, system, groups)
 
 
 class FlexSimulation(SlidingMasses):
     """A system whose springs are edges."""
 
-    def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:
-        self._groups = groups
+    def __init__(
+        self,
+        engine: MujocoFlex,
+        mujoco: ModuleType,
+        model: Any,
+        system: MassSpringSystem,
+        groups: Sequence[Group],
+    ) -> None:
+        self._engine, self._groups = engine, groups
         _write_numbers(mujoco, model, system, groups)
         super().__init__(mujoco, model, system)
 
-    def change(self, parameter: str, value: float) -> None:
-        """Every parameter can change between two steps; the state stays where it is, to the last bit."""
-        changed = self._system.with_parameter(parameter, value)
-        _write_numbers(self._mujoco, self._model, changed, self._groups)
-        self._system = changed
+    def change(self, parameter: str, value: Value) -> None:
+        """Every parameter can change between two steps; the state stays where it is, to the last bit.
+
+        Raises:
+            Unsupported: for springs of one flex, which were alike, that are to differ.
+        """
+        system = changed(self._engine, self._system, parameter, value)
+        _refuse_unlike(parameter, getattr(system, parameter, None), self._groups)
+        self._system = system
+        if parameter == "gravity":
+            self.set_gravity(system.gravity)
+            return
+        _write_numbers(self._mujoco, self._model, system, self._groups)
 
 
 def groups_of(system: MassSpringSystem, *alike: Array) -> list[Group]:
@@ -160,6 +175,15 @@ def write_masses_and_lengths(mujoco: ModuleType, model: Any, system: MassSpringS
     update_constants(mujoco, model)
     for j, group in zip(model.flex_edgeadr, groups, strict=True):
         model.flexedge_length0[j : j + len(group)] = system.rest_lengths[group]
+
+
+def _refuse_unlike(parameter: str, values: Array | None, groups: Sequence[Group]) -> None:
+    """What all springs of a flex have in common must stay so."""
+    if values is None or parameter not in ("stiffness", "damping"):
+        return
+    for group in groups:
+        if np.ptp(values[group]):
+            raise Unsupported(f"{parameter} of springs that began alike cannot become different: they are one flex")
 
 
 def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:

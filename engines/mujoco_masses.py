@@ -50,6 +50,10 @@ class SlidingMasses:
         self._free_velocities[:] = self._v.cumsum(axis=0) if self._nested else self._v
         return self._positions.take(self._order, axis=0), self._velocities.take(self._order, axis=0)
 
+    def set_gravity(self, gravity: Array) -> None:
+        """Gravity [m/s^2], shape (d,). MuJoCo keeps nothing of it, so it may change at every step at no cost."""
+        self._model.opt.gravity[:] = three(gravity)
+
     def jacobian(self) -> Array | None:
         """MuJoCo's mjd_transitionFD over (qpos, qvel), centred; None for RK4, which it refuses."""
         mujoco, model = self._mujoco, self._model

@@ -9,11 +9,11 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, OBSTACLES, Unsupported, refuse_beyond
+from engines.engine import CAPABILITIES, OBSTACLES, Unsupported, changed, refuse_beyond
 from engines.mujoco_common import mujoco_module, without
 from engines.mujoco_flex import FLEX_OFF, Group, compiled, groups_of, write_masses_and_lengths
 from engines.mujoco_masses import SlidingMasses
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 #: What is switched off. Constraints are what holds the edges.
 ROPE_OFF = tuple(part for part in FLEX_OFF if part != "CONSTRAINT")
@@ -81,26 +81,33 @@ class MujocoRope:
         model.opt.iterations, model.opt.tolerance = ITERATIONS, 0.0
         model.eq_solref[:] = [2 * dt, 1.0]
         model.eq_solimp[:, :2] = self.impedance
-        return RopeSimulation(mujoco, model, system, groups, self.weight)
+        return RopeSimulation(self, mujoco, model, system, groups)
 
 
 class RopeSimulation(SlidingMasses):
     """A system whose springs are held edges."""
 
     def __init__(
-        self, mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group], weight: float
+        self,
+        engine: MujocoRope,
+        mujoco: ModuleType,
+        model: Any,
+        system: MassSpringSystem,
+        groups: Sequence[Group],
     ) -> None:
-        self._groups, self._weight = groups, weight
-        _write_numbers(mujoco, model, system, groups, weight)
+        self._engine, self._groups = engine, groups
+        _write_numbers(mujoco, model, system, groups, engine.weight)
         super().__init__(mujoco, model, system)
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """All can change but the stiffness; damping without effect, and to a new rest length it takes some steps."""
         if parameter == "stiffness":
             raise Unsupported("the edges of a rope do not stretch: there is no stiffness to change")
-        changed = self._system.with_parameter(parameter, value)
-        _write_numbers(self._mujoco, self._model, changed, self._groups, self._weight)
-        self._system = changed
+        self._system = changed(self._engine, self._system, parameter, value)
+        if parameter == "gravity":
+            self.set_gravity(self._system.gravity)
+            return
+        _write_numbers(self._mujoco, self._model, self._system, self._groups, self._engine.weight)
 
 
 def _write_numbers(

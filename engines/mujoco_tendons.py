@@ -9,11 +9,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, Unsupported
+from engines.engine import CAPABILITIES, Unsupported, changed
 from engines.mujoco_common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco_masses import SlidingMasses, three
 from engines.mujoco_obstacles import add_obstacles, off
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 Integrator = Literal["Euler", "RK4", "implicit"]
 
@@ -95,21 +95,24 @@ class MujocoTendons:
         model.opt.timestep = dt
         model.opt.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{self.integrator.upper()}")
         model.opt.disableflags = without(mujoco, off(system, self.disabled))
-        return TendonSimulation(mujoco, model, system, self.nested)
+        return TendonSimulation(self, mujoco, model, system)
 
 
 class TendonSimulation(SlidingMasses):
     """A system whose springs are tendons."""
 
-    def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, nested: bool) -> None:
-        _write_numbers(mujoco, model, system, nested)
-        super().__init__(mujoco, model, system, nested)
+    def __init__(self, engine: MujocoTendons, mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
+        self._engine = engine
+        _write_numbers(mujoco, model, system, engine.nested)
+        super().__init__(mujoco, model, system, engine.nested)
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Every parameter can change between two steps; the state stays where it is, to the last bit."""
-        changed = self._system.with_parameter(parameter, value)
-        _write_numbers(self._mujoco, self._model, changed, self._nested)
-        self._system = changed
+        self._system = changed(self._engine, self._system, parameter, value)
+        if parameter == "gravity":
+            self.set_gravity(self._system.gravity)
+            return
+        _write_numbers(self._mujoco, self._model, self._system, self._nested)
 
 
 def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float) -> Any:

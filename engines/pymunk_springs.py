@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import refuse_beyond
+from engines.engine import changed, refuse_beyond
 from engines.pymunk_obstacles import add_obstacles
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 
 @dataclass(frozen=True)
@@ -111,9 +111,12 @@ class PymunkSimulation:
         rows = np.frombuffer(self._buffer.float_buf()).reshape(-1, 4)[self._rows]
         return rows[:, :2], rows[:, 2:]
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Every parameter can change between two steps."""
-        self._system = self._system.with_parameter(parameter, value)
+        self._system = changed(self._engine, self._system, parameter, value)
+        if parameter == "gravity":
+            self._space.gravity = tuple(self._system.gravity.tolist())
+            return
         self._set_parameters()
 
     def _set_parameters(self) -> None:

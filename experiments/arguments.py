@@ -23,13 +23,14 @@ def parse_settings(words: Iterable[str]) -> dict[str, str]:
 
 
 def parse_changes(words: Iterable[str]) -> tuple[Change, ...]:
-    """T:KEY=VALUE as changes on the fly."""
+    """T:KEY=VALUE as changes on the fly; VALUE is one number, or one for each mass, spring or axis."""
     changes = []
     for word in words:
         time, _, setting = word.partition(":")
         key, _, value = setting.partition("=")
         try:
-            changes.append(Change(float(time), key, float(value)))
+            numbers = [float(number) for number in value.split(",")]
+            changes.append(Change(float(time), key, numbers[0] if len(numbers) == 1 else numbers))
         except ValueError:
             raise InputError(f"--change {word!r}: expected T:KEY=VALUE with two numbers") from None
     return tuple(changes)
@@ -51,15 +52,9 @@ def setup_for(
     if path.suffix == ".toml" or path.is_file():
         from reference.scene_file import load
 
-        setup = load(path, settings or {})
+        setup = load(path, settings or {}, dt, duration)
     else:
-        named = find(scene)
-        setup = Setup(scene, named.system(settings or {}), named.dt, named.duration)
-    setup = replace(
-        setup,
-        dt=setup.dt if dt is None else dt,
-        duration=setup.duration if duration is None else duration,
-        changes=(*setup.changes, *changes),
-    )
+        setup = find(scene).setup(settings or {}, dt, duration)
+    setup = replace(setup, changes=(*setup.changes, *changes))
     setup.check()
     return setup

@@ -73,7 +73,7 @@ def run_options(command: Any) -> Any:
             "changes",
             multiple=True,
             metavar="T:KEY=VALUE",
-            help="Change a parameter at a time [s], on the fly.",
+            help="Change a parameter at a time [s], on the fly; one number, or one for each, as 1,-9.81.",
         ),
         click.option("--json", "as_json", is_flag=True, help="Print JSON."),
     ]

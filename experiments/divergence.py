@@ -15,7 +15,7 @@ from reference.scenes import Setup, find
 def setup() -> Setup:
     """The default string: ten masses let go horizontally."""
     string = find("string")
-    return Setup("string", string.system({}), string.dt, string.duration)
+    return string.setup({})
 
 
 def run(progress: Progress) -> Result:

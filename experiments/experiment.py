@@ -26,6 +26,7 @@ NAMES = (
     "numbering",
     "errata",
     "barrier",
+    "ground_motion",
     "cost",
     "speed",
     "million_runs",

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from reference.errors import InputError
+from reference.system import MassSpringSystem, Value
 
 #: A trajectory keeps every step: beyond this many it would fill the memory.
 MOST_STEPS = 10_000_000
+
+#: And where something changes at every step, that alone would take seconds.
+MOST_DRIVEN = 100_000
 
 
 @dataclass(frozen=True)
@@ -20,16 +25,58 @@ class Change:
     Attributes:
         time: when [s]; it takes effect at the start of the first step that begins then or later.
         parameter: one of PARAMETERS.
-        value: the new value, for all masses or springs.
+        value: the new value, one number for all, or one for each mass, spring or axis (kept as a tuple).
     """
 
     time: float
     parameter: str
-    value: float
+    value: Value
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.value, int | float | tuple):
+            object.__setattr__(self, "value", tuple(float(number) for number in self.value))
 
     def step(self, dt: float) -> int:
         """The index of the first step it acts on; a time within 1e-9 of a step's start counts as that start."""
         return int(np.ceil(self.time / dt - 1e-9))
+
+
+class Drive(Protocol):
+    """What changes a system all the time while it moves: the ground under it, a truck that crosses it."""
+
+    @property
+    def parameter(self) -> str:
+        """Which of PARAMETERS it changes."""
+
+    def changes(self, system: MassSpringSystem, dt: float, duration: float) -> Sequence[Change]:
+        """The changes, in order of time, for steps of dt [s] that together make a duration [s]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Driven:
+    """A system, and what drives it: what the function of a scene may return in place of a system alone.
+
+    Raises:
+        InputError: where two drives change the same parameter: one would undo what the other does.
+    """
+
+    system: MassSpringSystem
+    drives: tuple[Drive, ...] = ()
+
+    def __post_init__(self) -> None:
+        driven = [drive.parameter for drive in self.drives]
+        for name in driven:
+            if driven.count(name) > 1:
+                raise InputError(f"{name} is driven {driven.count(name)} times: expected once")
+
+    def changes(self, dt: float, duration: float) -> tuple[Change, ...]:
+        """What the drives change, one drive after the other. Raises InputError beyond MOST_DRIVEN steps."""
+        if self.drives and whole_steps(dt, duration) > MOST_DRIVEN:
+            raise InputError(
+                f"duration = {duration:g}: expected at most {MOST_DRIVEN:,} steps of dt = {dt:g} s where the ground or "
+                "the load moves"
+            )
+        return tuple(change for drive in self.drives for change in drive.changes(self.system, dt, duration))
 
 
 def changes_by_step(changes: Sequence[Change], dt: float) -> dict[int, list[Change]]:

@@ -210,9 +210,7 @@ class LectureListing:
                 for change in pending.get(step, ()):
                     current = current.with_parameter(change.parameter, change.value)
                     if why_no_string(current):
-                        return Outcome(
-                            "unsupported", f"{change.parameter} = {change.value:g}: {why_no_string(current)}"
-                        )
+                        return Outcome("unsupported", f"{change.parameter} = {change.value}: {why_no_string(current)}")
                 with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
                     self.advance(links, StringConstants.of(current), dt)
                 states.append(_state((step + 1) * dt, system, links))

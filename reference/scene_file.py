@@ -13,6 +13,12 @@
     parameter = "stiffness"
     value = 100.0
 
+    [ground_motion]             # the ground moves, and all supports with it (`reference.ground_motion`)
+    from_frequency = 0.5        # Hz; or, in place of the numbers of a sweep, file = "record.csv" and its scale
+    to_frequency = 5.0          # Hz
+    amplitude = 1.0             # m/s^2
+    duration = 4.0              # s
+
     [[obstacles]]               # what masses may not enter: added to the scene's own, with either form of file
     kind = "circle"             # circle, sphere: centre [m], radius [m]; cylinder: also its axis, a direction;
     centre = [0.5, -0.6]        # plane: point [m], normal (a direction, out of it)
@@ -39,22 +45,25 @@ masses, in the file's order and counted from 0; edges of elements are springs, e
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import msgspec
 import numpy as np
 
-from reference.changes import Change
+from reference.changes import Change, Drive, Driven
 from reference.errors import InputError
+from reference.ground_motion import GroundMotion, Law, Sweep, read_record
 from reference.mesh_file import read_mesh
 from reference.obstacles import KINDS, Obstacle, obstacle
 from reference.scenes import Setup, find
 from reference.system import MassSpringSystem
 
 Numbers = float | list[float]
+
+T = TypeVar("T")
 
 
 class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
@@ -128,7 +137,37 @@ class ChangeTable(msgspec.Struct, forbid_unknown_fields=True):
 
     time: float
     parameter: str
-    value: float
+    value: Numbers
+
+
+class GroundMotionTable(msgspec.Struct, forbid_unknown_fields=True):
+    """The table [ground_motion]."""
+
+    file: str | None = None
+    scale: float | None = None
+    from_frequency: float | None = None
+    to_frequency: float | None = None
+    amplitude: float | None = None
+    duration: float | None = None
+    law: Law | None = None
+    direction: list[float] | None = None
+
+    def motion(self, folder: Path) -> Drive:
+        """What it describes: a record, or a sweep. Raises InputError, as `read_record` too."""
+        numbers = {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("file", "scale")}
+        given = {name: value for name, value in numbers.items() if value is not None}
+        if self.file is not None:
+            for name in given:
+                raise InputError(f"ground_motion.{name}: expected a record or a sweep, not both")
+            return GroundMotion(read_record(folder / self.file, 1.0 if self.scale is None else self.scale))
+        if self.scale is not None:
+            raise InputError("ground_motion.scale: expected a file with it")
+        for name in ("from_frequency", "to_frequency", "amplitude", "duration"):
+            if name not in given:
+                raise InputError(f"ground_motion.{name} is missing: expected a sweep's numbers or a file")
+        if "direction" in given:
+            given["direction"] = tuple(given["direction"])
+        return _within("ground_motion", lambda: GroundMotion(Sweep(**given)))
 
 
 class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
@@ -142,10 +181,11 @@ class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
     duration: float | None = None
     changes: list[ChangeTable] = []
     obstacles: list[dict[str, Any]] = []
+    ground_motion: GroundMotionTable | None = None
 
 
-def load(path: Path, settings: Mapping[str, Any]) -> Setup:
-    """The setup a scene file describes, with some of its scene's parameters set otherwise.
+def load(path: Path, settings: Mapping[str, Any], dt: float | None = None, duration: float | None = None) -> Setup:
+    """The setup a scene file describes, with some of its scene's parameters, dt or duration [s] set otherwise.
 
     Raises:
         InputError: naming the file, the key path and, where it is known, the line.
@@ -161,15 +201,30 @@ def load(path: Path, settings: Mapping[str, Any]) -> Setup:
     except (msgspec.DecodeError, RecursionError) as error:
         raise InputError(f"scene file {path}: {error}") from None
     try:
-        setup = _setup(path, content, {})
+        setup = _setup(path, content, {}, None, None)
     except InputError as error:
         raise InputError(f"scene file {path}{_line(text, str(error))}: {error}") from None
     # What is set otherwise is not the file's fault.
-    return _setup(path, content, settings) if settings else setup
+    otherwise = settings or dt is not None or duration is not None
+    return _setup(path, content, settings, dt, duration) if otherwise else setup
 
 
-def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup:
+def _setup(
+    path: Path, content: SceneFile, settings: Mapping[str, Any], dt: float | None, duration: float | None
+) -> Setup:
+    driven = _driven(path, content, settings)
+    scene = find(content.scene) if content.scene is not None else None
+    own_dt, own_duration = (scene.dt, scene.duration) if scene else (1e-3, 0.5)
+    dt = next(value for value in (dt, content.dt, own_dt) if value is not None)
+    duration = next(value for value in (duration, content.duration, own_duration) if value is not None)
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
+    setup = Setup(path.stem, driven.system, dt, duration, (*driven.changes(dt, duration), *changes))
+    setup.check()
+    return setup
+
+
+def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driven:
+    """The system, its obstacles, and what drives it."""
     if [content.scene, content.system, content.mesh].count(None) != 2:
         raise InputError('expected either scene = "..." or a table [system] or a table [mesh]')
     words = find(content.scene).choices if content.scene is not None else ()
@@ -184,27 +239,30 @@ def _setup(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Setup
         if settings or content.parameters:
             name = next(iter([*settings, *content.parameters]))
             raise InputError(f"{name}: expected no parameters, the system is written out")
-        system, dt, duration = written_out.system(path.parent), 1e-3, 0.5
+        driven = Driven(written_out.system(path.parent))
     else:
-        scene = find(content.scene or "")
-        system, dt, duration = scene.system({**content.parameters, **settings}), scene.dt, scene.duration
+        driven = find(content.scene or "").driven({**content.parameters, **settings})
+    system, drives = driven.system, driven.drives
     if content.obstacles:
         given = tuple(_obstacle(i, table) for i, table in enumerate(content.obstacles))
         system = replace(system, obstacles=(*system.obstacles, *given))
-    dt = dt if content.dt is None else content.dt
-    duration = duration if content.duration is None else content.duration
-    setup = Setup(path.stem, system, dt, duration, changes)
-    setup.check()
-    return setup
+    if content.ground_motion is not None:
+        drives = (*drives, content.ground_motion.motion(path.parent))
+    return Driven(system, drives)
 
 
 def _obstacle(i: int, table: dict[str, Any]) -> Obstacle:
     if "kind" not in table:
         raise InputError(f"obstacles[{i}].kind is missing: expected one of {', '.join(KINDS)}")
+    return _within(f"obstacles[{i}]", lambda: obstacle(**table))
+
+
+def _within(table: str, make: Callable[[], T]) -> T:
+    """What is made of a table; of a mistake in it the table is named too."""
     try:
-        return obstacle(**table)
+        return make()
     except InputError as error:
-        raise InputError(f"obstacles[{i}].{error}") from None
+        raise InputError(f"{table}.{error}") from None
 
 
 def _plain(message: str) -> str:

@@ -1,8 +1,8 @@
 """The scenes: systems with a name and parameters, after the lecture's pictures.
 
-A scene is one function from keyword parameters to a system; its signature says which parameters there are, their types
-and defaults; the decorator `scene` enters it. All quantities in SI units, angles in degrees. Here are the string's; the
-others stand in files by subject.
+A scene is one function from keyword parameters to a system, or to a system with what drives it (`changes.Driven`); its
+signature says which parameters there are, their types and defaults; the decorator `scene` enters it. All quantities in
+SI units, angles in degrees. Here are the string's; the others stand in files by subject.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
-from reference.changes import Change, changes_by_step, whole_steps
+from reference.changes import Change, Driven, changes_by_step, whole_steps
 from reference.errors import InputError, unknown_name
 from reference.state import Array
 from reference.system import MassSpringSystem, check_parameter
@@ -29,7 +29,7 @@ PerItem = float | Sequence[float]
 MOST_MASSES = 10_000_000
 
 #: Where the scenes stand, in the order they are shown.
-_FILES = ("reference.scenes", "reference.barrier", "reference.lattices", "reference.trusses")
+_FILES = ("reference.scenes", "reference.barrier", "reference.lattices", "reference.trusses", "reference.driven")
 _SCENES: dict[str, Scene] = {}
 
 
@@ -38,13 +38,13 @@ class Scene:
     """A named system with parameters.
 
     Attributes:
-        build: makes the system; keyword parameters only.
+        build: makes the system, driven or not; keyword parameters only.
         dt: the step it is shown with [s].
         duration: how long [s].
         slides: of the lecture.
     """
 
-    build: Callable[..., MassSpringSystem]
+    build: Callable[..., MassSpringSystem | Driven]
     dt: float
     duration: float
     slides: str
@@ -71,7 +71,24 @@ class Scene:
         return {name: get_args(hints[name]) for name in self.parameters if get_origin(hints[name]) is Literal}
 
     def system(self, settings: Mapping[str, Any]) -> MassSpringSystem:
-        """The system with some parameters set, given as words, numbers, lists of numbers, or text of either.
+        """The system alone, with some parameters set. Raises InputError as `driven` does."""
+        return self.driven(settings).system
+
+    def setup(self, settings: Mapping[str, Any], dt: float | None = None, duration: float | None = None) -> Setup:
+        """The system with what changes while it moves, for a dt and a duration [s] or the scene's own.
+
+        Raises:
+            InputError: as `driven` does; for times that make no sense.
+        """
+        driven = self.driven(settings)
+        dt = self.dt if dt is None else dt
+        duration = self.duration if duration is None else duration
+        return Setup(self.name, driven.system, dt, duration, driven.changes(dt, duration))
+
+    def driven(self, settings: Mapping[str, Any]) -> Driven:
+        """The system, and what drives it, if anything does, with some parameters set.
+
+        They are given as words, numbers, lists of numbers, or text of either.
 
         Raises:
             InputError: for an unknown parameter or a value of the wrong type or range.
@@ -87,7 +104,8 @@ class Scene:
             values[name] = _converted(name, value, self.parameters[name], several)
         # of numbers that are too large the system itself says so
         with np.errstate(all="ignore"):
-            return self.build(**values)
+            built = self.build(**values)
+        return built if isinstance(built, Driven) else Driven(built)
 
 
 @dataclass(frozen=True)
@@ -99,7 +117,7 @@ class Setup:
         system: what moves.
         dt: the step [s].
         duration: how long [s].
-        changes: parameters that change on the fly.
+        changes: parameters that change on the fly, those by what drives the system included.
     """
 
     name: str
@@ -116,10 +134,10 @@ class Setup:
             self.system.with_parameter(change.parameter, change.value)
 
 
-def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., MassSpringSystem]], Any]:
+def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., MassSpringSystem | Driven]], Any]:
     """Enter the decorated function into the scenes."""
 
-    def enter(build: Callable[..., MassSpringSystem]) -> Callable[..., MassSpringSystem]:
+    def enter(build: Callable[..., MassSpringSystem | Driven]) -> Callable[..., MassSpringSystem | Driven]:
         entry = Scene(build, dt, duration, slides)
         _SCENES[entry.name] = entry
         return build

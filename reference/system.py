@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from copy import copy
 from dataclasses import dataclass, field, fields, replace
 from math import isfinite
 from typing import Any
@@ -16,7 +18,10 @@ from reference.state import Array, State
 IntArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]
 
-#: The parameters one number can set, also while the system moves (lecture slide 12), with their units.
+#: A parameter's value: one number, or one for each mass, spring or axis.
+Value = float | Sequence[float]
+
+#: The parameters that can be set, also while the system moves (lecture slide 12), with their units.
 PARAMETERS = {
     "mass": "kg, of every mass",
     "rest_length": "m, of every spring",
@@ -26,6 +31,8 @@ PARAMETERS = {
     "gravity": "m/s^2, downwards",
 }
 
+#: Those of them that are fields by another name.
+FIELDS = {"mass": "masses", "rest_length": "rest_lengths"}
 
 #: Which of them cannot be zero, or less.
 ABOVE_ZERO = ("mass", "rest_length")
@@ -75,8 +82,6 @@ class MassSpringSystem:
         springs = _springs(self.springs, positions)
         s = len(springs)
         gravity = _finite("gravity", self.gravity, "m/s^2")
-        if gravity.size == 1:
-            gravity = np.array([0.0, -float(gravity.item()), 0.0][:d])
         checked = {
             "positions": positions,
             "springs": springs,
@@ -84,7 +89,7 @@ class MassSpringSystem:
             "rest_lengths": _in_range("rest_lengths", self.rest_lengths, (s,), "m", above_zero=True),
             "stiffness": _in_range("stiffness", self.stiffness, (s,), "N/m"),
             "damping": _in_range("damping", self.damping, (s,), "N s/m"),
-            "gravity": _shaped("gravity", gravity, (d,)),
+            "gravity": _shaped("gravity", _downwards(gravity, d), (d,)),
             "velocities": _shaped("velocities", _finite("velocities", self.velocities, "m/s"), (n, d)),
             "fixed": _shaped("fixed", _truths("fixed", self.fixed), (n,)),
         }
@@ -123,18 +128,38 @@ class MassSpringSystem:
         """The state at time zero."""
         return State(0.0, self.positions, self.velocities)
 
-    def with_parameter(self, name: str, value: float) -> MassSpringSystem:
-        """The same system with one of PARAMETERS set to a number for all its masses or springs.
+    def with_parameter(self, name: str, value: Value) -> MassSpringSystem:
+        """The same system with one of PARAMETERS set: one number for all, or one for each mass, spring or axis.
+
+        Nothing else is looked at again: a parameter may change at every step of a run.
 
         Raises:
-            InputError: for an unknown name or a value that makes no sense.
+            InputError: for an unknown name, a value that makes no sense, or another number of numbers.
         """
         if name not in PARAMETERS:
             raise unknown_name("parameter", name, PARAMETERS)
-        check_parameter(name, value)
-        attribute = {"mass": "masses", "rest_length": "rest_lengths"}.get(name, name)
-        changed: dict[str, Any] = {attribute: value}
-        return replace(self, **changed)
+        changed = copy(self)
+        object.__setattr__(changed, FIELDS.get(name, name), self._checked_parameter(name, value))
+        return changed
+
+    def _checked_parameter(self, name: str, value: Value) -> Array | float:
+        unit = PARAMETERS[name].partition(",")[0]
+        array = _finite(name, value, unit)
+        if name != "gravity":
+            _refuse_below(name, array, unit, above_zero=name in ABOVE_ZERO)
+        if name == "drag":
+            if array.size != 1:
+                raise InputError(f"drag has {array.size} numbers: expected one [{unit}]")
+            return float(array.item())
+        count, what = {"mass": (len(self.masses), "masses"), "gravity": (self.dimension, "axes")}.get(
+            name, (len(self.springs), "springs")
+        )
+        if array.size != 1 and array.shape != (count,):
+            raise InputError(f"{name} has {array.size} numbers: expected one, or one for each of {count} {what}")
+        spread = _downwards(array, count) if name == "gravity" else array.reshape(-1)
+        whole = np.array(np.broadcast_to(spread, (count,)))
+        whole.flags.writeable = False
+        return whole
 
     def renumbered(self, order: npt.ArrayLike) -> MassSpringSystem:
         """The same system with its masses listed in another order: mass order[i] becomes mass i."""
@@ -189,9 +214,18 @@ def _finite(name: str, value: npt.ArrayLike, unit: str) -> Array:
 
 def _in_range(name: str, value: npt.ArrayLike, shape: tuple[int, ...], unit: str, above_zero: bool = False) -> Array:
     array = _shaped(name, _finite(name, value, unit), shape)
+    _refuse_below(name, array, unit, above_zero)
+    return array
+
+
+def _refuse_below(name: str, array: Array, unit: str, above_zero: bool) -> None:
     bad = array <= 0 if above_zero else array < 0
     _refuse(name, array, bad, f"a number {'> 0' if above_zero else '>= 0'} [{unit}]")
-    return array
+
+
+def _downwards(gravity: Array, dimension: int) -> Array:
+    """A single number g [m/s^2] as a vector along the second axis; others as they are."""
+    return np.array([0.0, -float(gravity.item()), 0.0][:dimension]) if gravity.size == 1 else gravity
 
 
 def _truths(name: str, value: npt.ArrayLike) -> BoolArray:

@@ -13,7 +13,7 @@ import numpy as np
 from engines.engine import CAPABILITIES, refuse_beyond
 from reference.obstacles import keep_out
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 
 class KickDrift:
@@ -54,7 +54,7 @@ class KickDrift:
         """Copies."""
         return self.x.copy(), self.v.copy()
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Any parameter."""
         self.system = self.system.with_parameter(parameter, value)
 
@@ -143,8 +143,17 @@ class FallsAsleep(KickDrift):
 class IgnoresChanges(KickDrift):
     """Accepts every change and makes none."""
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Nothing."""
+
+
+class ChangesAllAlike(KickDrift):
+    """Of one number for each takes the first for all."""
+
+    def change(self, parameter: str, value: Value) -> None:
+        """One number."""
+        first = value if isinstance(value, int | float) else value[0]
+        super().change(parameter, first)
 
 
 class HandsOutItsMemory(KickDrift):

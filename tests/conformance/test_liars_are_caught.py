@@ -65,6 +65,17 @@ def test_the_honest_engine_changes_on_the_fly_and_the_liar_is_caught() -> None:
             check_change(Doctored(doctored.IgnoresChanges), case, wrong)
 
 
+def test_an_engine_that_takes_one_number_for_each_as_one_for_all_is_caught() -> None:
+    """Whatever the parameter; it passes where there is one number only."""
+    liar = Doctored(doctored.ChangesAllAlike)
+    for name in test_changes.EACH:
+        case = test_changes.CASES[f"{name} of each"]
+        with pytest.raises(AssertionError):
+            check_change(liar, case, *outcomes(liar, [case]))
+        plain = test_changes.CASES[name]
+        check_change(liar, plain, *outcomes(liar, [plain]))
+
+
 def test_a_capability_an_engine_only_says_it_has_is_caught() -> None:
     """The check of capabilities passes the honest engine, and refuses one that gives all masses the same mass."""
     case = test_capabilities.CASES["masses"]

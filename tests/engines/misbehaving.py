@@ -19,7 +19,7 @@ import numpy as np
 from engines.engine import CAPABILITIES
 from reference.outcome import Outcome
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, Value
 
 
 def fine() -> Outcome:
@@ -129,7 +129,7 @@ class Still:
         """As at the start."""
         return self.x.copy(), self.v.copy()
 
-    def change(self, parameter: str, value: float) -> None:
+    def change(self, parameter: str, value: Value) -> None:
         """Makes no difference."""
 
 

@@ -46,6 +46,8 @@ LINES = [
     ("compare --change -1:drag=1", "change time = -1: expected a finite number >= 0 [s]"),
     ("compare --change 0.1:stiffness=-3", "stiffness = -3: expected a number >= 0 [N/m]"),
     ("compare --change 0.1:mass=nan", "= nan: expected a finite number [kg]"),
+    ("compare --change 0.1:gravity=1,2,3", "gravity has 3 numbers: expected one, or one for each of 2 axes"),
+    ("compare --change 0.1:stiffness=1,2", "stiffness has 2 numbers: expected one, or one for each of 10 springs"),
     # A spring of no length.
     (
         "compare spring --set stretch=-0.125",

@@ -25,6 +25,7 @@ from tests.reference.test_scene_file import NAMED, WRITTEN_OUT
 TIME_LIMIT = 5.0
 
 OBSTACLE = '[[obstacles]]\nkind = "circle"\ncentre = [0.5, -6]\nradius = 0.3\n'
+SHAKEN = "[ground_motion]\nfrom_frequency = 0.5\nto_frequency = 5.0\namplitude = 1.0\nduration = 0.2\nlaw = 'linear'\n"
 OF_A_BLOCK = SCENE.replace("meshes/blanket.obj", "mesh.vtk")
 
 #: Scene files, and the mesh each takes, by name.
@@ -32,6 +33,8 @@ SOUND: list[tuple[str, str, str | bytes]] = [
     (NAMED, "", ""),
     (NAMED + OBSTACLE, "", ""),
     (WRITTEN_OUT, "", ""),
+    (WRITTEN_OUT + SHAKEN + "direction = [1, 0.5]\n", "", ""),
+    (WRITTEN_OUT + '[ground_motion]\nfile = "mesh.csv"\nscale = 9.81\n', "mesh.csv", "t, x\n0, 1\n0.1, 2\n0.2, -1\n"),
     (SCENE.replace("meshes/blanket", "mesh"), "mesh.obj", BLANKET),
     (OF_A_BLOCK, "mesh.vtk", BLOCK),
     (OF_A_BLOCK, "mesh.vtk", NEXT_BLOCK),

@@ -147,7 +147,7 @@ def test_an_empty_list_of_springs_is_a_heap_of_masses(tmp_path: Path) -> None:
         (
             'scene = "string"\n[[changes]]\ntime = 0.1\nparameter = "drag"\nvalue = "much"\n',
             ", line 5",
-            "changes[0].value: expected `float`, got `str`",
+            "changes[0].value: expected `float | array`, got `str`",
         ),
         (
             WRITTEN_OUT.replace("3.0, 4.0", '3.0, "far"'),
@@ -231,7 +231,7 @@ def test_the_same_key_twice_has_no_one_line(tmp_path: Path) -> None:
     file = written(tmp_path, NAMED.replace("value = 0.05", 'value = "0.05"'))
     with pytest.raises(InputError) as refused:
         load(file, {})
-    assert str(refused.value) == f"scene file {file}: changes[1].value: expected `float`, got `str`"
+    assert str(refused.value) == f"scene file {file}: changes[1].value: expected `float | array`, got `str`"
 
 
 def test_a_file_that_cannot_be_read_is_told_why(tmp_path: Path) -> None:

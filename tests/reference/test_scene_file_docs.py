@@ -10,7 +10,7 @@ import pytest
 
 from reference.errors import InputError
 from reference.mesh_file import EDGES
-from reference.scene_file import MeshTable, SystemTable, load
+from reference.scene_file import GroundMotionTable, MeshTable, SystemTable, load
 from reference.scenes import Setup
 
 DOCS = Path(__file__).parents[2] / "report" / "docs" / "scene-files.md"
@@ -40,7 +40,16 @@ def test_what_stands_besides_is_read(tmp_path: Path) -> None:
     """With either form in the plane."""
     for form in (NAMED, WRITTEN_OUT):
         setup = loaded(tmp_path, form + BESIDES)
-        assert len(setup.changes) == len(setup.system.obstacles) == 1
+        assert len(setup.system.obstacles) == 1
+        assert [change.parameter for change in setup.changes].count("stiffness") == 1
+        assert [change.parameter for change in setup.changes].count("gravity") > 100
+
+
+def test_the_record_that_is_shown_is_read(tmp_path: Path) -> None:
+    """In place of the sweep."""
+    (tmp_path / "record.csv").write_text(*re.findall(r"```csv\n(.*?)```", TEXT, flags=re.S))
+    setup = loaded(tmp_path, NAMED + '[ground_motion]\nfile = "record.csv"\nscale = 9.81\n')
+    assert 30 < len(setup.changes) < 45
 
 
 def test_a_typing_mistake_there_would_be_seen(tmp_path: Path) -> None:
@@ -59,7 +68,7 @@ def test_what_is_left_out_is_as_it_says(tmp_path: Path) -> None:
 
 def test_every_key_and_every_kind_of_element_is_told() -> None:
     """None is left out of the documentation."""
-    for key in (*MeshTable.__struct_fields__, *SystemTable.__struct_fields__):
+    for key in (f for table in (MeshTable, SystemTable, GroundMotionTable) for f in table.__struct_fields__):
         assert re.search(rf"^(# )?{key} = ", TEXT, flags=re.M), key
     names = {"line": "lines", "quad": "quadrilaterals", "tetra": "tetrahedra", "hexahedron": "hexahedra"}
     for kind in (*EDGES, "polygon"):

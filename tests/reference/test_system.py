@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.errors import InputError
-from reference.system import PARAMETERS, MassSpringSystem
+from reference.system import FIELDS, PARAMETERS, MassSpringSystem
 from tests.reference.systems import meshes, property_test, random_mesh, seeds
 
 TRIANGLE: dict[str, Any] = {
@@ -311,6 +311,37 @@ def test_every_parameter_is_set_for_all_and_nothing_else_changes(name: str) -> N
     assert {key for key in after if after[key] != before[key]} == {attribute}
     values = np.asarray(after[attribute])
     assert np.unique(np.abs(values[values != 0])).tolist() == [0.7]
+
+
+@pytest.mark.parametrize("name", [name for name in PARAMETERS if name != "drag"])
+def test_a_parameter_is_set_to_one_number_for_each(name: str) -> None:
+    """As the field would be; and it cannot be written to."""
+    made, field = random_mesh(2, 5, 2), FIELDS.get(name, name)
+    values = np.linspace(0.5, 1.0, len(getattr(made, field)))
+    changed = made.with_parameter(name, values.tolist())
+    assert changed.to_dict() == dataclasses.replace(made, **{field: values}).to_dict()
+    with pytest.raises(ValueError, match="read-only"):
+        getattr(changed, field)[0] = 1.0
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("mass", [0.1, 0.0, 0.2], "mass[1] = 0: expected a number > 0 [kg]"),
+        ("mass", [0.1, 0.2], "mass has 2 numbers: expected one, or one for each of 3 masses"),
+        ("stiffness", [1.0, float("nan")], "stiffness[1] = nan: expected a finite number [N/m]"),
+        ("damping", [1.0, 2.0, 3.0], "damping has 3 numbers: expected one, or one for each of 2 springs"),
+        ("gravity", [0.0, -1.0, 0.0], "gravity has 3 numbers: expected one, or one for each of 2 axes"),
+        ("gravity", [0.0, float("inf")], "gravity[1] = inf: expected a finite number [m/s^2]"),
+        ("drag", [0.1, 0.1], "drag has 2 numbers: expected one [N s/m]"),
+        ("drag", -0.1, "drag = -0.1: expected a number >= 0 [N s/m]"),
+    ],
+)
+def test_values_that_make_no_sense_are_refused(name: str, value: Any, message: str) -> None:
+    """By name, index, value, and what was expected."""
+    with pytest.raises(InputError) as refused:
+        system().with_parameter(name, value)
+    assert str(refused.value) == message
 
 
 def test_unknown_parameters_are_refused_with_a_suggestion() -> None:
