@@ -26,6 +26,7 @@ NAMES = (
     "numbering",
     "errata",
     "barrier",
+    "scenes",
     "cost",
     "speed",
     "million_runs",

@@ -17,7 +17,7 @@ from reference.system import BoolArray
 from report.view import View, Window
 
 #: Pixels along the longer side of the picture, and how many times a ray is moved on.
-PIXELS, MOVES = 360, 80
+PIXELS, MOVES = 560, 300
 
 #: A ray has arrived within this part of the eye's distance; a mass so little behind a surface lies on it.
 TOUCH, HIDDEN = 1e-4, 0.01
@@ -80,6 +80,21 @@ def _nearest(obstacles: Sequence[Obstacle], points: Array) -> tuple[Array, Array
     return gap, np.take_along_axis(np.stack(normals), which[None], axis=0)[0]
 
 
+def _touched(obstacles: Sequence[Obstacle], eye: Array, rays: Array, distance: float) -> Array:
+    """Where rays (h, w, 3) come to from the eye [m]: to an obstacle, or far beyond anything that is drawn."""
+    towards = rays.reshape(-1, 3)
+    points = np.tile(eye, (len(towards), 1))
+    moving = np.arange(len(towards))
+    for _ in range(MOVES):
+        gap, _ = _nearest(obstacles, points[moving])
+        points[moving] += np.maximum(gap, 0)[:, None] * towards[moving]
+        near = np.linalg.norm(points[moving] - eye, axis=1) < 3 * distance
+        moving = moving[(gap > TOUCH / 10 * distance) & near]
+        if not len(moving):
+            break
+    return points.reshape(rays.shape)
+
+
 def _flat(obstacles: Sequence[Obstacle], view: View, window: Window, places: Array) -> Backdrop:
     """The inside in one grey, with an edge as soft as a pixel."""
     gap, _ = _nearest(obstacles, places)
@@ -93,11 +108,8 @@ def _flat(obstacles: Sequence[Obstacle], view: View, window: Window, places: Arr
 def _traced(obstacles: Sequence[Obstacle], view: View, window: Window, places: Array) -> Backdrop:
     """Shaded by a light above the eye's left shoulder."""
     eye, rays = view.rays(places)
-    points = np.broadcast_to(eye, rays.shape).copy()
-    gap = np.zeros(rays.shape[:-1])
-    for _ in range(MOVES):
-        gap, normal = _nearest(obstacles, points)
-        points += np.clip(gap, 0, view.distance)[..., None] * rays
+    points = _touched(obstacles, eye, rays, view.distance)
+    gap, normal = _nearest(obstacles, points)
     towards = view.axes[2]
     lit = np.clip((normal * (np.array(LIGHT_FROM) @ view.axes)).sum(axis=-1), 0, 1)
     away = np.linalg.norm(points - view.middle, axis=-1) / view.distance

@@ -19,7 +19,7 @@ STRAIN_COLOURS = ((0, "#00429d"), (0.38, "#4a9be0"), (0.5, "#a6a6a6"), (0.62, "#
 FEW = 30
 
 #: What is farthest away is drawn in so much of its colour and of its width.
-FAR = 0.3
+FAR = 0.45
 
 #: In large systems springs longer than the shortest, such as go across cells, are thinner, but not below this part.
 THINNEST = 0.3
@@ -186,15 +186,18 @@ def add_length(axes: Any, window: Window) -> None:
     length = nice((right - left) / 10)
     x, y = left + 0.04 * (right - left), bottom + 0.04 * (top - bottom)
     axes.plot([x, x + length], [y, y], color="#444444", linewidth=2, solid_capstyle="butt", zorder=5)
-    axes.annotate(f"{length:g} m", (x, y), (0, 3), textcoords="offset points", fontsize=8, color="#444444", zorder=5)
+    beside: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": 8, "color": "#444444"}
+    axes.annotate(f"{length:g} m", (x + length, y), (4, 0), zorder=5, **beside)
 
 
-def add_strain_bar(figure: Any, axes: Any, most: float) -> None:
+def add_strain_bar(
+    figure: Any, axes: Any, most: float, label: str = "strain [%]: pushed together (-), pulled apart (+)"
+) -> None:
     """The colours of strain, in percent, on axes of their own."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
     bar = figure.colorbar(ScalarMappable(Normalize(-100 * most, 100 * most), colour_map()), cax=axes, extend="both")
-    bar.set_label("strain [%]: pushed together (-), pulled apart (+)", fontsize=9)
+    bar.set_label(label, fontsize=9)
     bar.ax.tick_params(labelsize=9)
     bar.outline.set_visible(False)

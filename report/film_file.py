@@ -86,9 +86,9 @@ def _write_gif(part: Path, frames: Iterator[Array], rate: float) -> None:
 
 
 def _palette() -> list[int]:
-    """Red, green, blue of 256 colours: 64 greys, and those of strain, clear and more and more faint on white."""
-    greys = np.repeat(np.linspace(0, 255, 64)[:, None], 3, axis=1)
-    clear = 255 * colour_map()(np.linspace(0, 1, 48))[:, :3]
+    """Red, green, blue of 256 colours: 32 greys, and those of strain, clear and more and more faint on white."""
+    greys = np.repeat(np.linspace(0, 255, 32)[:, None], 3, axis=1)
+    clear = 255 * colour_map()(np.linspace(0, 1, 56))[:, :3]
     faint = [255 + part * (clear - 255) for part in (1.0, 0.75, 0.5, 0.25)]
     return np.concatenate([greys, *faint]).round().astype(int).ravel().tolist()
 
