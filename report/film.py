@@ -11,6 +11,7 @@ from experiments.comparison import Comparison, Run
 from experiments.runs import Progress
 from reference.changes import changes_by_step
 from reference.errors import InputError
+from reference.identify import TOLERANCE
 from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
@@ -26,18 +27,15 @@ RATE, MOST_FRAMES = 25, 750
 #: The scheme the engines are seen beside.
 REFERENCE = "heun"
 
-#: Two motions are shown as one where they are never further apart than this part of the system's size.
-SAME = 1e-9
-
 
 def shots(comparison: Comparison, names: Sequence[str] = ()) -> list[Shot]:
-    """The runs to be seen, those with the same motion as one: of these names, or the reference and all engines.
+    """The runs to be seen, those with the same motion to rounding as one: of these names, or reference and engines.
 
     What crashed, timed out or is unsupported has no motion, and is not there.
     """
     wanted = [r for r in comparison.runs if r.outcome.trajectory is not None]
     wanted = [r for r in wanted if r.stepper.name in names] if names else [r for r in wanted if _is_shown(r)]
-    near = SAME * comparison.setup.system.size
+    near = TOLERANCE * comparison.setup.system.size
     groups: list[list[Run]] = []
     for run in wanted:
         alike = (g for g in groups if _apart(g[0].outcome, run.outcome) <= near)
