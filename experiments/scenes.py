@@ -81,7 +81,8 @@ def _runs(scene: Scene, system: MassSpringSystem, progress: Progress) -> Iterato
     claimed = {name for stepper in engines for name in stepper.engine.identified_as.values()}
     large = len(system.masses) > LARGE
     tried = [c for name, c in catalogued().items() if name in claimed and not (large and c.on_rods)]
-    known = _trajectories(tried, scene, system)
+    moved = [outcome for _, outcome in outcomes if outcome.trajectory is not None]
+    known = _known(tried, moved, scene, system)
     found = {s.name: identify_run(s.name, outcome, system, known) for s, outcome in outcomes}
     begun = [(s, _beginning(o)) for s, o in outcomes if o.trajectory is not None and found[s.name].error > NEAR]
     short = candidates_for(begun, system, scene.dt, FIRST) if begun else {}
@@ -93,9 +94,20 @@ def _runs(scene: Scene, system: MassSpringSystem, progress: Progress) -> Iterato
         yield Run(scene, system, stepper, outcome, found[stepper.name], compared)
 
 
-def _trajectories(steppers: Sequence[Stepper], scene: Scene, system: MassSpringSystem) -> dict[str, Trajectory]:
-    outcomes = {s.name: s.run(system, scene.dt, STEPS) for s in steppers}
-    return {name: outcome.trajectory for name, outcome in outcomes.items() if outcome.trajectory is not None}
+def _known(
+    steppers: Sequence[Stepper], runs: Sequence[Outcome], scene: Scene, system: MassSpringSystem
+) -> dict[str, Trajectory]:
+    """Of these schemes the trajectories that some run follows; which one does not is seen in the first steps."""
+    known: dict[str, Trajectory] = {}
+    for stepper in steppers:
+        runs = [run for run in runs if identify_run("", run, system, known).error > NEAR]
+        begun = stepper.run(system, scene.dt, FIRST).trajectory if runs else None
+        if begun is None:
+            continue
+        if any(identify_run("", _beginning(run), system, {"": begun}).error <= NEAR for run in runs):
+            whole = stepper.run(system, scene.dt, STEPS).trajectory
+            known |= {} if whole is None else {stepper.name: whole}
+    return known
 
 
 def _beginning(outcome: Outcome) -> Outcome:
