@@ -14,7 +14,7 @@ import click
 COMMANDS = {
     "list": ("experiments.commands:show_list", "Scenes, schemes, engines and experiments."),
     "compare": (
-        "experiments.commands:compare_command",
+        "report.compare_command:compare_command",
         "Run many steppers on one scene: how far from the truth, and why.",
     ),
     "identify": ("experiments.commands:identify_command", "Say which scheme a stepper is."),

@@ -1,10 +1,8 @@
-"""The commands that answer in the terminal: list, compare, identify."""
+"""The commands that answer in the terminal: list, identify."""
 
 from __future__ import annotations
 
 import json
-import sys
-from pathlib import Path
 from typing import Any
 
 import click
@@ -80,47 +78,6 @@ def run_options(command: Any) -> Any:
     for option in reversed(options):
         command = option(command)
     return command
-
-
-@click.command("compare")
-@click.argument("scene", default="string")
-@click.option("--stepper", "names", multiple=True, metavar="NAME", help="Only these; see `springlab list`.")
-@run_options
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Also write CSV and JSON files here.")
-def compare_command(
-    scene: str,
-    names: tuple[str, ...],
-    dt: float | None,
-    duration: float | None,
-    settings: tuple[str, ...],
-    changes: tuple[str, ...],
-    as_json: bool,
-    out: Path | None,
-) -> None:
-    """Run steppers on SCENE (a name or a TOML file) and say how far each is from the true motion, and why."""
-    from experiments.comparison import compare
-    from experiments.divergence import result_of
-    from experiments.experiment import write_tables
-    from experiments.steppers import default_steppers, find_steppers
-
-    setup = setup_for(scene, dt, duration, parse_settings(settings), parse_changes(changes))
-    steppers = find_steppers(names) if names else default_steppers()
-    with progress("compare") as tell:
-        comparison = compare(setup, steppers, tell)
-    document = json.dumps(comparison.document, indent=2)
-    if out is not None:
-        files = write_tables(result_of(comparison), out)
-        (out / "compare.json").write_text(document + "\n", encoding="utf-8")
-        print(*(f"written: {file}" for file in [*files, out / "compare.json"]), sep="\n", file=sys.stderr)
-    if as_json:
-        click.echo(document)
-        return
-    title = f"{setup.name}: dt = {setup.dt:g} s, {setup.duration:g} s"
-    columns = ["stepper", "outcome", "error [m]", "identified as", "deviation [m]", "reason"]
-    keys = ["stepper", "outcome", "error_m", "identified_as", "identification_error_m", "reason"]
-    show_table(title, columns, [[run.row[key] for key in keys] for run in comparison.runs])
-    if comparison.why_no_true_motion:
-        click.echo(f"No error is known: {comparison.why_no_true_motion}.")
 
 
 @click.command("identify")

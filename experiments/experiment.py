@@ -27,6 +27,7 @@ NAMES = (
     "errata",
     "barrier",
     "ground_motion",
+    "scenes",
     "cost",
     "speed",
     "million_runs",

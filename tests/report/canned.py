@@ -8,11 +8,13 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from engines.isolation import EngineStepper
-from experiments import divergence
+from experiments import divergence, scenes
 from experiments.comparison import compare
 from experiments.experiment import Result, Table
+from reference.identify import Identification
+from reference.outcome import Outcome
 from reference.scenes import Setup, find
-from reference.stepper import Stepper
+from reference.stepper import Stepper, catalogued
 from tests.conformance.doctored import Doctored, StifferByAMillionth
 from tests.engines.misbehaving import Misbehaving, Segfaults, Still
 
@@ -50,9 +52,24 @@ def errata() -> Result:
     return Result(["One < two."], [table], {"orders": orders, "barrier": (angles, -np.cos(2 * angles), np.ones(9))})
 
 
+def all_scenes(*names: str) -> Result:
+    """Some scenes with a crash, and how they move."""
+    found = {name: find(name) for name in names}
+    systems = {name: scene.system({}) for name, scene in found.items()}
+    stepper = EngineStepper(Misbehaving(Segfaults))
+    nothing, crash = Identification("Segfaults", (), 1e-12, "it crashed"), Outcome("crashed", "killed by SIGSEGV")
+    runs = [scenes.Run(found[name], systems[name], stepper, crash, nothing, 200) for name in names]
+    motions = {}
+    for name, system in systems.items():
+        outcome = catalogued()["heun"].run(system, found[name].dt, 20)
+        motions[name] = (system, outcome.trajectory)
+    return scenes.result_of(runs, motions)  # type: ignore[arg-type]
+
+
 #: By experiment, results to draw: as usual, and with what is missing.
 RESULTS: Mapping[str, Mapping[str, Callable[[], Result]]] = {
     "divergence": {"usual": engines_that_run, "no engine": no_engine_installed, "nobody": lambda: of()},
     "stiff_limit": {"usual": lambda: stiff_limit(100.0), "no engine": lambda: stiff_limit(None)},
     "errata": {"usual": errata},
+    "scenes": {"usual": lambda: all_scenes("string", "barrier", "cloth"), "no scene": lambda: all_scenes()},
 }
