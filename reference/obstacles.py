@@ -11,24 +11,20 @@ There is one definition of each kind: `surface`, written for numbers, one per ax
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
-from functools import reduce
-from operator import add, mul
 from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from reference.axes import Axes, across, axes_of, direction, dot, less, vectors_of
 from reference.errors import InputError, unknown_name
 from reference.state import Array
 
 #: A mass may start inside by this part of the system's size: a state that was pushed out and rounded is a start too.
 ROUNDING = 1e-9
-
-#: A vector as one entry per axis: each a number, an array of them, or a symbol (`tracing`).
-Axes = Sequence[Any]
 
 
 @dataclass(frozen=True)
@@ -74,13 +70,13 @@ class Obstacle:
 
     def gap(self, positions: Array) -> tuple[Array, Array]:
         """How far positions (..., d) are from the surface [m], (..., 1), and the normals outwards there, (..., d)."""
-        gap, normal = self.surface(_axes(positions))
-        return np.asarray(gap)[..., None], _vectors(normal, positions)
+        gap, normal = self.surface(axes_of(positions))
+        return np.asarray(gap)[..., None], vectors_of(normal, positions)
 
     def push_out(self, positions: Array, velocities: Array) -> tuple[Array, Array]:
         """The rule for free masses, positions [m] and velocities [m/s] of the shape (..., d)."""
-        pushed, kept = self.meet(_axes(positions), _axes(velocities), True)
-        return _vectors(pushed, positions), _vectors(kept, velocities)
+        pushed, kept = self.meet(axes_of(positions), axes_of(velocities), True)
+        return vectors_of(pushed, positions), vectors_of(kept, velocities)
 
     def to_dict(self) -> dict[str, Any]:
         """Its kind and its numbers by name, as `obstacle` takes them."""
@@ -99,7 +95,7 @@ class _Ball(Obstacle):
 
     def surface(self, place: Axes) -> tuple[Any, Axes]:
         up = [0.0, 1.0, 0.0][: self.dimension]
-        distance, normal = _length_and_direction(_less(place, self.centre), up)
+        distance, normal = direction(less(place, self.centre), up)
         return distance - self.radius, normal
 
 
@@ -143,10 +139,10 @@ class Cylinder(Obstacle):
 
     def surface(self, place: Axes) -> tuple[Any, Axes]:
         """See Obstacle."""
-        away = _less(place, self.centre)
+        away = less(place, self.centre)
         along = dot(away, self.axis)
         away = [x - along * a for x, a in zip(away, self.axis, strict=True)]
-        distance, normal = _length_and_direction(away, _across(self.axis))
+        distance, normal = direction(away, across(self.axis))
         return distance - self.radius, normal
 
 
@@ -168,7 +164,7 @@ class Plane(Obstacle):
 
     def surface(self, place: Axes) -> tuple[Any, Axes]:
         """See Obstacle."""
-        return dot(_less(place, self.point), self.normal), self.normal
+        return dot(less(place, self.point), self.normal), self.normal
 
 
 #: The kinds of obstacle by name.
@@ -209,10 +205,10 @@ def keep_out(
         positions: shape (..., d) [m]. velocities: the same shape [m/s]. Neither is written to.
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # of what has blown up
-        place, velocity, free = _axes(positions), _axes(velocities), ~fixed[..., 0]
+        place, velocity, free = axes_of(positions), axes_of(velocities), ~fixed[..., 0]
         for barrier in obstacles:
             place, velocity = barrier.meet(place, velocity, free)
-    return _vectors(place, positions), _vectors(velocity, velocities)
+    return vectors_of(place, positions), vectors_of(velocity, velocities)
 
 
 def checked(
@@ -244,40 +240,6 @@ def checked(
             )
         found.append(made)
     return tuple(found)
-
-
-def dot(one: Axes, other: Axes) -> Any:
-    """The product of two vectors, summed in the order of the axes."""
-    return reduce(add, map(mul, one, other))
-
-
-def _less(one: Axes, other: Axes) -> Axes:
-    return [a - b for a, b in zip(one, other, strict=True)]
-
-
-def _length_and_direction(away: Axes, otherwise: Axes) -> tuple[Any, Axes]:
-    """The length of a vector, and its direction; of no length, `otherwise`."""
-    length = np.sqrt(dot(away, away))
-    some = length > 0
-    divisor = np.where(some, length, 1.0)
-    return length, [np.where(some, a / divisor, o) for a, o in zip(away, otherwise, strict=True)]
-
-
-def _across(axis: Axes) -> Axes:
-    """A unit vector across a unit vector (Duff et al., Journal of Computer Graphics Techniques 6 (2017))."""
-    a, b, c = axis
-    sign = np.where(c < 0, -1.0, 1.0)
-    s = -1.0 / (sign + c)
-    return [1.0 + sign * a * a * s, sign * a * b * s, -1.0 * sign * a]
-
-
-def _axes(vectors: Array) -> Axes:
-    return list(np.moveaxis(vectors, -1, 0))
-
-
-def _vectors(axes: Axes, like: Array) -> Array:
-    """The reverse of _axes, in the shape of an array."""
-    return np.stack(np.broadcast_arrays(*axes, like[..., 0])[:-1], axis=-1)
 
 
 def _vector(name: str, value: Any, dimensions: tuple[int, ...]) -> tuple[float, ...]:

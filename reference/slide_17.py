@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from reference.obstacles import Axes, Circle, dot
+from reference.axes import Axes, dot
+from reference.obstacles import Circle
 
 
 @dataclass(frozen=True)
