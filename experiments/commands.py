@@ -106,7 +106,7 @@ def compare_command(
     setup = setup_for(scene, dt, duration, parse_settings(settings), parse_changes(changes))
     steppers = find_steppers(names) if names else default_steppers()
     with progress("compare") as tell:
-        comparison = compare(setup, steppers, tell)
+        comparison = compare(setup, steppers, tell, patient=bool(names))
     document = json.dumps(comparison.document, indent=2)
     if out is not None:
         files = write_tables(result_of(comparison), out)
