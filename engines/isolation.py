@@ -78,6 +78,11 @@ class EngineStepper:
         """The version of the engine's package."""
         return self.pinned or version(self.engine)
 
+    @property
+    def quick_up_to(self) -> int | None:
+        """How many masses the engine steps some hundred times within a minute; None where it does not say."""
+        return getattr(self.engine, "quick_up_to", None)
+
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """See reference.stepper.Stepper."""
         if self.version is None:

@@ -28,6 +28,9 @@ SCHEMES: Mapping[Integrator, Mapping[str, str]] = {
     },
 }
 
+#: Nested masses that a step takes 0.02 s of a processor for.
+NESTED_QUICK_UP_TO = 100
+
 #: [m]. The edge of the cube that gives a mass its moments of inertia. Nothing rotates: it only sets the Stokes drag.
 CUBE = 1.0
 
@@ -73,6 +76,11 @@ class MujocoTendons:
     def nested(self) -> bool:
         """Whether each body is inside the one before it."""
         return self.integrator == "implicit"
+
+    @property
+    def quick_up_to(self) -> int | None:
+        """See Engine: nested, a step takes a time as the masses' number to the third power."""
+        return NESTED_QUICK_UP_TO if self.nested else None
 
     @property
     def settings(self) -> Mapping[str, object]:

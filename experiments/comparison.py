@@ -17,6 +17,7 @@ from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
 from reference.stepper import Stepper
+from reference.system import MassSpringSystem
 
 
 @dataclass(frozen=True)
@@ -80,8 +81,13 @@ class Comparison:
         return {**asked, **why, "runs": rows}
 
 
-def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lambda _: None) -> Comparison:
+def compare(
+    setup: Setup, steppers: Sequence[Stepper], progress: Progress = lambda _: None, patient: bool = True
+) -> Comparison:
     """Run steppers on a setup. An engine that fails is a run with that outcome; the others still report.
+
+    Args:
+        patient: also run those that would take minutes on so many masses.
 
     Raises:
         InputError: for a dt or duration that makes no sense.
@@ -89,7 +95,12 @@ def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lamb
     steps = whole_steps(setup.dt, setup.duration)
     progress("true motion")
     true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
-    outcomes = list(side_by_side(steppers, lambda s: s.run(setup.system, setup.dt, steps, setup.changes), progress))
+
+    def task(stepper: Stepper) -> Outcome:
+        left_out = None if patient else too_slow(stepper, setup.system)
+        return left_out or stepper.run(setup.system, setup.dt, steps, setup.changes)
+
+    outcomes = list(side_by_side(steppers, task, progress))
     progress("catalogue of schemes")
     known = candidates_for(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []
@@ -103,6 +114,15 @@ def compare(setup: Setup, steppers: Sequence[Stepper], progress: Progress = lamb
         deviation = None if trajectory is None or named is None else trajectory.distance(known[named])
         runs.append(Run(stepper, outcome, identification, error, deviation))
     return Comparison(setup, true, tuple(runs))
+
+
+def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:
+    """Why a stepper is left out unless it is asked for by name, or None: it says itself how large a system may be."""
+    most, n = getattr(stepper, "quick_up_to", None), len(system.masses)
+    if most is None or n <= most:
+        return None
+    reason = f"left out: with more than {most} masses it takes minutes, here are {n}; --stepper {stepper.name} runs it"
+    return Outcome("unsupported", reason)
 
 
 def finite(value: float | None) -> float | None:

@@ -16,9 +16,9 @@ from reference import catalogue
 from reference.exact import exact, hanging_string
 from reference.identify import identify
 from reference.lecture import Links, StringConstants, derivatives, force_from_next, listings
-from reference.obstacles import Circle
 from reference.scenes import find
 from reference.simulate import simulate
+from reference.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.stability import spring_equilibrium, stability_limit
 from reference.state import Array
 
@@ -104,11 +104,11 @@ def _in_place_variants(orders: dict[str, tuple[list[float], list[float], float]]
 
 def _barrier() -> tuple[Array, Array, Array]:
     """Around a circle: the angle [rad], and what printed and projected rule leave of 1 m/s along it."""
-    circle = Circle((0.0, 0.0), 1.0)
+    printed_circle, circle = CircleAsPrinted((0.0, 0.0), 1.0), CircleAsMeant((0.0, 0.0), 1.0)
     angles = np.radians(np.arange(0, 361, 5.0))
     normal = np.column_stack([np.cos(angles), np.sin(angles)])
     sliding = np.column_stack([-np.sin(angles), np.cos(angles)])
-    _, printed = circle.push_out_as_printed(0.9 * normal, sliding)
+    _, printed = printed_circle.push_out(0.9 * normal, sliding)
     _, projected = circle.push_out(0.9 * normal, sliding)
     return angles, (printed * sliding).sum(axis=1), (projected * sliding).sum(axis=1)
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import product
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from engines.isolation import isolated
 from experiments.environment import processor
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs import Progress
+from experiments.speed_meshes import LARGE, cases, peak_per_mass, string
 from experiments.timing import adapter_overhead
 from experiments.tuned import TunedHeun
 from reference import catalogue
@@ -36,14 +36,15 @@ DT = 1e-5
 #: Every timing is of at least about so many node-steps, and the least of so many rounds.
 WORK, ROUNDS = 4_000_000, 5
 
-#: Neighbours a mass of a mesh is joined to: along the axes, across, and (cloth) two along, for bending.
-CLOTH = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 0), (0, 2))
-JELLO = tuple(o for o in product((-1, 0, 1), repeat=3) if o > (0, 0, 0))
-
 
 @dataclass(frozen=True)
 class Timing:
-    """One kernel against tuned C on the same mesh: node-steps per second, the ratio of times, memory."""
+    """One kernel against tuned C on the same mesh without obstacles: node-steps per second, the ratio of times, memory.
+
+    Attributes:
+        bytes_per_mass: of the arrays that are stepped.
+        peak_per_mass: the most memory [bytes] that making the system and stepping it took a process, for large ones.
+    """
 
     what: str
     threads: int
@@ -52,6 +53,7 @@ class Timing:
     ours: float
     tuned: float | None
     bytes_per_mass: float | None
+    peak_per_mass: float | None = None
 
     @property
     def ratio(self) -> float | None:
@@ -71,48 +73,14 @@ def time_adapter(engine: Engine) -> list[list[object]]:
     return rows
 
 
-def lattice(shape: Sequence[int], offsets: Sequence[tuple[int, ...]], spacing: float = 0.1) -> MassSpringSystem:
-    """A block of masses on a lattice, each joined to its neighbours at the offsets; the first corner is fixed."""
-    index = np.arange(np.prod(shape)).reshape(shape)
-    pairs = []
-    for offset in offsets:
-        here = tuple(slice(max(0, -o), s - max(0, o)) for o, s in zip(offset, shape, strict=True))
-        there = tuple(slice(max(0, o), s + min(0, o)) for o, s in zip(offset, shape, strict=True))
-        pairs.append(np.column_stack([index[here].ravel(), index[there].ravel()]))
-    springs = np.concatenate(pairs)
-    positions = spacing * np.indices(shape).reshape(len(shape), -1).T.astype(float)
-    lengths = np.linalg.norm(positions[springs[:, 1]] - positions[springs[:, 0]], axis=1)
-    return MassSpringSystem(
-        positions=positions,
-        springs=springs,
-        masses=np.array(0.02),
-        rest_lengths=lengths,
-        stiffness=np.array(200.0),
-        damping=np.array(0.05),
-        drag=0.02,
-        fixed=np.arange(len(positions)) == 0,
-    )
-
-
-def string(masses: int) -> MassSpringSystem:
-    """The default string with so many masses, damped in both ways."""
-    return find("string").system({"masses": masses, "damping": 0.05, "drag": 0.02})
-
-
-def cases() -> dict[str, Callable[[], MassSpringSystem]]:
-    """The meshes, by name."""
-    strings = {f"string {n}": lambda n=n: string(n) for n in (20, 200, 2_000, 100_000, 1_000_000)}
-    cloths = {f"cloth {n} x {n}": lambda n=n: lattice((n, n), CLOTH) for n in (30, 300, 1000)}
-    jellos = {f"jello {n}^3": lambda n=n: lattice((n, n, n), JELLO) for n in (10, 50)}
-    return {**strings, **cloths, **jellos}
-
-
 def run(progress: Progress) -> Result:
     """All meshes, the sweep, and NumPy arrays for comparison."""
     rows = []
     for name, system in cases().items():
         progress(name)
-        rows += time_mesh(name, system())
+        timings = time_mesh(name, system())
+        peak = peak_per_mass(name) if timings[0].masses >= LARGE else None
+        rows += [replace(row, peak_per_mass=peak) for row in timings]
     progress("string 200, renumbered")
     order = np.concatenate([[0], 1 + np.random.default_rng(0).permutation(200)])
     rows += time_mesh("string 200, renumbered at random", string(200).renumbered(order))
@@ -131,11 +99,15 @@ def run(progress: Progress) -> Result:
         "tuned C, node-steps/s",
         "time / tuned C",
         "bytes/mass",
+        "peak bytes/mass",
     ]
     table = Table(
         "speed",
         columns,
-        [[r.what, r.threads, r.masses, r.springs, r.ours, r.tuned, r.ratio, r.bytes_per_mass] for r in rows],
+        [
+            [r.what, r.threads, r.masses, r.springs, r.ours, r.tuned, r.ratio, r.bytes_per_mass, r.peak_per_mass]
+            for r in rows
+        ],
     )
     columns = ["engine", "masses", "step [s]", "engine's own step [s]", "ratio", "reason"]
     ratios = {str(row[0]): row[4] for row in adapters if isinstance(row[4], float) and row[1] == 100}
@@ -225,6 +197,13 @@ def _findings(rows: Sequence[Timing]) -> list[str]:
         f"On {processor()}, one thread of ours takes at most {slowest.ratio:.2f} times the time of tuned C on the same "
         f"mesh (at {slowest.what})."
     ]
+    peaks = [r for r in single if r.peak_per_mass is not None]
+    if peaks:
+        most = max(peaks, key=lambda r: r.peak_per_mass or 0.0)
+        sentences.append(
+            f"A large system's arrays take at most {max(r.bytes_per_mass or 0.0 for r in peaks):.0f} bytes a mass; "
+            f"making and stepping it takes a process at most {most.peak_per_mass:.0f} ({most.what})."
+        )
     sentences += [
         f"The sweep is {1 / r.ratio:.2f} times as fast as tuned C on {r.threads} thread{'s' if r.threads > 1 else ''}."
         for r in sweeps

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numba import njit
 
 from reference.errors import SolverError
 from reference.state import Array, State
@@ -18,6 +19,13 @@ from reference.system import MassSpringSystem
 
 #: Up to this many unknowns a dense solve is quicker than a sparse one.
 DENSE_UP_TO = 200
+
+#: From this many unknowns on, so many rounds of an iteration are tried before a matrix is made. They do where masses
+#: weigh more than what springs do in a step, as with all steps that explicit schemes can take.
+ITERATE_FROM, ROUNDS = 60, 40
+
+#: What a solution may leave of the right side, as a part of it: rounding.
+REMAINDER = 1e-14
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,7 +119,7 @@ def assemble(system: MassSpringSystem, blocks: Blocks, sparse: bool | None = Non
 
 
 def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> Array:
-    """The velocities v with (M - B) v = M r, shape (n, d); zero for fixed masses.
+    """The velocities v with (M - B) v = M r to rounding, shape (n, d); zero for fixed masses.
 
     Args:
         blocks: B, the derivative of the forces times a time.
@@ -121,6 +129,10 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
         SolverError: if there is no such velocity.
     """
     free = ~system.fixed
+    large = free.sum() * system.dimension >= ITERATE_FROM
+    found = _by_iteration(system, blocks, right) if large else None
+    if found is not None:
+        return found
     mass = np.repeat(system.masses[free], system.dimension)
     matrix = assemble(system, -1.0 * blocks)
     momentum = mass * right[free].ravel()
@@ -135,9 +147,54 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
         from scipy.sparse import diags_array
         from scipy.sparse.linalg import spsolve
 
-        solution = spsolve((matrix + diags_array(mass)).tocsc(), momentum)
+        # the pattern is symmetric: of SuperLU's orders the one made for such leaves half of the work
+        solution = spsolve((matrix + diags_array(mass)).tocsc(), momentum, permc_spec="MMD_AT_PLUS_A")
     result[free] = solution.reshape(-1, system.dimension)
     return result
+
+
+def _by_iteration(system: MassSpringSystem, blocks: Blocks, right: Array) -> Array | None:
+    """What solve_velocities asks for by BiCGSTAB (van der Vorst 1992), no matrix made; None if ROUNDS are too few."""
+    from scipy.sparse.linalg import LinearOperator, bicgstab
+
+    shape, free = right.shape, ~system.fixed
+    weights = system.masses + blocks.masses
+    springs_diagonal = np.einsum("sii->si", blocks.springs)
+    diagonal = np.repeat(weights[:, None], system.dimension, axis=1)
+    for end in system.springs.T:
+        np.add.at(diagonal, end, springs_diagonal)
+    inverse = 1 / diagonal.ravel()
+
+    def product(v: Array) -> Array:
+        out = np.empty(shape)
+        momentum_kept(v.reshape(shape), system.springs, blocks.springs, weights, free, out)
+        return out.ravel()
+
+    momentum = np.where(free[:, None], system.masses[:, None] * right, 0.0).ravel()
+    # of size 1, as SciPy takes numbers that are small as such for the end of all rounds
+    size = np.linalg.norm(momentum) or 1.0
+    matrix, guess = (LinearOperator(2 * (right.size,), m) for m in (product, lambda v: inverse * v.ravel()))
+    found, _ = bicgstab(matrix, momentum / size, rtol=REMAINDER / 10, maxiter=ROUNDS, M=guess)
+    left = np.linalg.norm(product(found) - momentum / size)
+    return size * found.reshape(shape) if left <= REMAINDER else None
+
+
+@njit(cache=True)
+def momentum_kept(v, springs, blocks, weights, free, out):  # type: ignore[no-untyped-def]
+    """Write (M - B) v to out, for fixed masses without springs. The weights are M and what B has of masses."""
+    for i in range(len(v)):
+        for axis in range(v.shape[1]):
+            out[i, axis] = weights[i] * v[i, axis]
+    for j in range(len(springs)):
+        a, b = springs[j, 0], springs[j, 1]
+        for axis in range(v.shape[1]):
+            force = 0.0
+            for other in range(v.shape[1]):
+                force += blocks[j, axis, other] * (v[b, other] - v[a, other])
+            if free[a]:
+                out[a, axis] -= force
+            if free[b]:
+                out[b, axis] += force
 
 
 def _outer(u: Array, w: Array) -> Array:

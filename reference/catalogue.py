@@ -35,12 +35,14 @@ class Scheme:
         order: of accuracy, predicted by theory.
         kind: see Kind.
         springs_only: whether it needs springs (damped ones apart, or one mass at a time) and so cannot step a pendulum.
+        quick_up_to: how many masses it steps some hundred times within a minute; None for as many as any.
     """
 
     step: Step
     order: int
     kind: Kind
     springs_only: bool
+    quick_up_to: int | None = None
 
     @cached_property
     def name(self) -> str:
@@ -53,11 +55,13 @@ class Scheme:
         return (self.step.__doc__ or "").strip().splitlines()[0]
 
 
-def scheme(order: int, kind: Kind = "scheme", springs_only: bool = False) -> Callable[[Step], Step]:
+def scheme(
+    order: int, kind: Kind = "scheme", springs_only: bool = False, quick_up_to: int | None = None
+) -> Callable[[Step], Step]:
     """Enter the decorated step into the catalogue."""
 
     def enter(step: Step) -> Step:
-        entry = Scheme(step, order, kind, springs_only)
+        entry = Scheme(step, order, kind, springs_only, quick_up_to)
         _SCHEMES[entry.name] = entry
         return step
 

@@ -10,7 +10,6 @@ import importlib.util
 import os
 import sys
 import tempfile
-from collections.abc import Mapping, Sequence
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -22,10 +21,9 @@ from reference.catalogue import Scheme
 from reference.errors import Unsupported
 from reference.forces import springs_of_masses
 from reference.loops import Loops
-from reference.obstacles import keep_out
 from reference.state import Array, State
-from reference.system import BoolArray, MassSpringSystem
-from reference.tracing import trace
+from reference.system import MassSpringSystem
+from reference.tracing import numbers_of, trace, trace_obstacles
 
 #: From this many springs on, threads are worth their waking (`springlab run speed` shows where).
 THREADS_FROM = 300_000
@@ -54,7 +52,6 @@ class Kernel:
     def __init__(self, system: MassSpringSystem, scheme: Scheme, threads: int | None = None) -> None:
         if threads is None:
             threads = (os.cpu_count() or 1) if len(system.springs) >= THREADS_FROM else 1
-        self._system = system
         self._threads = threads
         self._loops = loops_for(scheme, system, threads=threads > 1)
         self._arrays = arrays_of(system, self._loops)
@@ -74,9 +71,7 @@ class Kernel:
 
             numba.set_num_threads(min(self._threads, numba.config.NUMBA_NUM_THREADS))
         arrays = [self._arrays[name] for name in (*self._loops.arrays, "drag")]
-        for count in strides(self._system, steps):
-            self._function(*arrays, dt, *self._lists, count)
-            push_out(self._system, self._loops, self._arrays, self._system.fixed)
+        self._function(*arrays, dt, *self._lists, steps)
 
     def state(self) -> tuple[Array, Array]:
         """Positions [m] and velocities [m/s] now, each (n, d)."""
@@ -90,7 +85,8 @@ def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, thr
         raise Unsupported(f"{scheme.name} asks more of the springs than the accelerations of the whole state")
     n, springs = len(system.masses), system.springs
     string = len(springs) == n - 1 and bool((springs == np.arange(n - 1)[:, None] + [0, 1]).all())
-    return Loops(trace(scheme), system.dimension, string, lanes, threads)
+    barriers = trace_obstacles(system.obstacles, system.dimension) if system.obstacles else None
+    return Loops(trace(scheme), system.dimension, string, barriers, lanes, threads)
 
 
 def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
@@ -115,32 +111,17 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
     return arrays
 
 
-def strides(system: MassSpringSystem, steps: int) -> Sequence[int]:
-    """The steps of each call of a kernel: all in one; with obstacles, which end a step, one in each."""
-    return [1] * steps if system.obstacles else [steps]
-
-
-def push_out(system: MassSpringSystem, loops: Loops, arrays: Mapping[str, Any], fixed: BoolArray) -> None:
-    """The end of a step, in place: what is inside an obstacle comes out.
-
-    Args:
-        arrays: as `arrays_of` has them, or in lanes. fixed: a shape that goes with theirs.
-    """
-    if not system.obstacles:
-        return
-    x, v = (np.stack([arrays[f"{q}{i}"] for i in loops.axes], axis=-1) for q in "xv")
-    x, v = keep_out(system.obstacles, fixed[..., None], x, v)
-    for i in loops.axes:
-        arrays[f"x{i}"][...], arrays[f"v{i}"][...] = x[..., i], v[..., i]
-
-
 def lists(system: MassSpringSystem, loops: Loops) -> list[Any]:
-    """What is joined to what, as the loops want it: unsigned, as Numba asks of signed indices if they are negative."""
+    """What is joined to what, and the numbers of obstacles, as the loops want them.
+
+    Indices are unsigned, as Numba asks of signed ones if they are negative.
+    """
+    barriers = [np.array(numbers_of(system.obstacles))] if loops.barriers else []
     if loops.string:
-        return []
+        return barriers
     first, spring, sign = springs_of_masses(system)
     ends = [np.ascontiguousarray(end, dtype=np.uint32) for end in system.springs.T]
-    return [*ends, first.astype(np.uint32), spring.astype(np.uint32), sign]
+    return [*ends, first.astype(np.uint32), spring.astype(np.uint32), sign, *barriers]
 
 
 @cache

@@ -6,6 +6,8 @@ The plan is the same for every explicit scheme and every mesh. A step is a row o
     masses    each mass alone: the sum of its springs' pulls in their order, its acceleration, and at once all that
               the scheme makes of it until the next stage needs to look at neighbours again.
 
+The last stage's masses are also pushed out of obstacles, each alone, before they are left.
+
 No mass writes what another reads in the same loop, so neither the order of the masses nor the number of threads can
 change a bit of the result. A string needs no lists of who is joined to whom: spring j joins masses j and j + 1.
 """
@@ -15,13 +17,16 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from reference.tracing import Program
+from reference.tracing import Barriers, Program
 
 #: How many systems the innermost loop advances at once, where it advances many.
 LANES = 16
 
 #: What there is one number of in a system, and so one number per lane.
 PER_SYSTEM = ("drag", "dt")
+
+#: What obstacles call the positions and velocities of a mass.
+_READ = (("place", "x"), ("velocity", "v"))
 
 
 @dataclass(frozen=True)
@@ -33,12 +38,14 @@ class Loops:
         dimension: 2 or 3.
         string: whether spring j joins masses j and j + 1. Else lists say what springs join.
         lanes: whether every array has a last axis of LANES systems, which the innermost loops run along.
+        barriers: what obstacles do to a mass; None where there are none.
         threads: whether the loops may be spread over threads: over springs and masses, or over blocks of systems.
     """
 
     program: Program
     dimension: int
     string: bool
+    barriers: Barriers | None = None
     lanes: bool = False
     threads: bool = False
 
@@ -68,8 +75,9 @@ class Loops:
 
     @property
     def lists(self) -> list[str]:
-        """Arguments that say what is joined to what."""
-        return [] if self.string else ["ends_a", "ends_b", "first", "spring", "sign"]
+        """Arguments that all systems have in common: what is joined to what, and the numbers of obstacles."""
+        joined = [] if self.string else ["ends_a", "ends_b", "first", "spring", "sign"]
+        return [*joined, *(["barriers"] if self.barriers else [])]
 
     @property
     def arguments(self) -> list[str]:
@@ -113,7 +121,8 @@ class Loops:
             step += self._loop("j", "s", *self._spring(k))
             step += self._loop("i", "n", *self._mass(k, after))
         counts = [f"n = {whole}(len(x0))", f"s = {whole}(len(rest_length))"]
-        return [*counts, "for step in range(steps):", *_indented(step)]
+        numbers = [f"o{k} = barriers[{k}]" for k in range(self.barriers.numbers if self.barriers else 0)]
+        return [*counts, *numbers, "for step in range(steps):", *_indented(step)]
 
     def _loop(self, index: str, count: str, before: list[str], body: list[str]) -> list[str]:
         """A loop over springs or masses; with lanes, all but what comes `before` is done for every lane."""
@@ -157,10 +166,20 @@ class Loops:
         lines += [f"f{i} -= {self._of_system('drag')} * {self._at(f'{v}{i}', 'i')}" for i in self.axes]
         lines += [f"now{i} = f{i} / {self._at('divisor', 'i')}" for i in self.axes]
         if following is None:
-            lines += self._assign(*self.program.end, target=("x", "v"), now=k)
+            lines += self._assign(*self.program.end, target=("x", "v"), now=k) + self._push_out()
         else:
             lines += self._assign(*following, now=k)
         return before, [*lines, *(f"{self._at(f'a{k}_{i}', 'i')} = now{i}" for i in self.axes if k in self.kept)]
+
+    def _push_out(self) -> list[str]:
+        """Mass i out of all obstacles; a mass that is divided by infinity is fixed."""
+        barriers = self.barriers
+        if barriers is None:
+            return []
+        known = [f"free = {self._at('divisor', 'i')} < np.inf"]
+        known += [f"{name}{i} = {self._at(f'{q}{i}', 'i')}" for name, q in _READ for i in self.axes]
+        results = zip((f"{q}{i}" for q in "xv" for i in self.axes), barriers.place + barriers.velocity, strict=True)
+        return [*known, *barriers.lines, *(f"{self._at(array, 'i')} = {text}" for array, text in results)]
 
     def _sum(self) -> tuple[list[str], list[str]]:
         """The weight of mass i and the pulls of its springs, added in the springs' order."""

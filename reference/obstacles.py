@@ -1,7 +1,11 @@
-"""What masses may not enter: circle, sphere, cylinder, plane, with the rule of slides 16-17. Needs NumPy only.
+"""What masses may not enter: circle, sphere, cylinder, plane, as on slides 16-17. Needs NumPy only.
 
 All are hard and without friction, and do not move. The rule: a mass that is inside moves straight out to the surface
-and keeps the part of its velocity along it. Slide 17 means that rule, and prints another (`Circle`).
+and loses the part of its velocity that leads inwards, no more: an obstacle pushes and never pulls. (Slide 17 takes what
+leads outwards too, and prints another rule again: `slide_17`. `springlab run barrier` shows what comes of each.)
+
+There is one definition of each kind: `surface`, written for numbers, one per axis. NumPy runs it on arrays of them, and
+`tracing` on symbols, to make of it a part of the loops that advance large systems.
 """
 
 from __future__ import annotations
@@ -15,6 +19,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from reference.axes import Axes, across, axes_of, direction, dot, less, vectors_of
 from reference.errors import InputError, unknown_name
 from reference.state import Array
 
@@ -24,7 +29,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Obstacle:
-    """What circle, sphere, cylinder and plane have in common."""
+    """What circle, sphere, cylinder and plane have in common. Their fields are numbers, or tuples of numbers."""
 
     @property
     def kind(self) -> str:
@@ -36,25 +41,42 @@ class Obstacle:
         """Of the space it stands in, 2 or 3."""
         raise NotImplementedError
 
-    def gap(self, positions: Array) -> tuple[Array, Array]:
-        """How far positions (..., d) are from the surface [m], negative inside, (..., 1); the normals outwards there.
+    def surface(self, place: Axes) -> tuple[Any, Axes]:
+        """How far a place [m] is from the surface [m], negative inside; the unit normal outwards there.
 
+        All that distinguishes one kind from another. It works on numbers, arrays and symbols alike: of Python it may
+        use + - * / < > and &, of NumPy what `tracing.OPERATIONS` has. For a choice that is `np.where`, never `if`.
         Where there is no way straight out (at a centre), a normal is chosen.
         """
         raise NotImplementedError
 
-    def push_out(self, positions: Array, velocities: Array) -> tuple[Array, Array]:
-        """Masses inside move straight out to the surface and keep the part of their velocity along it.
+    def answer(self, velocity: Axes, normal: Axes) -> Axes:
+        """The velocity [m/s] of a mass inside after it has met the obstacle: v - min(v.n, 0) n. No mass gains speed."""
+        inwards = dot(velocity, normal)
+        inwards = np.where(inwards < 0, inwards, 0.0)
+        return [v - inwards * n for v, n in zip(velocity, normal, strict=True)]
 
-        With n the unit normal outwards and g < 0 the gap, x becomes x - g n and v becomes v - (v.n) n. No mass gains
-        speed.
+    def meet(self, place: Axes, velocity: Axes, free: Any) -> tuple[Axes, Axes]:
+        """The rule: with g < 0 the gap and n the normal, x becomes x - g n, and v what the obstacle answers.
 
         Args:
-            positions: shape (..., d) [m]. velocities: the same shape [m/s].
+            place: [m]. velocity: [m/s]. free: whether the mass can move.
         """
-        gap, normal = self.gap(positions)
-        kept = velocities - (velocities * normal).sum(axis=-1, keepdims=True) * normal
-        return np.where(gap < 0, positions - gap * normal, positions), np.where(gap < 0, kept, velocities)
+        gap, normal = self.surface(place)
+        inside = free & (gap < 0)
+        pushed = [np.where(inside, x - gap * n, x) for x, n in zip(place, normal, strict=True)]
+        kept = zip(self.answer(velocity, normal), velocity, strict=True)
+        return pushed, [np.where(inside, after, before) for after, before in kept]
+
+    def gap(self, positions: Array) -> tuple[Array, Array]:
+        """How far positions (..., d) are from the surface [m], (..., 1), and the normals outwards there, (..., d)."""
+        gap, normal = self.surface(axes_of(positions))
+        return np.asarray(gap)[..., None], vectors_of(normal, positions)
+
+    def push_out(self, positions: Array, velocities: Array) -> tuple[Array, Array]:
+        """The rule for free masses, positions [m] and velocities [m/s] of the shape (..., d)."""
+        pushed, kept = self.meet(axes_of(positions), axes_of(velocities), True)
+        return vectors_of(pushed, positions), vectors_of(kept, velocities)
 
     def to_dict(self) -> dict[str, Any]:
         """Its kind and its numbers by name, as `obstacle` takes them."""
@@ -71,9 +93,9 @@ class _Ball(Obstacle):
         object.__setattr__(self, "centre", _vector("centre", self.centre, (self.dimension,)))
         object.__setattr__(self, "radius", _radius(self.radius))
 
-    def gap(self, positions: Array) -> tuple[Array, Array]:
-        up = np.eye(self.dimension)[1]
-        distance, normal = _length_and_direction(positions - np.array(self.centre), up)
+    def surface(self, place: Axes) -> tuple[Any, Axes]:
+        up = [0.0, 1.0, 0.0][: self.dimension]
+        distance, normal = direction(less(place, self.centre), up)
         return distance - self.radius, normal
 
 
@@ -85,17 +107,6 @@ class Circle(_Ball):
     def dimension(self) -> int:
         """2."""
         return 2
-
-    def push_out_as_printed(self, positions: Array, velocities: Array) -> tuple[Array, Array]:
-        """The rule of slide 17 as it is printed: each component of v is multiplied by that of t = (n_y, -n_x).
-
-        That is no projection: (v_x t_x, v_y t_y) in place of (v.t) t.
-        """
-        gap, normal = self.gap(positions)
-        tangent = np.stack([normal[..., 1], -normal[..., 0]], axis=-1)
-        return np.where(gap < 0, positions - gap * normal, positions), np.where(
-            gap < 0, velocities * tangent, velocities
-        )
 
 
 @dataclass(frozen=True)
@@ -126,13 +137,12 @@ class Cylinder(Obstacle):
         """3."""
         return 3
 
-    def gap(self, positions: Array) -> tuple[Array, Array]:
+    def surface(self, place: Axes) -> tuple[Any, Axes]:
         """See Obstacle."""
-        axis = np.array(self.axis)
-        away = positions - np.array(self.centre)
-        away = away - (away * axis).sum(axis=-1, keepdims=True) * axis
-        across = np.cross(axis, np.eye(3)[np.argmin(np.abs(axis))])
-        distance, normal = _length_and_direction(away, across / np.linalg.norm(across))
+        away = less(place, self.centre)
+        along = dot(away, self.axis)
+        away = [x - along * a for x, a in zip(away, self.axis, strict=True)]
+        distance, normal = direction(away, across(self.axis))
         return distance - self.radius, normal
 
 
@@ -152,11 +162,9 @@ class Plane(Obstacle):
         """2 or 3, as its point has it."""
         return len(self.point)
 
-    def gap(self, positions: Array) -> tuple[Array, Array]:
+    def surface(self, place: Axes) -> tuple[Any, Axes]:
         """See Obstacle."""
-        normal = np.array(self.normal)
-        above = ((positions - np.array(self.point)) * normal).sum(axis=-1, keepdims=True)
-        return above, np.broadcast_to(normal, positions.shape)
+        return dot(less(place, self.point), self.normal), self.normal
 
 
 #: The kinds of obstacle by name.
@@ -197,10 +205,10 @@ def keep_out(
         positions: shape (..., d) [m]. velocities: the same shape [m/s]. Neither is written to.
     """
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):  # of what has blown up
+        place, velocity, free = axes_of(positions), axes_of(velocities), ~fixed[..., 0]
         for barrier in obstacles:
-            pushed, kept = barrier.push_out(positions, velocities)
-            positions, velocities = np.where(fixed, positions, pushed), np.where(fixed, velocities, kept)
-    return positions, velocities
+            place, velocity = barrier.meet(place, velocity, free)
+    return vectors_of(place, positions), vectors_of(velocity, velocities)
 
 
 def checked(
@@ -232,12 +240,6 @@ def checked(
             )
         found.append(made)
     return tuple(found)
-
-
-def _length_and_direction(away: Array, otherwise: Array) -> tuple[Array, Array]:
-    """The lengths (..., 1) of vectors (..., d), and their directions; of no length, `otherwise`."""
-    length = np.sqrt((away * away).sum(axis=-1, keepdims=True))
-    return length, np.where(length > 0, away / np.where(length > 0, length, 1.0), otherwise)
 
 
 def _vector(name: str, value: Any, dimensions: tuple[int, ...]) -> tuple[float, ...]:

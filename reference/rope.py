@@ -14,17 +14,24 @@ it. (Baraff, SIGGRAPH 1996; Goldstein, *Classical Mechanics*, 1.3 and 2.4.)
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from reference.catalogue import Scheme
 from reference.errors import InputError, SolverError
 from reference.state import Array, Slope, State, Trajectory
-from reference.system import MassSpringSystem
+from reference.system import BoolArray, MassSpringSystem
 
 #: MuJoCo's impedance d of a rod, the largest there is; and R as a part of 1/m_a + 1/m_b, a thousandth of (1 - d)/d.
 IMPEDANCE = 0.9999
 GIVE = 1e-3 * (1 - IMPEDANCE) / IMPEDANCE
+
+#: Up to this many rods a dense solve is quicker than a sparse one.
+DENSE_UP_TO = 60
+
+#: How often what rounding has left of a sparse solution is solved for again.
+REFINEMENTS = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,13 +39,13 @@ class Rods:
     """The rods at a state.
 
     Attributes:
-        rows: J, shape (r, n, d).
+        directions: from a rod's first mass to its second, shape (r, d): what J is made of.
         lengths: shape (r,) [m].
         rates: J v, at which they lengthen, shape (r,) [m/s].
         across: the squares of their ends' relative speeds across them, shape (r,) [m^2/s^2].
     """
 
-    rows: Array
+    directions: Array
     lengths: Array
     rates: Array
     across: Array
@@ -73,11 +80,7 @@ class RopeMotion:
         lengths = np.linalg.norm(gap, axis=1)
         u = gap / lengths[:, None]
         rates = (u * w).sum(axis=1)
-        rows = np.zeros((len(a), *state.positions.shape))
-        rod = np.arange(len(a))
-        rows[rod, b] = u
-        rows[rod, a] = -u
-        return Rods(rows, lengths, rates, ((w - rates[:, None] * u) ** 2).sum(axis=1))
+        return Rods(u, lengths, rates, ((w - rates[:, None] * u) ** 2).sum(axis=1))
 
     def held(self, state: State, rods: Rods, asked: Array, give: float = 0.0) -> Array:
         """Accelerations of all masses [m/s^2], shape (n, d), with the pulls p that make J x'' = asked - R p.
@@ -91,15 +94,62 @@ class RopeMotion:
         """
         free = np.where(self.system.fixed[:, None], 0.0, self.system.gravity)
         free = free - self.system.drag * self._inverse[:, None] * state.velocities
-        rows = rods.rows.reshape(len(rods.rows), free.size)
-        scaled = rows * np.repeat(self._inverse, free.shape[1])
         softness = give * self._inverse[self._ends].sum(axis=0)
+        if give and len(rods.lengths) > DENSE_UP_TO:
+            return self._held_sparse(free, rods, asked, softness)
+        rows = self.rows(rods).reshape(len(rods.lengths), free.size)
+        scaled = rows * np.repeat(self._inverse, free.shape[1])
         try:
             pulls = np.linalg.solve(scaled @ rows.T + np.diag(softness), asked - rows @ free.ravel())
         except np.linalg.LinAlgError:
             raise SolverError("rods that hold one another have no definite pulls") from None
         held: Array = free + (pulls @ scaled).reshape(free.shape)
         return held
+
+    def rows(self, rods: Rods) -> Array:
+        """J, shape (r, n, d)."""
+        rows = np.zeros((len(rods.lengths), *self.start.positions.shape))
+        rod, (a, b) = np.arange(len(rods.lengths)), self._ends
+        rows[rod, b], rows[rod, a] = rods.directions, -rods.directions
+        return rows
+
+    def _held_sparse(self, free: Array, rods: Rods, asked: Array, softness: Array) -> Array:
+        """The same for many rods, with y = x'' - a for the unknown: (M + J^T R^-1 J) y = J^T R^-1 (asked - J a).
+
+        With little give R^-1 is large, and rounds away what M does: the remainders of M y = J^T p and
+        J y + R p = asked - J a are solved for again.
+        """
+        from scipy.sparse import diags_array
+        from scipy.sparse.linalg import splu
+
+        movable = self._inverse > 0
+        jacobian = self._sparse_rows(rods, movable)
+        mass = np.repeat(1 / self._inverse[movable], free.shape[1])
+        weighed = jacobian.T * (1 / softness)
+        matrix = (diags_array(mass) + weighed @ jacobian).tocsc()
+        factors = splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        wanted = asked - jacobian @ free[movable].ravel()
+        y, pulls = np.zeros(len(mass)), np.zeros(len(wanted))
+        for _ in range(1 + REFINEMENTS):
+            left, missing = jacobian.T @ pulls - mass * y, wanted - jacobian @ y - softness * pulls
+            change = factors.solve(left + weighed @ missing)
+            y, pulls = y + change, pulls + (missing - jacobian @ change) / softness
+        held = free.copy()
+        held[movable] += y.reshape(-1, free.shape[1])
+        return held
+
+    def _sparse_rows(self, rods: Rods, movable: BoolArray) -> Any:
+        """J over the coordinates of the masses that move, shape (r, m d)."""
+        from scipy.sparse import coo_array
+
+        r, d = rods.directions.shape
+        place = np.where(movable, np.cumsum(movable) - 1, -1)[self._ends]
+        columns = (place[:, :, None] * d + np.arange(d)).ravel()
+        rows = np.broadcast_to(np.arange(r)[:, None], (2, r, d)).ravel()
+        values = np.concatenate([-rods.directions, rods.directions]).ravel()
+        kept = np.repeat(place.ravel() >= 0, d)
+        shape = (r, int(movable.sum()) * d)
+        return coo_array((values[kept], (rows[kept], columns[kept])), shape=shape).tocsr()
 
     def acceleration(self, state: State) -> Array:
         """Accelerations of all masses [m/s^2], shape (n, d), with rods that stay as long as they are."""

@@ -60,6 +60,11 @@ class SchemeStepper:
         return "pendulum" if self.on_rods else self.scheme.kind
 
     @property
+    def quick_up_to(self) -> int | None:
+        """The scheme's."""
+        return self.scheme.quick_up_to
+
+    @property
     def on_rods(self) -> bool:
         """Whether there are rods in place of springs."""
         return self.equations is not SpringMotion

@@ -13,7 +13,7 @@ import numpy as np
 
 from reference.catalogue import Scheme
 from reference.errors import InputError
-from reference.kernels import arrays_of, compiled, lists, loops_for, push_out, strides
+from reference.kernels import arrays_of, compiled, lists, loops_for
 from reference.loops import LANES, PER_SYSTEM
 from reference.state import Array
 from reference.system import PARAMETERS, BoolArray, MassSpringSystem
@@ -89,9 +89,7 @@ def sweep(
     distances = []
     for done in range(0, steps, CHUNK):
         count = min(CHUNK, steps - done)
-        for stride in strides(system, count):
-            function(alive, *(named[name] for name in (*loops.arrays, *PER_SYSTEM)), *lists(system, loops), stride)
-            push_out(system, loops, named, system.fixed[:, None])
+        function(alive, *(named[name] for name in (*loops.arrays, *PER_SYSTEM)), *lists(system, loops), count)
         with np.errstate(invalid="ignore", over="ignore"):
             squares = sum((named[f"x{i}"] - origin[i]) ** 2 for i in loops.axes)
             furthest = np.sqrt(np.asarray(squares).max(axis=1))

@@ -67,7 +67,7 @@ def compare_command(
             frame_steps(setup, whole_steps(setup.dt, setup.duration), slow)
             part = files.enter_context(whole_file(path))
         with progress("compare") as tell:
-            comparison = compare(setup, steppers, tell)
+            comparison = compare(setup, steppers, tell, patient=bool(names))
         document = json.dumps(comparison.document, indent=2)
         if out is not None:
             written = write_tables(result_of(comparison), out)

@@ -26,6 +26,7 @@ ROOMS = ("reference", "engines", "experiments", "report")
 
 #: Of the reference, the files that must work in a bare environment.
 BARE_REFERENCE = (
+    "axes",
     "barrier",
     "cache",
     "changes",

@@ -100,6 +100,13 @@ def ladder(**more: object) -> MassSpringSystem:
     return on_springs(whole.positions, whole.springs[:19], [0, 12], **more)  # type: ignore[arg-type]
 
 
+def many_sided(triangles: Sequence[tuple[int, int, int]], **more: object) -> MassSpringSystem:
+    """Triangles between points scattered in space, however many of them have a side in common; the first is fixed."""
+    sides = {tuple(sorted(pair)) for a, b, c in triangles for pair in ((a, b), (b, c), (a, c))}
+    scattered = np.random.default_rng(1).uniform(0.0, 0.5, (1 + max(map(max, triangles)), 3))
+    return on_springs(scattered, sorted(sides), [0], **more)  # type: ignore[arg-type]
+
+
 def lifted(system: MassSpringSystem) -> MassSpringSystem:
     """A system of the plane, turned out of it about the first axis."""
     turn = np.array([[1.0, 0.0, 0.0], [0.0, 0.8, 0.6]])

@@ -24,6 +24,7 @@ from tests.engines.meshes import (
     jello,
     ladder,
     lifted,
+    many_sided,
     on_springs,
     random_cases,
     shaken,
@@ -55,6 +56,11 @@ MESHES = {
     "triangles at a corner": on_springs(
         PLACES, [[0, 1], [1, 2], [2, 0], [2, 3], [3, 4], [4, 2]], [0], velocities=[[0.0, 0.0, 0.0], *PLACES[1:]]
     ),
+    # no surface of anything solid: sides of more than two triangles, no inside and outside, solids that share a side
+    "ten triangles on a side": many_sided([(0, 1, 2 + i) for i in range(10)], damping=0.02),
+    "a strip turned once": many_sided([(i, (i + 1) % 9, (i + 2) % 9) for i in range(9)], damping=0.02),
+    "tetrahedra at a side": many_sided([(0, 1, 2), (0, 1, 3), (0, 2, 3), (0, 1, 4), (0, 1, 5), (0, 4, 5)]),
+    "every two of six": many_sided([(a, b, c) for a in range(6) for b in range(a) for c in range(b)]),
     "a cloth let go": replace(cloth(5), fixed=np.zeros(25, dtype=bool)),
 }
 

@@ -6,16 +6,17 @@ import numpy as np
 import pytest
 
 from experiments import barrier
-from experiments.barrier import DURATION, START, OneWay, Slide, measure, predicted, slope
+from experiments.barrier import DURATION, START, Slide, measure, predicted, slope
 from reference import catalogue
 from reference.lecture import listings
 from reference.obstacles import Circle
 from reference.scenes import find
 from reference.simulate import simulate
+from reference.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.stepper import catalogued
 from report.figures import draw
 
-CIRCLE, ONE_WAY = Circle((0.2, -0.1), 1.0), OneWay((0.2, -0.1), 1.0)
+CIRCLE, AS_MEANT = Circle((0.2, -0.1), 1.0), CircleAsMeant((0.2, -0.1), 1.0)
 
 
 def slide(scheme: str, dt: float, circle: Circle = CIRCLE) -> Slide:
@@ -35,20 +36,31 @@ def check_leaves(found: Slide, dt: float, fraction: float = 2 / 3) -> None:
 
 
 @pytest.mark.parametrize("dt", [4e-3, 1e-3, 2.5e-4])
-@pytest.mark.parametrize("scheme", ["heun", "rk4"])
+@pytest.mark.parametrize("scheme", ["heun", "rk4", "kick_drift"])
 def test_it_leaves_where_it_should(scheme: str, dt: float) -> None:
-    """By the lecture's rule as it is meant, under schemes of second order and more."""
+    """Of first order or more."""
     check_leaves(slide(scheme, dt), dt)
 
 
 @pytest.mark.parametrize("dt", [4e-3, 1e-3, 2.5e-4])
-def test_under_kick_drift_it_leaves_late_as_predicted_unless_the_circle_only_pushes(dt: float) -> None:
-    """Held on to where cos(angle) is 1/2 of the cosine at the start: the module's docstring says why."""
-    held = slide("kick_drift", dt)
+def test_drift_kick_hops_off_within_two_degrees(dt: float) -> None:
+    """It moves along before it is pulled down, is met every few steps only, and last up to two degrees too soon."""
+    angle = slide("drift_kick", dt).angle
+    assert angle is not None
+    assert predicted() - np.radians(2) <= angle <= predicted() + 10 * dt
+
+
+@pytest.mark.parametrize("dt", [4e-3, 1e-3, 2.5e-4])
+def test_by_slide_17_as_it_is_meant_it_leaves_late_under_kick_drift(dt: float) -> None:
+    """Held on to where cos(angle) is 1/2 of the cosine at the start: the module's docstring says why. Heun is right.
+
+    The check of the closed form fails on it.
+    """
+    check_leaves(slide("heun", dt, AS_MEANT), dt)
+    held = slide("kick_drift", dt, AS_MEANT)
     check_leaves(held, dt, fraction=1 / 2)
     with pytest.raises(AssertionError):
         check_leaves(held, dt)
-    check_leaves(slide("kick_drift", dt, ONE_WAY), dt)
 
 
 @pytest.mark.parametrize("dt", [4e-3, 1e-3])
@@ -69,8 +81,8 @@ def test_by_the_printed_rule_it_does_not_leave(dt: float) -> None:
 
 def test_the_printed_rule_turns_a_mass_round_at_the_side() -> None:
     """A mass that falls along the right side of the circle at 1 m/s goes up at 1 m/s after a step."""
-    for rule, after in ((CIRCLE.push_out, -1.0), (CIRCLE.push_out_as_printed, 1.0)):
-        _, velocities = rule(np.array([[1.1, -0.1]]), np.array([[0.0, -1.0]]))
+    for circle, after in ((CIRCLE, -1.0), (CircleAsPrinted(CIRCLE.centre, CIRCLE.radius), 1.0)):
+        _, velocities = circle.push_out(np.array([[1.1, -0.1]]), np.array([[0.0, -1.0]]))
         assert velocities[0] == pytest.approx([0.0, after], abs=1e-15)
 
 
@@ -84,11 +96,11 @@ def test_energy_is_lost_or_gained_as_the_step(monkeypatch: pytest.MonkeyPatch) -
 def test_findings_are_made_from_the_slides() -> None:
     """With other numbers, other sentences."""
     found = {
-        ("heun", barrier.ALONG): [Slide(0.5, 0.5, 0.0, 0.0)],
+        ("heun", barrier.INWARDS): [Slide(0.5, 0.5, 0.0, 0.0)],
         ("engine", barrier.OWN): [Slide(0.7, 0.7, 3e-3, 0.0)],
     }
     said = " ".join(barrier._findings(found))
-    assert f"heun, a rule that {barrier.ALONG}, does at {np.degrees(0.5):.1f}" in said
+    assert f"heun, a rule that {barrier.INWARDS}, does at {np.degrees(0.5):.1f}" in said
     assert f"Of 1 engine settings the one furthest from the true angle, engine, leaves at {np.degrees(0.7):.1f}" in said
     assert "by 3.0e-03 m" in said
     assert "printed" not in said

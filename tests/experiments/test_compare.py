@@ -12,9 +12,13 @@ from typing import Any
 import pytest
 
 from engines.engine import registry, version
+from engines.isolation import EngineStepper
+from experiments.comparison import compare, too_slow
 from experiments.steppers import all_steppers, default_steppers
 from reference.catalogue import schemes
 from reference.lecture import listings
+from reference.scenes import Setup
+from reference.scenes import find as find_scene
 from tests.experiments.terminal import springlab
 
 #: [m], where the string is 1.25 m long.
@@ -250,3 +254,28 @@ def test_every_stepper_can_be_named() -> None:
     words = [word for name in names for word in ("--stepper", name)]
     found = rows("string", "--duration", "0.05", *words)
     assert {name: run["identified_as"] for name, run in found.items()} == {name: name for name in names}
+
+
+def test_what_would_take_minutes_is_left_out_unless_it_is_named() -> None:
+    """On more masses than a stepper says, it has a row that says so; at as many it runs."""
+    words = ("string", "--set", "masses=2000", "--dt", "1e-5", "--duration", "1e-5")
+    (asked,) = rows(*words, "--stepper", "backward_euler").values()
+    assert asked["outcome"] == "done"
+    steppers = [s for s in all_steppers().values() if s.name in ("heun", "backward_euler", "euler_in_place")]
+    for masses, ending in ((1999, "done"), (2000, "unsupported")):
+        setup = Setup("string", find_scene("string").system({"masses": masses}), 1e-5, 1e-5)
+        runs = {run.stepper.name: run.outcome for run in compare(setup, steppers, patient=False).runs}
+        assert runs["heun"].ending == "done"
+        for name in ("backward_euler", "euler_in_place"):
+            assert runs[name].ending == ending
+    reason = f"left out: with more than 2000 masses it takes minutes, here are 2001; --stepper {name} runs it"
+    assert runs[name].reason == reason
+
+
+def test_engines_say_how_many_masses_are_too_many() -> None:
+    """Those that solve for all masses at once; others take any number."""
+    most = {s.name: s.quick_up_to for s in all_steppers().values() if isinstance(s, EngineStepper)}
+    assert {name for name, count in most.items() if count} == {"mujoco_rope", "mujoco_tendons_implicit"}
+    large = find_scene("cloth").system({"rows": 30, "columns": 30})
+    assert too_slow(all_steppers()["mujoco_tendons_implicit"], large) is not None
+    assert too_slow(all_steppers()["mujoco_rope"], large) is None

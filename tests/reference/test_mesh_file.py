@@ -55,6 +55,12 @@ def test_every_kind_of_element_has_its_edges(tmp_path: Path, kind: int, corners:
     assert sorted(of_corner) == ([3, 3, 3, 3, 4] if kind == 14 else [2 * count // corners] * corners)
 
 
+def test_an_edge_may_be_in_three_triangles(tmp_path: Path) -> None:
+    """It is one spring all the same: what is no surface of anything is a mesh of springs as good as any."""
+    found = mesh(tmp_path, BLANKET + "v 0 0 5\nf 2 3 5\n")
+    assert edges(found) == [(0, 1), (0, 2), (1, 2), (1, 3), (1, 4), (2, 3), (2, 4)]
+
+
 def test_numbers_are_kept_to_the_last_bit(tmp_path: Path) -> None:
     """And a colour behind a vertex is no coordinate."""
     text = "v 0.1 1e-300 -0.3 1 0 0\nv 0.30000000000000004 2 3 1 0 0\nv 1 1 1 1 0 0\nf 1 2 3\n"

@@ -1,4 +1,4 @@
-"""The circle of slides 16-17: the rule as it is meant, and as it is printed."""
+"""The circle of slides 16-17: the lab's rule, slide 17's as it is meant, and as it is printed."""
 
 from __future__ import annotations
 
@@ -10,10 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.obstacles import Circle
+from reference.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.state import Array
 from tests.reference.systems import property_test
 
 CIRCLE = Circle((0.3, -0.2), 0.5)
+AS_MEANT, AS_PRINTED = CircleAsMeant(CIRCLE.centre, CIRCLE.radius), CircleAsPrinted(CIRCLE.centre, CIRCLE.radius)
 
 #: What becomes of positions and velocities, each (n, 2).
 Rule = Callable[[Array, Array], tuple[Array, Array]]
@@ -21,10 +23,11 @@ Rule = Callable[[Array, Array], tuple[Array, Array]]
 angles = st.floats(0.0, 2 * np.pi)
 
 
-def check_projection(rule: Rule, angle: float, depth: float, velocity: Array) -> None:
+def check_projection(rule: Rule, angle: float, depth: float, velocity: Array, holds: bool = False) -> None:
     """A mass inside comes to the circle straight out, and keeps v_t = (v . t) t with t along the circle, to rounding.
 
-    So the velocity along the circle is what it was, that across it is zero, and no energy is gained.
+    So the velocity along the circle is what it was; that across it is what leads outwards of what it was, max(v.n, 0),
+    or, by a rule that `holds` masses, zero.
     """
     out, along = np.array([np.cos(angle), np.sin(angle)]), np.array([-np.sin(angle), np.cos(angle)])
     inside = np.array(CIRCLE.centre) + (CIRCLE.radius - depth) * out
@@ -33,7 +36,8 @@ def check_projection(rule: Rule, angle: float, depth: float, velocity: Array) ->
     scale = np.abs(velocity).max() + 1e-300
     # The direction is that of a difference of coordinates up to 0.8 m: near the centre it rounds by 1e-16 m over 0.1 m.
     assert v[0] @ along == pytest.approx(velocity @ along, abs=1e-14 * scale)
-    assert v[0] @ out == pytest.approx(0.0, abs=1e-14 * scale)
+    outwards = 0.0 if holds else max(velocity @ out, 0.0)
+    assert v[0] @ out == pytest.approx(outwards, abs=1e-14 * scale)
 
 
 @property_test
@@ -41,28 +45,41 @@ def check_projection(rule: Rule, angle: float, depth: float, velocity: Array) ->
 def test_the_tangential_velocity_is_kept_anywhere_on_the_circle(
     angle: float, depth: float, vx: float, vy: float
 ) -> None:
-    """Whatever the velocity."""
+    """Whatever the velocity, by the lab's rule and by slide 17's as it is meant."""
     check_projection(CIRCLE.push_out, angle, depth, np.array([vx, vy]))
+    check_projection(AS_MEANT.push_out, angle, depth, np.array([vx, vy]), holds=True)
 
 
 def reflect(positions: Array, velocities: Array) -> tuple[Array, Array]:
     """Bounces in place of sliding."""
-    x, kept = CIRCLE.push_out(positions, velocities)
+    x, kept = AS_MEANT.push_out(positions, velocities)
     return x, 2 * kept - velocities
 
 
 def turned(positions: Array, velocities: Array) -> tuple[Array, Array]:
     """Keeps what is across and drops what is along."""
-    x, kept = CIRCLE.push_out(positions, velocities)
+    x, kept = AS_MEANT.push_out(positions, velocities)
     return x, velocities - kept
 
 
-@pytest.mark.parametrize("rule", [CIRCLE.push_out_as_printed, reflect, turned])
+@pytest.mark.parametrize("rule", [AS_PRINTED.push_out, reflect, turned])
 @pytest.mark.parametrize("angle", [0.0, 0.7, 2.0, 3.0])
 def test_projection_fails_on_other_rules(rule: Rule, angle: float) -> None:
     """The printed rule among them, which is right at the top of the circle only."""
+    inwards = -np.array([np.cos(angle), np.sin(angle)]) + 0.3 * np.array([-np.sin(angle), np.cos(angle)])
     with pytest.raises(AssertionError):
-        check_projection(rule, angle, 0.1, np.array([1.0, 2.0]))
+        check_projection(rule, angle, 0.1, inwards)
+    with pytest.raises(AssertionError):
+        check_projection(rule, angle, 0.1, inwards, holds=True)
+
+
+def test_the_two_rules_differ_where_a_mass_moves_outwards() -> None:
+    """Each fails the other's check there."""
+    outwards = np.array([1.0, 0.5])
+    with pytest.raises(AssertionError):
+        check_projection(AS_MEANT.push_out, 0.0, 0.1, outwards)
+    with pytest.raises(AssertionError):
+        check_projection(CIRCLE.push_out, 0.0, 0.1, outwards, holds=True)
 
 
 @pytest.mark.parametrize(
@@ -75,13 +92,13 @@ def test_the_printed_rule_by_hand(angle: float, left: float) -> None:
     """
     along = np.array([-np.sin(angle), np.cos(angle)])
     inside = np.array(CIRCLE.centre) + 0.4 * np.array([np.cos(angle), np.sin(angle)])
-    _, v = CIRCLE.push_out_as_printed(inside[None], along[None])
+    _, v = AS_PRINTED.push_out(inside[None], along[None])
     assert v[0] == pytest.approx([-(np.sin(angle) ** 2), -(np.cos(angle) ** 2)], abs=1e-15)
     assert v[0] @ along == pytest.approx(np.sin(angle) ** 3 - np.cos(angle) ** 3, abs=1e-15)
     assert v[0] @ along == pytest.approx(left, abs=1e-14)
 
 
-@pytest.mark.parametrize("rule", [CIRCLE.push_out, CIRCLE.push_out_as_printed])
+@pytest.mark.parametrize("rule", [CIRCLE.push_out, AS_MEANT.push_out, AS_PRINTED.push_out])
 def test_masses_outside_are_left_alone(rule: Rule) -> None:
     """To the bit; and each mass is judged alone."""
     positions = np.array([[0.3, 0.3], [0.3, 0.1], [5.0, 5.0]])

@@ -46,10 +46,10 @@ class Dragless(RopeMotion):
 class OneSided(RopeMotion):
     """Rods pull at their second masses only."""
 
-    def rods(self, state: State) -> Rods:
+    def rows(self, rods: Rods) -> Array:
         """No entries for the first."""
-        found = super().rods(state)
-        found.rows[np.arange(len(found.rows)), self._ends[0]] = 0.0
+        found = super().rows(rods)
+        found[np.arange(len(found)), self._ends[0]] = 0.0
         return found
 
 
