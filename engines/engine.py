@@ -66,7 +66,7 @@ class Engine(Protocol):
     """One engine with one choice of settings. Implementations are frozen dataclasses: they travel between processes.
 
     One whose steps cost much more than masses and springs may have `quick_up_to` besides: the number of masses it steps
-    some hundred times within a minute. `compare` leaves it out beyond, unless it is asked for by name.
+    some hundred times within half a minute. `compare` leaves it out beyond, unless it is asked for by name.
     """
 
     @property

@@ -80,7 +80,7 @@ class EngineStepper:
 
     @property
     def quick_up_to(self) -> int | None:
-        """How many masses the engine steps some hundred times within a minute; None where it does not say."""
+        """How many masses the engine steps some hundred times within half a minute; None where it does not say."""
         return getattr(self.engine, "quick_up_to", None)
 
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:

@@ -87,7 +87,7 @@ def compare(
     """Run steppers on a setup. An engine that fails is a run with that outcome; the others still report.
 
     Args:
-        patient: also run those that would take minutes on so many masses.
+        patient: also run those that take long on so many masses.
 
     Raises:
         InputError: for a dt or duration that makes no sense.
@@ -121,7 +121,7 @@ def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:
     most, n = getattr(stepper, "quick_up_to", None), len(system.masses)
     if most is None or n <= most:
         return None
-    reason = f"left out: with more than {most} masses it takes minutes, here are {n}; --stepper {stepper.name} runs it"
+    reason = f"left out: with more than {most} masses it takes long, here are {n}; --stepper {stepper.name} runs it"
     return Outcome("unsupported", reason)
 
 

@@ -35,7 +35,7 @@ class Scheme:
         order: of accuracy, predicted by theory.
         kind: see Kind.
         springs_only: whether it needs springs (damped ones apart, or one mass at a time) and so cannot step a pendulum.
-        quick_up_to: how many masses it steps some hundred times within a minute; None for as many as any.
+        quick_up_to: how many masses it steps some hundred times within half a minute; None for as many as any.
     """
 
     step: Step
