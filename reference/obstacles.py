@@ -1,4 +1,4 @@
-"""What masses may not enter: circle, sphere, cylinder, plane, with the rule of slides 16-17. Needs NumPy only.
+"""What masses may not enter: circle, sphere, cylinder, plane, box, with the rule of slides 16-17. Needs NumPy only.
 
 All are hard and without friction, and do not move. The rule: a mass that is inside moves straight out to the surface
 and keeps the part of its velocity along it. Slide 17 means that rule, and prints another (`Circle`).
@@ -159,9 +159,37 @@ class Plane(Obstacle):
         return above, np.broadcast_to(normal, positions.shape)
 
 
+@dataclass(frozen=True)
+class Box(Obstacle):
+    """A rectangle or a box along the axes. centre (d,) [m]; half_sizes (d,) [m], from the centre to its faces."""
+
+    centre: tuple[float, ...]
+    half_sizes: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "centre", _vector("centre", self.centre, (2, 3)))
+        object.__setattr__(self, "half_sizes", _vector("half_sizes", self.half_sizes, (self.dimension,)))
+        if min(self.half_sizes) <= 0:
+            raise InputError(f"half_sizes = {self.half_sizes!r}: expected numbers > 0 [m]")
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3, as its centre has it."""
+        return len(self.centre)
+
+    def gap(self, positions: Array) -> tuple[Array, Array]:
+        """See Obstacle: to the nearest face from inside, to the nearest point, which may be a corner, from outside."""
+        away = positions - np.array(self.centre)
+        sides = np.where(away < 0, -1.0, 1.0)
+        beyond = np.abs(away) - np.array(self.half_sizes)
+        nearest = np.eye(self.dimension)[np.argmax(beyond, axis=-1)]
+        distance, normal = _length_and_direction(np.maximum(beyond, 0.0), nearest)
+        return np.where(distance > 0, distance, beyond.max(axis=-1, keepdims=True)), sides * normal
+
+
 #: The kinds of obstacle by name.
 KINDS: Mapping[str, type[Obstacle]] = MappingProxyType(
-    {made.__name__.lower(): made for made in (Circle, Sphere, Cylinder, Plane)}
+    {made.__name__.lower(): made for made in (Circle, Sphere, Cylinder, Plane, Box)}
 )
 
 
