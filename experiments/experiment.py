@@ -26,6 +26,7 @@ NAMES = (
     "numbering",
     "errata",
     "barrier",
+    "drape",
     "cost",
     "speed",
     "million_runs",

@@ -63,7 +63,7 @@ def cloth(
     numbers = lattice(rows=rows, columns=columns)
     held = {"corners": numbers[0, [0, -1]], "four_corners": numbers[[0, 0, -1, -1], [0, -1, 0, -1]], "edge": numbers[0]}
     groups = [(THREADS, stiffness), (DIAGONALS, shear), (OVER_ONE, bend)]
-    return _lattice(numbers, (2, 0), rest_length, groups, mass, damping, drag, gravity, held[pinned])
+    return of_lattice(numbers, (2, 0), rest_length, groups, mass, damping, drag, gravity, held[pinned])
 
 
 @scene(dt=1e-3, duration=0.5, slides="23-26")
@@ -96,7 +96,7 @@ def jello(
     edges = [o for o in offsets if sum(map(abs, o)) == 1]
     groups = [(edges, stiffness), ([o for o in offsets if o not in edges], diagonals)]
     face = numbers[:, 0 if held == "bottom" else -1]
-    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, face.ravel())
+    block = of_lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, face.ravel())
     height = np.abs(block.positions[:, 1] - block.positions[face[0, 0], 1])
     velocities = np.outer(height / ((high - 1) * rest_length), [speed, 0.0, 0.0])
     return replace(block, velocities=velocities)
@@ -134,7 +134,7 @@ def places(shape: Sequence[int], axes: Sequence[int], dimension: int, spacing: f
     return positions
 
 
-def _lattice(
+def of_lattice(
     numbers: IntArray,
     axes: Sequence[int],
     rest_length: float,

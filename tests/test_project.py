@@ -29,6 +29,8 @@ BARE_REFERENCE = (
     "barrier",
     "cache",
     "changes",
+    "cloths",
+    "drape",
     "errors",
     "lattices",
     "obstacles",

@@ -73,7 +73,7 @@ def check_stopped(case: Case, outcome: Outcome) -> None:
 
 
 def check_slides(case: Case, outcome: Outcome) -> None:
-    """On a plane or a box, and along a cylinder, it keeps the velocity along: to 1e-6, as the weak spring above pulls too.
+    """On a plane, a box, and along a cylinder, it keeps the velocity along: to 1e-6, as the weak spring pulls too.
 
     At 0.5 m/s along, 1e-9 N/m of stiffness and some cm of stretch change it by less than 1e-8 m/s. Bullet's plane is a
     sphere, on which it gets faster by (g/R) x t, R being 1e6 sizes.
