@@ -40,7 +40,7 @@ def falling_cloth(
 ) -> MassSpringSystem:
     """A cloth falls flat onto a sphere; nothing holds it.
 
-    Springs are those of the scene `cloth`. The sphere's radius is in [m]; its top is 2 cm below the middle of the cloth.
+    Springs are those of the scene `cloth`. The sphere has a `radius` [m], its top 2 cm below the middle of the cloth.
     """
     cloth = _level(rows, columns, mass, rest_length, [stiffness, shear, bend], damping, drag, gravity)
     x, y, z = cloth.positions.mean(axis=0)

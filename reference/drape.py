@@ -55,11 +55,11 @@ class Disc:
 
     @property
     def triangles(self) -> IntArray:
-        """The masses at the corners of every triangle, shape (t, 3)."""
+        """The masses at the corners of every triangle, all in the same turn, shape (t, 3)."""
         grid = self.numbers
         right, up = grid[:-1, 1:], grid[1:, :-1]
-        halves = [np.stack([corner, right, up], axis=-1).reshape(-1, 3) for corner in (grid[:-1, :-1], grid[1:, 1:])]
-        found = np.concatenate(halves)
+        halves = ((grid[:-1, :-1], right, up), (grid[1:, 1:], up, right))
+        found = np.concatenate([np.stack(half, axis=-1).reshape(-1, 3) for half in halves])
         return found[(found >= 0).all(axis=1)]
 
 
@@ -120,13 +120,13 @@ def drape(
     )
 
 
-@scene(dt=2e-4, duration=0.4, slides="18-22")
+@scene(dt=1e-4, duration=0.2, slides="18-22")
 def strip(
     *,
-    masses: int = 20,
+    masses: int = 10,
     length: float = 0.06,
     density: float = 0.005,
-    stiffness: float = 30.0,
+    stiffness: float = 300.0,
     bending_length: float = 0.03,
     drag: float = 0.0003,
     gravity: float = 9.81,
