@@ -23,6 +23,8 @@ DT, STEPS = 1e-3, 200
 SCENES: dict[str, dict[str, Any]] = {
     "cloth": {"rows": 4, "columns": 5, "pinned": "edge"},
     "jello": {"across": 3, "high": 3, "deep": 3},
+    "flag": {"rows": 4, "columns": 4},
+    "drape": {"spacing": 0.05},
     "bridge": {"kind": "pratt", "panels": 4, "truck_position": 4.0},
     "soil": {"panels": 2, "rows": 3, "margin": 1, "truck_position": 2.0},
 }
