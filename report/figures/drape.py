@@ -64,7 +64,7 @@ def _cloth(axes: Any, one: Mapping[str, Any]) -> None:
     x, y, z = 1e3 * one["positions"].T
     triangles = disc(RADIUS, one["spacing"], one["sample"]).triangles
     axes.plot_trisurf(x, z, y, triangles=triangles, color="#8fbbe0", linewidth=0, antialiased=False, rasterized=True)
-    axes.set_box_aspect((2 * RADIUS, 2 * RADIUS, RADIUS - SUPPORT), zoom=1.2)
+    axes.set_box_aspect((2 * RADIUS, 2 * RADIUS, RADIUS - SUPPORT), zoom=1.4)
     axes.set_xlim(-1e3 * RADIUS, 1e3 * RADIUS)
     axes.set_ylim(-1e3 * RADIUS, 1e3 * RADIUS)
     axes.set_zlim(1e3 * (SUPPORT - RADIUS), 0)

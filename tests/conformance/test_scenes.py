@@ -24,7 +24,6 @@ SCENES: dict[str, dict[str, Any]] = {
     "cloth": {"rows": 4, "columns": 5, "pinned": "edge"},
     "jello": {"across": 3, "high": 3, "deep": 3},
     "flag": {"rows": 4, "columns": 4},
-    "drape": {"spacing": 0.05},
     "bridge": {"kind": "pratt", "panels": 4, "truck_position": 4.0},
     "soil": {"panels": 2, "rows": 3, "margin": 1, "truck_position": 2.0},
 }
@@ -45,7 +44,7 @@ def check_identified(engine: Engine, scene: str, outcome: Outcome) -> None:
     system, trajectories = known(scene)
     assert outcome.ending == "done", outcome.reason
     found = identify_run(engine.name, outcome, system, trajectories)
-    case = "damping" if "damping" in demands(system) else "plain"
+    case = next((what for what in ("damping", "drag") if what in demands(system)), "plain")
     assert engine.identified_as[case] in [m.scheme for m in found.matches or found.ranking[:1]]
     assert found.error < 1e-9
 
