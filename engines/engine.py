@@ -26,6 +26,7 @@ OBSTACLES = {
     "sphere": "a sphere that masses may not enter",
     "cylinder": "a cylinder that masses may not enter",
     "plane": "a plane that masses may not enter",
+    "box": "a box that masses may not enter",
 }
 
 #: What a system may ask of an engine, and how the lack of it is said.

@@ -15,11 +15,11 @@ import numpy as np
 
 from engines.mujoco_common import OFF
 from engines.mujoco_masses import three
-from reference.obstacles import Circle, Cylinder, Obstacle, Plane, Sphere
+from reference.obstacles import Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.state import Array
 from reference.system import MassSpringSystem
 
-#: The radius of a bead, as a part of the system's size or the smallest obstacle's radius. Obstacles are smaller by it.
+#: The radius of a bead, as a part of the system's size or the smallest obstacle's. Obstacles are smaller by it.
 BEAD = 1e-3
 
 #: Half the length of a cylinder, in sizes of the system and distances of the cylinder's centre from it.
@@ -49,7 +49,7 @@ def add_obstacles(mujoco: ModuleType, spec: Any, system: MassSpringSystem, dt: f
     """
     if not system.obstacles:
         return
-    bead = BEAD * min([system.size or 1.0, *(getattr(obstacle, "radius", np.inf) for obstacle in system.obstacles)])
+    bead = BEAD * min([system.size or 1.0, *(_smallest(obstacle) for obstacle in system.obstacles)])
     # of two geoms that meet: no friction, and the parameters of one of them are those of both; what masses are is said
     # elsewhere, but old versions make inertia of their geoms, and refuse too little of it
     common = {"condim": 1, "solref": [2 * dt, DAMPING], "solimp": [IMPEDANCE, IMPEDANCE, bead, 0.5, 2.0], "mass": 1.0}
@@ -69,6 +69,9 @@ def _shape(mujoco: ModuleType, obstacle: Obstacle, system: MassSpringSystem, bea
         reach = system.size + float(np.abs(system.positions - centre).max())
         ends = np.concatenate([centre - LONG * reach * axis, centre + LONG * reach * axis])
         return {"type": mujoco.mjtGeom.mjGEOM_CAPSULE, "size": [obstacle.radius - bead, 0, 0], "fromto": ends}
+    if isinstance(obstacle, Box):
+        size = [*(half - bead for half in obstacle.half_sizes), max(obstacle.half_sizes)][:3]
+        return {"type": mujoco.mjtGeom.mjGEOM_BOX, "size": size, "pos": three(np.array(obstacle.centre))}
     assert isinstance(obstacle, Plane)
     normal = three(np.array(obstacle.normal))
     return {
@@ -77,6 +80,13 @@ def _shape(mujoco: ModuleType, obstacle: Obstacle, system: MassSpringSystem, bea
         "pos": three(np.array(obstacle.point)) - bead * normal,
         "quat": _turn(normal),
     }
+
+
+def _smallest(obstacle: Obstacle) -> float:
+    """The radius of an obstacle, or half its smallest side [m]; of a plane, none."""
+    if isinstance(obstacle, Box):
+        return min(obstacle.half_sizes)
+    return float(getattr(obstacle, "radius", np.inf))
 
 
 def _turn(normal: Array) -> Array:

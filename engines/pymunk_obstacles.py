@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from reference.obstacles import Circle, Obstacle, Plane
+from reference.obstacles import Box, Circle, Obstacle, Plane
 from reference.system import MassSpringSystem
 
 #: A plane is a bar, round at its ends, whose upper side is the plane: its length and its thickness in sizes of the
@@ -43,6 +43,9 @@ def _shape(pymunk: Any, ground: Any, obstacle: Obstacle, system: MassSpringSyste
     """Elasticity and friction of a contact are the products of those of its shapes, and 0 where they are not set."""
     if isinstance(obstacle, Circle):
         return pymunk.Circle(ground, obstacle.radius, obstacle.centre)
+    if isinstance(obstacle, Box):
+        (x, y), (w, h) = obstacle.centre, obstacle.half_sizes
+        return pymunk.Poly(ground, [(x - w, y - h), (x + w, y - h), (x + w, y + h), (x - w, y + h)])
     assert isinstance(obstacle, Plane)
     point, normal = np.array(obstacle.point), np.array(obstacle.normal)
     reach = LONG * (system.size + float(np.abs(system.positions - point).max()))

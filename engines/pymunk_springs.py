@@ -44,7 +44,7 @@ class PymunkSprings:
     package: str = "pymunk"
     capabilities: frozenset[str] = frozenset(
         {"mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping", "drag"}
-        | {"tilted gravity", "no fixed mass", "circle", "plane"}
+        | {"tilted gravity", "no fixed mass", "circle", "plane", "box"}
     )
 
     @property

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from reference.obstacles import Circle, Cylinder, Plane, Sphere
+from reference.obstacles import Box, Circle, Cylinder, Plane, Sphere
 from reference.scenes import find
 from reference.state import Array
 from reference.system import MassSpringSystem
@@ -16,6 +16,7 @@ from reference.system import MassSpringSystem
 #: Obstacles that nothing comes near in the 200 steps of a trial: there an engine is to step as it does without them.
 AWAY = (0.6, 1.0, 0.0)
 FLOOR, BAR = Plane((0.0, -3.0), (0.0, 1.0)), Cylinder(AWAY, (0.0, 0.0, 1.0), 0.3)
+DISC, BALL, BLOCK = Circle(AWAY[:2], 0.3), Sphere(AWAY, 0.3), Box(AWAY[:2], (0.3, 0.2))
 
 
 def for_each_capability() -> Mapping[str, MassSpringSystem]:
@@ -45,8 +46,8 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
         "drag": string({"drag": 0.02}),
         "tilted gravity": replace(plain, gravity=np.array([3.0, -9.0])),
         "no fixed mass": replace(triangles, fixed=np.zeros(4, dtype=bool)),
-        **{obstacle.kind: replace(plain, obstacles=(obstacle,)) for obstacle in (Circle(AWAY[:2], 0.3), FLOOR)},
-        **{obstacle.kind: replace(in_space, obstacles=(obstacle,)) for obstacle in (Sphere(AWAY, 0.3), BAR)},
+        **{obstacle.kind: replace(plain, obstacles=(obstacle,)) for obstacle in (DISC, FLOOR, BLOCK)},
+        **{obstacle.kind: replace(in_space, obstacles=(obstacle,)) for obstacle in (BALL, BAR)},
     }
 
 

@@ -26,6 +26,7 @@ NAMES = (
     "numbering",
     "errata",
     "barrier",
+    "drape",
     "ground_motion",
     "scenes",
     "cost",

@@ -67,7 +67,7 @@ def cloth(
     numbers = lattice(rows=rows, columns=columns)
     held = {"corners": numbers[0, [0, -1]], "four_corners": numbers[[0, 0, -1, -1], [0, -1, 0, -1]], "edge": numbers[0]}
     groups = [(THREADS, stiffness), (DIAGONALS, shear), (OVER_ONE, bend)]
-    return _lattice(numbers, (2, 0), rest_length, groups, mass, damping, drag, gravity, held[pinned])
+    return of_lattice(numbers, (2, 0), rest_length, groups, mass, damping, drag, gravity, held[pinned])
 
 
 @scene(dt=1e-3, duration=0.5, slides="23-26")
@@ -97,7 +97,7 @@ def jello(
     numbers = lattice(across=across, high=high, deep=deep)
     face = numbers[:, 0 if held == "bottom" else -1]
     groups = _jello_springs(cells, stiffness, diagonals)
-    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, face.ravel())
+    block = of_lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, face.ravel())
     height = np.abs(block.positions[:, 1] - block.positions[face[0, 0], 1])
     velocities = np.outer(height / ((high - 1) * rest_length), [speed, 0.0, 0.0])
     return replace(block, velocities=velocities)
@@ -126,7 +126,7 @@ def drop(
     not_below_zero(height=height)
     numbers = lattice(across=across, high=high, deep=deep)
     groups = _jello_springs(cells, stiffness, diagonals)
-    block = _lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, numbers[:0].ravel())
+    block = of_lattice(numbers, (0, 1, 2), rest_length, groups, mass, damping, drag, gravity, numbers[:0].ravel())
     return replace(block, obstacles=(Plane((0.0, -height, 0.0), (0.0, 1.0, 0.0)),))
 
 
@@ -170,7 +170,7 @@ def _jello_springs(cells: Cells, stiffness: float, diagonals: float) -> list[tup
     return [(edges, stiffness), ([o for o in offsets if o not in edges], diagonals)]
 
 
-def _lattice(
+def of_lattice(
     numbers: IntArray,
     axes: Sequence[int],
     rest_length: float,

@@ -1,4 +1,4 @@
-"""What masses may not enter: circle, sphere, cylinder, plane, as on slides 16-17. Needs NumPy only.
+"""What masses may not enter: circle, sphere, cylinder, plane, box, as on slides 16-17. Needs NumPy only.
 
 All are hard and without friction, and do not move. The rule: a mass that is inside moves straight out to the surface
 and loses the part of its velocity that leads inwards, no more: an obstacle pushes and never pulls. (Slide 17 takes what
@@ -13,6 +13,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
+from functools import reduce
 from types import MappingProxyType
 from typing import Any
 
@@ -167,9 +168,37 @@ class Plane(Obstacle):
         return dot(less(place, self.point), self.normal), self.normal
 
 
+@dataclass(frozen=True)
+class Box(Obstacle):
+    """A rectangle or a box along the axes. centre (d,) [m]; half_sizes (d,) [m], from the centre to its faces."""
+
+    centre: tuple[float, ...]
+    half_sizes: tuple[float, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "centre", _vector("centre", self.centre, (2, 3)))
+        object.__setattr__(self, "half_sizes", _vector("half_sizes", self.half_sizes, (self.dimension,)))
+        if min(self.half_sizes) <= 0:
+            raise InputError(f"half_sizes = {self.half_sizes!r}: expected numbers > 0 [m]")
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3, as its centre has it."""
+        return len(self.centre)
+
+    def surface(self, place: Axes) -> tuple[Any, Axes]:
+        """See Obstacle: to the nearest face from inside, to the nearest point, which may be a corner, from outside."""
+        away = less(place, self.centre)
+        beyond = [np.abs(a) - half for a, half in zip(away, self.half_sizes, strict=True)]
+        least_deep = reduce(np.maximum, beyond)
+        distance, normal = direction([np.maximum(b, 0.0) for b in beyond], _first(beyond, least_deep))
+        sides = [np.where(a < 0, -1.0, 1.0) for a in away]
+        return np.where(distance > 0, distance, least_deep), [s * n for s, n in zip(sides, normal, strict=True)]
+
+
 #: The kinds of obstacle by name.
 KINDS: Mapping[str, type[Obstacle]] = MappingProxyType(
-    {made.__name__.lower(): made for made in (Circle, Sphere, Cylinder, Plane)}
+    {made.__name__.lower(): made for made in (Circle, Sphere, Cylinder, Plane, Box)}
 )
 
 
@@ -240,6 +269,16 @@ def checked(
             )
         found.append(made)
     return tuple(found)
+
+
+def _first(values: Axes, largest: Any) -> Axes:
+    """The unit vector of the first axis that has the largest value."""
+    chosen: list[Any] = []
+    left: Any = 1.0
+    for value in values:
+        chosen.append(np.where(value < largest, 0.0, left))
+        left = left - chosen[-1]
+    return chosen
 
 
 def _vector(name: str, value: Any, dimensions: tuple[int, ...]) -> tuple[float, ...]:

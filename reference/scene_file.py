@@ -21,7 +21,7 @@
 
     [[obstacles]]               # what masses may not enter: added to the scene's own, with either form of file
     kind = "circle"             # circle, sphere: centre [m], radius [m]; cylinder: also its axis, a direction;
-    centre = [0.5, -0.6]        # plane: point [m], normal (a direction, out of it)
+    centre = [0.5, -0.6]        # plane: point [m], normal (a direction, out of it); box: centre, half_sizes [m]
     radius = 0.3
 
 In place of `scene` and [parameters], a table [system] has the fields of `MassSpringSystem`: positions, springs, masses,

@@ -29,7 +29,15 @@ PerItem = float | Sequence[float]
 MOST_MASSES = 10_000_000
 
 #: Where the scenes stand, in the order they are shown.
-_FILES = ("reference.scenes", "reference.barrier", "reference.lattices", "reference.trusses", "reference.driven")
+_FILES = (
+    "reference.scenes",
+    "reference.barrier",
+    "reference.lattices",
+    "reference.cloths",
+    "reference.drape",
+    "reference.trusses",
+    "reference.driven",
+)
 _SCENES: dict[str, Scene] = {}
 
 

@@ -30,6 +30,8 @@ BARE_REFERENCE = (
     "barrier",
     "cache",
     "changes",
+    "cloths",
+    "drape",
     "errors",
     "lattices",
     "obstacles",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from engines.engine import Engine
-from reference.obstacles import Circle, Cylinder, Obstacle, Plane, Sphere
+from reference.obstacles import Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.outcome import Outcome
 from reference.system import MassSpringSystem
 from tests.conformance import doctored
@@ -21,6 +21,8 @@ KINDS: dict[str, Obstacle] = {
     "cylinder": Cylinder((0.0, -0.5, 0.0), (1.0, 0.0, 0.0), 0.5),
     "plane": Plane((0.0, 0.0), (0.0, 1.0)),
     "plane in space": Plane((0.0, 0.0, 0.0), (0.0, 1.0, 0.0)),
+    "box": Box((0.0, -0.25), (0.5, 0.25)),
+    "box in space": Box((0.0, -0.25, 0.0), (0.5, 0.25, 0.4)),
 }
 
 DT, HEIGHT, GRAVITY = 1e-3, 0.2, 9.81
@@ -71,7 +73,7 @@ def check_stopped(case: Case, outcome: Outcome) -> None:
 
 
 def check_slides(case: Case, outcome: Outcome) -> None:
-    """On a plane, and along a cylinder, it keeps the velocity along: to 1e-6, as the weak spring above pulls too.
+    """On a plane, a box, and along a cylinder, it keeps the velocity along: to 1e-6, as the weak spring pulls too.
 
     At 0.5 m/s along, 1e-9 N/m of stiffness and some cm of stretch change it by less than 1e-8 m/s. Bullet's plane is a
     sphere, on which it gets faster by (g/R) x t, R being 1e6 sizes.
@@ -93,7 +95,7 @@ def test_a_mass_that_falls_on_an_obstacle_stays_on_it(engine: Engine, kind: str)
     check_stopped(case, *outcomes(engine, [case]))
 
 
-@pytest.mark.parametrize("kind", ["plane", "plane in space", "cylinder"])
+@pytest.mark.parametrize("kind", ["plane", "plane in space", "cylinder", "box", "box in space"])
 def test_a_mass_slides_without_friction(engine: Engine, kind: str) -> None:
     """Along what is straight."""
     obstacle = KINDS[kind]

@@ -24,6 +24,7 @@ DT, STEPS = 1e-3, 200
 SCENES: dict[str, tuple[str, dict[str, Any]]] = {
     "cloth": ("cloth", {"rows": 4, "columns": 5, "pinned": "edge"}),
     "uneven cloth": ("cloth", {"rows": 4, "columns": 5, "pinned": "edge", "shear": 10.0, "bend": 2.0}),
+    "flag": ("flag", {"rows": 4, "columns": 4}),
     "jello": ("jello", {"across": 3, "high": 3, "deep": 3}),
     "jello of tetrahedra": ("jello", {"across": 3, "high": 3, "deep": 3, "cells": "tetrahedra", "diagonals": 60.0}),
     "equal truss": (
@@ -51,7 +52,7 @@ def check_identified(engine: Engine, scene: str, outcome: Outcome) -> None:
     system, trajectories = known(scene)
     assert outcome.ending == "done", outcome.reason
     found = identify_run(engine.name, outcome, system, trajectories)
-    case = "damping" if "damping" in demands(system) else "plain"
+    case = next((what for what in ("damping", "drag") if what in demands(system)), "plain")
     assert engine.identified_as[case] in [m.scheme for m in found.matches or found.ranking[:1]]
     assert found.error < 1e-9
 

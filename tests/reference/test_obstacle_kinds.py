@@ -15,7 +15,7 @@ from reference import catalogue
 from reference.axes import Axes
 from reference.errors import InputError, SolverError
 from reference.exact import equilibrium, exact
-from reference.obstacles import KINDS, Circle, Cylinder, Obstacle, Plane, Sphere, keep_out, obstacle
+from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere, keep_out, obstacle
 from reference.pendulum import PendulumMotion
 from reference.rope import RopeMotion
 from reference.scenes import find
@@ -32,6 +32,8 @@ OBSTACLES: list[Obstacle] = [
     Cylinder((0.3, -0.2, 0.1), (1.0, 2.0, -2.0), 0.5),
     Plane((0.3, -0.2), (0.6, 0.8)),
     Plane((0.3, -0.2, 0.1), (1.0, 2.0, -2.0)),
+    Box((0.3, -0.2), (0.4, 0.5)),
+    Box((0.3, -0.2, 0.1), (0.4, 0.5, 0.6)),
 ]
 
 Rule = Callable[[Array, Array], tuple[Array, Array]]
@@ -256,11 +258,16 @@ def test_what_knows_no_obstacles_says_so() -> None:
         (lambda: Plane((0.0,), (0.0, 1.0)), "point = (0.0,): expected 2 or 3 finite numbers [m]"),
         (lambda: Plane((0.0, 0.0), (0.0, 0.0)), "normal = (0.0, 0.0): expected a direction, not zero"),
         (lambda: Plane((0.0, 0.0), (0.0, 0.0, 1.0)), "normal = (0.0, 0.0, 1.0): expected 2 finite numbers [m]"),
+        (lambda: Box((0.0, 0.0), (1.0, 0.0)), "half_sizes = (1.0, 0.0): expected numbers > 0 [m]"),
+        (lambda: Box((0.0, 0.0), (1.0,)), "half_sizes = (1.0,): expected 2 finite numbers [m]"),
         (lambda: obstacle("circel"), "unknown kind 'circel': did you mean 'circle'?"),
         (lambda: obstacle("circle", center=1), "unknown number of a circle 'center': did you mean 'centre'?"),
         (lambda: obstacle("circle", radius=1.0), "centre is missing: a circle has centre, radius"),
         (lambda: replace(BARRIER, obstacles=3), "obstacles = 3: expected a list of obstacles"),
-        (lambda: replace(BARRIER, obstacles=(3,)), "obstacles[0] = 3: expected one of circle, sphere, cylinder, plane"),
+        (
+            lambda: replace(BARRIER, obstacles=(3,)),
+            "obstacles[0] = 3: expected one of circle, sphere, cylinder, plane, box",
+        ),
         (
             lambda: replace(BARRIER, obstacles=(Sphere((0, 0, 9), 1),)),
             "obstacles[0] is a sphere in 3D: expected one in 2D",
@@ -283,3 +290,47 @@ def test_directions_become_unit_vectors() -> None:
     for scale in (1e-300, 1.0, 1e300):
         assert Plane((0.0, 0.0), (3 * scale, 4 * scale)).normal == pytest.approx((0.6, 0.8), abs=1e-15)
     assert Plane((0.0, 0.0), (0.6, 0.8)).normal == (0.6, 0.8)
+
+
+def nearest_of(points: Array, place: Array) -> float:
+    """How far a place is from the nearest of many points [m]."""
+    return float(np.linalg.norm(points - place, axis=1).min())
+
+
+def check_gap(made: Box, gap: Callable[[Array], Array]) -> None:
+    """The gap is the distance to the nearest point of the surface, negative inside; found by looking at them all.
+
+    The surface is looked at on a grid of h = 1/40 of its size: a nearest point is missed by h/sqrt(2) at most, and at a
+    distance of s by (h^2/4)/s, or h/sqrt(2) if that is less.
+    """
+    grid = np.stack(np.meshgrid(*[np.linspace(-1, 1, 81)] * made.dimension), axis=-1).reshape(-1, made.dimension)
+    surface = np.array(made.centre) + grid[np.abs(grid).max(axis=1) == 1] * made.half_sizes
+    h = max(made.half_sizes) / 40
+    places = np.array(made.centre) + np.random.default_rng(3).uniform(-1, 1, (60, made.dimension))
+    inside = (np.abs(places - made.centre) < made.half_sizes).all(axis=1)
+    assert inside.any()
+    for place, within, found in zip(places, inside, gap(places), strict=True):
+        seen = nearest_of(surface, place)
+        assert (found < 0) == within
+        assert seen - min(h, h**2 / 2 / seen) <= abs(found) <= seen + 1e-15
+
+
+@pytest.mark.parametrize("made", [made for made in OBSTACLES if isinstance(made, Box)], ids=label)
+def test_a_box_is_as_far_as_its_nearest_point(made: Box) -> None:
+    """Faces, edges and corners; not if corners count as faces do, outside, nor if the sign is lost."""
+
+    def beyond(x: Array) -> Array:
+        return np.asarray((np.abs(x - np.array(made.centre)) - made.half_sizes).max(axis=1))
+
+    check_gap(made, lambda x: made.gap(x)[0][:, 0])
+    for wrong in (beyond, lambda x: np.abs(made.gap(x)[0][:, 0])):
+        with pytest.raises(AssertionError):
+            check_gap(made, wrong)
+
+
+def test_a_mass_beside_the_edge_of_a_box_is_pushed_to_the_nearer_face() -> None:
+    """On top where it is nearer to the top, sideways where it is nearer to the side; its velocity along stays."""
+    box = Box((0.0, 0.0), (1.0, 1.0))
+    x, v = box.push_out(np.array([[0.9, 0.95], [0.95, 0.9], [1.1, 1.1]]), np.full((3, 2), -1.0))
+    assert x == pytest.approx(np.array([[0.9, 1.0], [1.0, 0.9], [1.1, 1.1]]), abs=1e-15)
+    assert v.tolist() == [[-1.0, 0.0], [0.0, -1.0], [-1.0, -1.0]]

@@ -8,9 +8,10 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from engines.isolation import EngineStepper
-from experiments import divergence, scenes
+from experiments import divergence, drape, scenes
 from experiments.comparison import compare
 from experiments.experiment import Result, Table
+from reference.drape import disc
 from reference.identify import Identification
 from reference.outcome import Outcome
 from reference.scenes import Setup, find
@@ -66,10 +67,24 @@ def all_scenes(*names: str) -> Result:
     return scenes.result_of(runs, motions)  # type: ignore[arg-type]
 
 
+def draped(engine: bool) -> Result:
+    """Flat cloths with six folds in their shadows, one of them in an engine or not."""
+    turn = np.linspace(-math.pi, math.pi, drape.DIRECTIONS, endpoint=False)
+    cases = [("kick_drift", c, drape.SPACING) for c in drape.LENGTHS]
+    cases += [("kick_drift", 0.017, drape.COARSE)] + [("an_engine", 0.017, drape.COARSE)] * engine
+    cloths = [
+        {"by": by, "length": c, "spacing": spacing, "sample": 0, "coefficient": 10 * c, "time": 1.0}
+        | {"positions": disc(drape.RADIUS, spacing).positions, "outline": 0.12 + 0.01 * np.cos(6 * turn)}
+        for by, c, spacing in cases
+    ]
+    return Result(["Stiffer cloth drapes less."], [drape._table(cloths)], {"cloths": cloths})
+
+
 #: By experiment, results to draw: as usual, and with what is missing.
 RESULTS: Mapping[str, Mapping[str, Callable[[], Result]]] = {
     "divergence": {"usual": engines_that_run, "no engine": no_engine_installed, "nobody": lambda: of()},
     "stiff_limit": {"usual": lambda: stiff_limit(100.0), "no engine": lambda: stiff_limit(None)},
     "errata": {"usual": errata},
     "scenes": {"usual": lambda: all_scenes("string", "barrier", "cloth"), "no scene": lambda: all_scenes()},
+    "drape": {"usual": lambda: draped(True), "no engine": lambda: draped(False)},
 }

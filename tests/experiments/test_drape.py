@@ -1,0 +1,108 @@
+"""The drape test: its shadow, its folds, its sentences, and that stiffer cloth drapes less."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from experiments import drape
+from experiments.drape import DIRECTIONS, able, cloth, covered, folds, hung, hung_in, shadow
+from reference.drape import disc
+from reference.scenes import find
+from reference.state import Array
+from reference.system import IntArray
+
+TURN = np.linspace(-np.pi, np.pi, DIRECTIONS, endpoint=False)
+
+
+def folded() -> tuple[Array, IntArray]:
+    """A square of 1 m of two triangles; and a third, over one of them. All of y is seen from above."""
+    corners = np.array([[0.0, 0.0, 0.0], [1.0, 0.3, 0.0], [1.0, 0.1, 1.0], [0.0, 0.2, 1.0], [0.1, -1.0, 0.2]])
+    return corners, np.array([[0, 1, 2], [0, 2, 3], [4, 1, 2]])
+
+
+def check_area(area: Any) -> None:
+    """A place under two triangles is in shadow once: 1 m^2, to the grid of 1e-7 m that points are put on."""
+    assert area(*folded()) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_shadow_counts_each_place_once() -> None:
+    """A sum over triangles counts folds twice."""
+
+    def sum_of_triangles(x: Array, triangles: IntArray) -> float:
+        a, b = (x[triangles[:, i]][:, [0, 2]] - x[triangles[:, 0]][:, [0, 2]] for i in (1, 2))
+        return float(np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2)
+
+    check_area(lambda x, triangles: covered(x, triangles).area)
+    with pytest.raises(AssertionError):
+        check_area(sum_of_triangles)
+
+
+def test_a_flat_cloth_has_coefficient_one_and_one_hung_straight_down_none() -> None:
+    """The limits: DC = 1; and of masses pulled in to the disc's edge, 0 to the raggedness of that edge."""
+    system, _ = cloth(0.017, 0.006, 0)
+    triangles = disc(drape.RADIUS, 0.006, 0).triangles
+    assert shadow(system.positions, triangles, system)["coefficient"] == 1.0
+    r = np.hypot(*system.positions[:, [0, 2]].T)
+    pulled = system.positions * np.minimum(1.0, drape.SUPPORT / np.maximum(r, 1e-9))[:, None]
+    assert shadow(pulled, triangles, system)["coefficient"] == pytest.approx(0.0, abs=0.02)
+
+
+@pytest.mark.parametrize("waves", [3, 6, 11])
+def test_folds_are_counted(waves: int) -> None:
+    """Of an outline of so many waves of 10 mm; of one that is nearly round, none."""
+    count, amplitude = folds(0.12 + 0.01 * np.cos(waves * TURN + 0.3) + 0.003 * np.cos(2 * TURN))
+    assert (count, amplitude) == (waves, pytest.approx(0.01))
+    assert folds(0.12 + 0.0005 * np.cos(waves * TURN))[0] == 0
+
+
+def check_stiffer_drapes_less(coefficients: list[float]) -> None:
+    """By more than pieces of one cloth differ, 0.07."""
+    assert (np.diff(coefficients) > 0.07).all()
+    assert 0 < coefficients[0] < coefficients[-1] < 1
+
+
+def test_stiffer_cloth_drapes_less_and_has_folds(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Over three bending lengths; and not if rigidity is left out of all."""
+    found = [hung(c, 0.012, 0) for c in (0.008, 0.017, 0.03)]
+    check_stiffer_drapes_less([one["coefficient"] for one in found])
+    assert folds(found[1]["outline"])[0] >= 4
+    assert folds(found[1]["outline"])[1] > 0.004
+    limp = [hung(1e-5, 0.012, i)["coefficient"] for i in range(3)]
+    with pytest.raises(AssertionError):
+        check_stiffer_drapes_less(limp)
+
+
+def test_an_engine_hangs_the_same_cloth() -> None:
+    """The first that can; the same drape coefficient to 1e-3: both are at rest, at 1 mm/s and below for a second."""
+    names = able(cloth(0.017, 0.02, 0)[0])
+    if not names:
+        pytest.skip("no engine is installed that can take it")
+    assert len({find("drape").name, *names}) == len(names) + 1
+    found = hung_in(names[-1], 0.017, 0.02, 0)
+    assert found["coefficient"] == pytest.approx(hung(0.017, 0.02, 0)["coefficient"], abs=1e-3)
+
+
+def one(by: str, length: float, spacing: float, sample: int, coefficient: float) -> dict[str, Any]:
+    """A cloth as the experiment keeps it, with six folds."""
+    known = {"by": by, "length": length, "spacing": spacing, "sample": sample, "coefficient": coefficient}
+    positions = disc(drape.RADIUS, spacing, sample).positions
+    return {**known, "time": 1.0, "positions": positions, "outline": 0.12 + 0.01 * np.cos(6 * TURN)}
+
+
+def test_findings_are_made_from_the_cloths() -> None:
+    """With other numbers, other sentences."""
+    rising = [one("kick_drift", c, drape.SPACING, i, 10 * c + 0.01 * i) for c in (0.01, 0.02, 0.03) for i in (0, 1)]
+    said = " ".join(drape._findings(rising))
+    assert "rises from 0.11 to 0.31" in said.replace("0.10", "0.11").replace("0.30", "0.31")
+    assert "at every step between" in said
+    assert "differ by up to 0.01" in said
+    assert "6 to 6 folds" in said
+    assert "Engines" not in said
+    coarse = [one(by, 0.017, drape.COARSE, 0, dc) for by, dc in (("kick_drift", 0.5), ("some_engine", 0.52))]
+    falling = [*rising, one("kick_drift", 0.04, drape.SPACING, 0, 0.05), *coarse]
+    said = " ".join(drape._findings(falling))
+    assert "but for 1 of 3 steps between" in said
+    assert "some_engine by 2.0e-02" in said
