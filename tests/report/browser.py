@@ -48,9 +48,7 @@ class Shown:
         self.page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=colours)
         self.page.emulate_media(media=medium)
         self._address = file.resolve().as_uri()
-        self.page.on(
-            "request", lambda r: None if r.url == address or r.url[:5] == "data:" else self.requests.append(r.url)
-        )
+        self.page.on("request", lambda request: self._asked.append(request.url))
         self.page.on("console", lambda m: self.complaints.append(m.text) if m.type in ("error", "warning") else None)
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.goto(self._address)
