@@ -49,13 +49,14 @@ class Group:
 
     @property
     def speeds(self) -> tuple[Array, Array, Array]:
-        """Masses, and the least and most steps per second [1/s] of those who came so far."""
+        """Masses, and the least and most steps per second [1/s]; no least where not all came so far."""
         known: dict[int, list[float]] = {}
         for cost in self.costs:
             for masses, speed in cost.steps_per_second:
                 known.setdefault(masses, []).append(speed)
         counts = sorted(known)
-        return np.array(counts), np.array([min(known[n]) for n in counts]), np.array([max(known[n]) for n in counts])
+        least = [min(known[n]) if len(known[n]) == len(self.costs) else np.nan for n in counts]
+        return np.array(counts), np.array(least), np.array([max(known[n]) for n in counts])
 
 
 def draw(result: Result) -> Picture:

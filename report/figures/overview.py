@@ -34,6 +34,7 @@ def draw(engines: Sequence[Explained]) -> Picture:
     axes.tick_params(axis="y", length=0)
     axes.grid(visible=False, axis="y")
     axes.set_xlabel("largest distance of any mass within half a second [m]")
+    axes.text(0.7 * ROUNDING, -0.5, "rounding", color="#555555", fontsize=8, ha="right", va="center")
     _words(axes, rows)
     _known_lengths(axes)
     return Picture(figure, _alt(rows))
