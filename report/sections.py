@@ -24,7 +24,7 @@ TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
 
 @dataclass(frozen=True)
 class Section:
-    """One experiment on the page: its answer, or why there is none."""
+    """One experiment on the page: its answer, or why there is none; and whether it was run in full."""
 
     experiment: Experiment
     result: Result | None = None
@@ -32,6 +32,13 @@ class Section:
     alt: str = ""
     downloads: Sequence[tuple[str, str]] = ()
     failure: str = ""
+    full: bool = False
+
+    @property
+    def command(self) -> str:
+        """What makes its figure and tables."""
+        name = self.experiment.name
+        return f"springlab report --only {name} --full" if self.full else f"springlab run {name}"
 
 
 def section(experiment: Experiment, folder: Path, progress: Progress) -> Section:
@@ -94,8 +101,9 @@ def section_by_name(name: str, folder: Path, store: Path, fresh: bool, full: boo
     """As `section`, with what travels between processes: the page needs no more of a result than its words."""
     with closing(Store(store)) as kept, using(Runner(LocalCrew(), kept, fresh)):
         experiment = find(name)
-        run = experiment.run_in_full if full and experiment.run_in_full else experiment.run
-        made = section(replace(experiment, run=run), folder, lambda _: None)
+        fuller = experiment.run_in_full if full else None
+        asked = replace(experiment, run=fuller) if fuller is not None else experiment
+        made = replace(section(asked, folder, lambda _: None), experiment=experiment, full=fuller is not None)
     return made if made.result is None else replace(made, result=replace(made.result, data={}))
 
 

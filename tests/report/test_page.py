@@ -195,6 +195,7 @@ def test_open_shows_the_page_and_full_runs_in_full(monkeypatch: pytest.MonkeyPat
     said = springlab("report", "--only", "stiff_limit", "--full", "--open", "--out", str(tmp_path))
     assert said.code == 0
     assert "In full." in said.out
+    assert "Made by springlab report --only stiff_limit --full" in Page(_page(tmp_path)).words
     assert shown == [str(tmp_path / "index.html")]
 
 
