@@ -23,13 +23,14 @@ RESULTS = Path("results")
 def progress(title: str) -> Iterator[Progress]:
     """A line on standard error with what is being done and for how long; nothing is left of it, nor shown in a file.
 
-    Where what is told begins with "N of M", the bar is as full as that.
+    Where what is told begins with "N of M", the bar is as full as that, and the time that is left is guessed from it.
     """
     from rich.console import Console
-    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
 
-    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn())
+    left = (TextColumn("left:"), TimeRemainingColumn(elapsed_when_finished=True))
+    columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn(), *left)
     console = Console(stderr=True)
     with Bar(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task(title, total=None)

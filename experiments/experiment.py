@@ -79,6 +79,7 @@ class Experiment:
         run: answers it, telling `progress` what it is at.
         in_report: whether `springlab report` runs it unasked.
         timed: whether it measures times, and so must run alone.
+        run_in_full: the same, with more or finer numbers, where that can be had.
     """
 
     name: str
@@ -88,6 +89,7 @@ class Experiment:
     run: Callable[[Progress], Result]
     in_report: bool = True
     timed: bool = False
+    run_in_full: Callable[[Progress], Result] | None = None
 
 
 def experiments() -> Mapping[str, Experiment]:

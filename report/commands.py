@@ -117,7 +117,7 @@ def run_command(
     names: tuple[str, ...], out: Path, resume: bool, store: Path, jobs: int | None, cluster: str | None
 ) -> int:
     """Run experiments: show what they find, and write figures and tables to OUT/EXPERIMENT."""
-    from report.page import section
+    from report.sections import section
 
     failed = False
     for experiment in [find(name) for name in names]:
@@ -134,22 +134,28 @@ def run_command(
 
 @click.command("report")
 @click.option("--only", "names", multiple=True, metavar="EXPERIMENT", help="Only these experiments.")
+@click.option("--full", is_flag=True, help="All experiments, also those that take long, and finer maps.")
+@click.option("--open", "show", is_flag=True, help="Open the page in the browser.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "report", show_default=True)
 @resume_option
 @store_option
-def report_command(names: Sequence[str], out: Path, resume: bool, store: Path) -> int:
+def report_command(names: Sequence[str], full: bool, show: bool, out: Path, resume: bool, store: Path) -> int:
     """Run the experiments and write one self-contained page, OUT/index.html. Exit code 1 if an experiment failed."""
-    from report.page import all_sections, page
+    from report.page import page
+    from report.sections import all_sections
 
-    wanted = [find(name) for name in names or NAMES]
-    if not names:
+    wanted = [find(name) for name in dict.fromkeys(names or NAMES)]
+    if not names and not full:
         wanted = [experiment for experiment in wanted if experiment.in_report]
     out.mkdir(parents=True, exist_ok=True)
     with chosen_runner(resume, store), progress("report") as tell:
-        sections = all_sections(wanted, out, tell, store, fresh=not resume)
-    (out / "index.html").write_text(page(sections), encoding="utf-8")
+        sections = all_sections(wanted, out, tell, store, fresh=not resume, full=full)
+    written = out / "index.html"
+    written.write_text(page(sections), encoding="utf-8")
     for answer in sections:
         first = answer.failure if answer.result is None else answer.result.findings[0]
         click.echo(f"{answer.experiment.title}: {first}\n")
-    click.echo(f"written: {out / 'index.html'}")
+    click.echo(f"written: {written}")
+    if show:
+        click.launch(str(written))
     return int(any(answer.result is None for answer in sections))

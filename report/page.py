@@ -1,104 +1,88 @@
-"""The report: every experiment's answer on one self-contained HTML page."""
+"""The report as one self-contained HTML page: what was found, then everything that was asked and what it rests on."""
 
 from __future__ import annotations
 
-import base64
-import os
-from collections.abc import Sequence
-from concurrent.futures import as_completed
-from contextlib import closing
-from dataclasses import dataclass, replace
-from functools import partial
-from pathlib import Path
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
-from engines.isolation import isolated
+from engines.engine import installed_version, registry
 from experiments.console import plain
 from experiments.environment import environment
-from experiments.experiment import Experiment, Result, find, write_tables
-from experiments.runner import LocalCrew, Runner, current, using
-from experiments.runs import Progress
-from experiments.store import Store, StoreError
-from report.figures import draw
+from report import overview
+from report.cards import packages
+from report.figures import Picture
+from report.inline_svg import dark_colours, inline
+from report.overview import Explained, explained
+from report.sections import Section
 
-#: An experiment may take so long [s], and its process so much memory [bytes].
-TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
+#: So many findings are shown, and a table of so many rows is open; more is folded.
+FINDINGS, ROWS = 2, 12
 
 
 @dataclass(frozen=True)
-class Section:
-    """One experiment on the page: its answer, or why there is none."""
+class Undone:
+    """What an experiment could not do, and why."""
 
-    experiment: Experiment
-    result: Result | None = None
-    svg: str = ""
-    alt: str = ""
-    downloads: Sequence[tuple[str, str]] = ()
-    failure: str = ""
-
-
-def section(experiment: Experiment, folder: Path, progress: Progress) -> Section:
-    """Run an experiment and draw it, leaving its figure and tables in a folder. Its failure is its section's only.
-
-    Raises:
-        OSError, StoreError: where its results cannot be kept: that is everybody's failure.
-    """
-    try:
-        result = experiment.run(progress)
-        picture = draw(experiment.name, result)
-        files = write_tables(result, folder)
-        svg = picture.svg()
-        (folder / f"{experiment.name}.svg").write_text(svg, encoding="utf-8")
-    except (OSError, StoreError):
-        raise
-    except Exception as error:
-        return Section(experiment, failure=f"{type(error).__name__}: {error}")
-    return Section(experiment, result, svg, picture.alt, [(file.name, _embedded(file)) for file in files])
-
-
-def all_sections(
-    experiments: Sequence[Experiment], folder: Path, progress: Progress, store: Path, fresh: bool = False
-) -> list[Section]:
-    """A section for every experiment, in their order, each with a folder of its own.
-
-    Experiments run beside one another, each in a process of its own; those that measure times run alone, at the end.
-    """
-    crowd = [experiment for experiment in experiments if not experiment.timed]
-    alone = [experiment for experiment in experiments if experiment.timed]
-    done: dict[str, Section] = {}
-    for group, workers in ((crowd, os.cpu_count()), (alone, 1)):
-        with current().threads(workers) as pool:
-            made = partial(_isolated_section, folder=folder, store=store, fresh=fresh)
-            running = {pool.submit(made, experiment): experiment for experiment in group}
-            for future in as_completed(running):
-                done[running[future].name] = future.result()
-                left = [experiment.name for experiment in running.values() if experiment.name not in done]
-                progress(f"{len(done)} of {len(experiments)} done; next: {', '.join(left)}")
-    return [done[experiment.name] for experiment in experiments]
-
-
-def _isolated_section(experiment: Experiment, folder: Path, store: Path, fresh: bool) -> Section:
-    own = (folder / experiment.name).resolve()
-    arguments = (experiment.name, own, store.resolve(), fresh)
-    made = isolated(section_by_name, *arguments, time_limit=TIME_LIMIT, memory_limit=MEMORY_LIMIT)
-    return made if isinstance(made, Section) else Section(experiment, failure=f"{made.ending}: {made.reason}")
-
-
-def section_by_name(name: str, folder: Path, store: Path, fresh: bool) -> Section:
-    """As `section`, with what travels between processes: the page needs no more of a result than its words."""
-    with closing(Store(store)) as kept, using(Runner(LocalCrew(), kept, fresh)):
-        made = section(find(name), folder, lambda _: None)
-    return made if made.result is None else replace(made, result=replace(made.result, data={}))
+    experiment: str
+    title: str
+    reasons: Sequence[str]
 
 
 def page(sections: Sequence[Section]) -> str:
     """The whole page as HTML that asks for nothing from anywhere."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    templates = Environment(loader=PackageLoader("report"), autoescape=True, undefined=StrictUndefined)
+    templates = Environment(
+        loader=PackageLoader("report"), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
     templates.filters["plain"] = plain
-    return templates.get_template("page.html.j2").render(sections=sections, environment=environment())
+    engines = explained(next((section for section in sections if section.experiment.name == "divergence"), None))
+    html = templates.get_template("page.html.j2").render(
+        sections=sections,
+        sentences=overview.sentences(sections),
+        engines=engines,
+        overview=_overview(engines),
+        pictures={s.experiment.name: inline(s.svg, s.experiment.name, s.alt) for s in sections if s.svg},
+        packages=packages(_identified(engines)),
+        undone=_undone(sections),
+        environment=_environment(),
+        findings=FINDINGS,
+        rows=ROWS,
+    )
+    dark = "".join(f"{name}: {value}; " for name, value in dark_colours(html))
+    return html.replace("/* greys and series in the dark */", dark)
 
 
-def _embedded(file: Path) -> str:
-    """A file as a link that carries it."""
-    return "data:text/csv;base64," + base64.b64encode(file.read_bytes()).decode()
+def _overview(engines: Sequence[Explained]) -> str:
+    """The first figure, where there is something to draw."""
+    if not engines:
+        return ""
+    from report.figures.overview import draw
+
+    picture: Picture = draw(engines)
+    return inline(picture.svg(), "overview", picture.alt)
+
+
+def _identified(engines: Sequence[Explained]) -> Mapping[str, str]:
+    return {
+        engine.engine: f"{engine.scheme}, to {engine.deviation:.1e} m"
+        if engine.scheme
+        else "no scheme of the catalogue"
+        for engine in engines
+    }
+
+
+def _undone(sections: Sequence[Section]) -> list[Undone]:
+    """Everything that did not come to its end."""
+    found = []
+    for section in sections:
+        failures = [section.failure] if section.result is None else section.result.failures
+        if failures:
+            found.append(Undone(section.experiment.name, section.experiment.title, failures))
+    return found
+
+
+def _environment() -> dict[str, str]:
+    """What everything rests on, with all packages that engines come in."""
+    names = sorted({engine.package for engine in registry().values()})
+    return {**environment(), **{name: installed_version(name) or "not installed" for name in names}}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 from dataclasses import dataclass
 from io import StringIO
+from threading import RLock
 from typing import TYPE_CHECKING, Any
 
 from experiments.experiment import Result
@@ -15,6 +16,14 @@ if TYPE_CHECKING:
 #: Okabe and Ito's colours, told apart by everyone; each goes with a marker of its own.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#8C6D31")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
+
+#: How the three words are drawn, in every figure: predicted a line, measured a dot, identified a ring.
+PREDICTED: dict[str, Any] = {"color": COLOURS[6], "linestyle": "-", "marker": ""}
+MEASURED: dict[str, Any] = {"marker": "o", "fillstyle": "full"}
+IDENTIFIED: dict[str, Any] = {"marker": "o", "fillstyle": "none", "markeredgewidth": 1.4}
+
+#: Black that stays black where the page is dark: what is drawn upon a heat map, whose colours stay too.
+BLACK_ON_COLOURS = "#000001"
 
 STYLE = {
     "figure.figsize": (9.0, 5.0),
@@ -30,6 +39,9 @@ STYLE = {
     "svg.hashsalt": "springlab",
 }
 
+#: Matplotlib's style is the whole process's: threads that draw take turns.
+ONE_AT_A_TIME = RLock()
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -43,7 +55,7 @@ class Picture:
         from matplotlib import rc_context
 
         file = StringIO()
-        with rc_context(STYLE):
+        with ONE_AT_A_TIME, rc_context(STYLE):
             self.figure.savefig(file, format="svg", metadata={"Date": None, "Creator": None})
         text = file.getvalue()
         return text[text.index("<svg") :]
@@ -57,7 +69,7 @@ def new_figure(figsize: tuple[float, float], **options: Any) -> tuple[Any, Any]:
     from matplotlib import rc_context
     from matplotlib.figure import Figure
 
-    with rc_context(STYLE):
+    with ONE_AT_A_TIME, rc_context(STYLE):
         figure = Figure(figsize=figsize)
         return figure, figure.subplots(**options)
 
@@ -78,5 +90,8 @@ def look(i: int) -> dict[str, str]:
 
 def draw(name: str, result: Result) -> Picture:
     """The picture of an experiment's result, drawn by report.figures.NAME."""
-    picture: Picture = importlib.import_module(f"report.figures.{name}").draw(result)
+    from matplotlib import rc_context
+
+    with ONE_AT_A_TIME, rc_context(STYLE):
+        picture: Picture = importlib.import_module(f"report.figures.{name}").draw(result)
     return picture

@@ -8,10 +8,7 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.stability import Row
-from report.figures import COLOURS, Picture, new_figure
-
-#: How the three words are drawn, here and in every map: predicted a line, measured a dot.
-PREDICTED, MEASURED = COLOURS[6], COLOURS[1]
+from report.figures import COLOURS, MEASURED, PREDICTED, Picture, new_figure
 
 
 def draw(result: Result) -> Picture:
@@ -37,9 +34,9 @@ def _panel(panel: object, case: str, rows: Sequence[Row], names: Sequence[str]) 
     for row in rows:
         y = names.index(row.stepper)
         if row.predicted.dt is not None:
-            axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], "-", color=PREDICTED, linewidth=2)  # type: ignore[attr-defined]
+            axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)  # type: ignore[attr-defined]
         if row.measured.dt is not None:
-            axes.plot(row.measured.dt, y, "o", color=MEASURED, markersize=5)  # type: ignore[attr-defined]
+            axes.plot(row.measured.dt, y, color=COLOURS[1], markersize=5, **MEASURED)  # type: ignore[attr-defined]
         if row.predicted.dt is None and row.measured.dt is None:
             word = _short(row)
             axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), va="center", fontsize=8, color="#555555")  # type: ignore[attr-defined]

@@ -8,7 +8,7 @@ import numpy as np
 
 from experiments.stability_map import Axis, StabilityMap
 from reference.system import PARAMETERS
-from report.figures import Picture, new_figure
+from report.figures import BLACK_ON_COLOURS, Picture, new_figure
 
 #: Growth per step at which the colours end, and below which it counts as none.
 MOST, LEAST = 0.05, 1e-3
@@ -30,10 +30,10 @@ def draw_field(axes: Any, found: StabilityMap) -> Any:
         found.x_values, found.y_values, np.clip(found.growth, -MOST, MOST), cmap="RdBu_r", norm=norm, rasterized=True
     )
     if len(found.boundary):
-        axes.plot(*found.boundary.T, "-", color="black", linewidth=2)
+        axes.plot(*found.boundary.T, "-", color=BLACK_ON_COLOURS, linewidth=2)
     if found.predicted_limit is not None:
         xs, ys, limit = found.predicted_limit
-        axes.contour(xs, ys, limit, levels=[1.0], colors="black", linewidths=2)
+        axes.contour(xs, ys, limit, levels=[1.0], colors=BLACK_ON_COLOURS, linewidths=2)
     axes.set_xlim(found.x_values[0], found.x_values[-1])
     axes.set_ylim(found.y_values[0], found.y_values[-1])
     axes.grid(visible=False)

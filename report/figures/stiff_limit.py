@@ -14,7 +14,7 @@ def draw(result: Result) -> Picture:
     stiffness, to_pendulum, to_cable = rows.T
     figure, axes = new_figure(figsize=(8, 4.8))
     axes.plot(stiffness, to_pendulum[-1] * stiffness[-1] / stiffness, ":", color="#555555")
-    axes.plot(stiffness, to_pendulum, linestyle="none", markersize=13, fillstyle="none", markeredgewidth=1.8, **look(0))
+    axes.plot(stiffness, to_pendulum, linestyle="none", markersize=13, **look(0))
     axes.plot(stiffness, to_cable, linestyle="none", markersize=6, **look(1))
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -28,14 +28,14 @@ def draw(result: Result) -> Picture:
         color="#555555",
     )
     axes.annotate(
-        "measured: to the pendulum (ring)",
+        "measured: to the pendulum (large dots)",
         (stiffness[2], to_pendulum[2]),
         (16, 14),
         textcoords="offset points",
         color=look(0)["color"],
     )
     axes.annotate(
-        "measured: to MuJoCo's cable (square)",
+        "measured: to MuJoCo's cable (squares on them)",
         (stiffness[3], to_pendulum[3]),
         (-20, -24),
         textcoords="offset points",

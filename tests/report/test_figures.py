@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
@@ -30,6 +31,15 @@ def test_the_same_result_is_drawn_in_the_same_bytes(name: str) -> None:
     assert svg == draw(name, result).svg()
     others = [make for case, make in RESULTS[name].items() if case != "usual"]
     assert all(draw(name, make()).svg() != svg for make in others)
+
+
+def test_threads_that_draw_do_not_disturb_one_another() -> None:
+    """Matplotlib's style is the process's: without turns, one thread takes it away while another draws."""
+    result = RESULTS["errata"]["usual"]()
+    alone = draw("errata", result).svg()
+    with ThreadPoolExecutor(4) as pool:
+        drawn = list(pool.map(lambda _: draw("errata", result).svg(), range(8)))
+    assert set(drawn) == {alone}
 
 
 def test_figures_are_not_kept(recwarn: pytest.WarningsRecorder) -> None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import base64
 import platform
+import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from importlib import metadata
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -14,9 +16,13 @@ import pytest
 from experiments.experiment import NAMES, Experiment, Result, find
 from experiments.results import rows
 from experiments.store import StoreError
+from report.inline_svg import inline
 from tests.experiments.terminal import Said, springlab
 from tests.report.canned import RESULTS
 from tests.report.html import Page, check_self_contained
+
+#: The sections after the experiments'.
+CLOSING = ["engines", "undone", "environment"]
 
 #: The experiments the page is made of here, in the order of the report.
 SHOWN = [name for name in NAMES if name in RESULTS]
@@ -38,7 +44,7 @@ def failing(name: str, error: Exception) -> Experiment:
 
 def put(patch: pytest.MonkeyPatch, *instead: Experiment) -> None:
     """Put experiments in the place of those of their names, and run them here: a new process would not know them."""
-    patch.setattr("report.page.isolated", lambda task, *arguments, **limits: task(*arguments))
+    patch.setattr("report.sections.isolated", lambda task, *arguments, **limits: task(*arguments))
     for experiment in instead:
         patch.setattr(f"experiments.{experiment.name}.EXPERIMENT", experiment)
 
@@ -103,32 +109,94 @@ def test_there_is_a_section_for_every_experiment_with_question_and_findings(repo
     """In order, and each is linked to at the top of the page."""
     shown = Page(report.html)
     sections = [attributes["id"] for attributes in shown.of("section")]
-    assert sections == [*SHOWN, "environment"]
-    assert [f"#{name}" for name in sections] == [address for address in shown.attributes("href") if address[0] == "#"][
-        : len(sections)
-    ]
+    assert sections == ["found", *SHOWN, *CLOSING]
+    skip, *contents = [address for address in shown.attributes("href") if address[0] == "#"][: len(sections) + 1]
+    assert skip == "#found"
+    assert contents == [f"#{name}" for name in sections]
     for name in SHOWN:
         assert find(name).question in shown.words
         assert find(name).title in shown.words
 
 
-def test_every_figure_has_words_that_stand_for_it(report: Report) -> None:
+def test_every_figure_has_words_that_stand_for_it_and_a_table_of_its_numbers(report: Report) -> None:
     """At least a sentence with a number, in the label that screen readers read."""
     shown = Page(report.html)
-    labels = [attributes["aria-label"] for attributes in shown.of("figure")]
-    assert len(labels) == len(shown.of("svg")) == len(SHOWN)
-    for label in labels:
-        assert len(label) > 40
-        assert any(character.isdigit() for character in label)
+    pictures = [attributes for attributes in shown.of("svg") if attributes.get("role") == "img"]
+    assert len(pictures) == len(shown.of("figure")) == len(SHOWN) + 1
+    for picture in pictures:
+        assert len(picture["aria-label"]) > 40
+        assert any(character.isdigit() for character in picture["aria-label"])
+    tables = [label for label in shown.attributes("aria-label") if label.startswith("Table: The numbers of")]
+    assert len(tables) == len(pictures)
+
+
+def test_pictures_on_one_page_share_no_ids(report: Report) -> None:
+    """Or clips and marks of one would be taken for the other's; and whatever is referred to is there."""
+    shown = Page(report.html)
+    ids = shown.attributes("id")
+    assert len(ids) == len(set(ids))
+    clips = [a.partition("#")[2][:-1] for a in shown.attributes("clip-path")]
+    assert set(clips) <= set(ids)
+    for name in ("href", "xlink:href"):
+        assert {a[1:] for a in shown.attributes(name) if a.startswith("#")} <= set(ids)
+    assert {*shown.attributes("aria-labelledby")} <= set(ids)
 
 
 def test_the_page_is_in_a_language_and_has_headings_in_order(report: Report) -> None:
-    """One h1, then h2 for every section; tables have headed columns or rows."""
+    """One h1, then no heading more than one level below the one before; tables have headed columns or rows."""
     shown = Page(report.html)
     assert shown.of("html") == [{"lang": "en"}]
-    headings = [name for name, _ in shown.elements if name in ("h1", "h2", "h3")]
-    assert headings == ["h1", *["h2"] * (len(SHOWN) + 1)]
+    levels = [int(name[1]) for name, _ in shown.elements if name in ("h1", "h2", "h3", "h4", "h5", "h6")]
+    assert levels[0] == 1
+    assert levels.count(1) == 1
+    assert levels.count(2) == len(SHOWN) + 1 + len(CLOSING)
+    assert all(after <= before + 1 for before, after in pairwise(levels))
     assert {attributes["scope"] for attributes in shown.of("th")} == {"col", "row"}
+
+
+def test_two_findings_are_shown_and_the_rest_is_folded(report: Report) -> None:
+    """All of them are on the page."""
+    for name in SHOWN:
+        for finding in RESULTS[name]["usual"]().findings:
+            assert finding in Page(report.html).words
+
+
+def test_what_failed_or_was_skipped_is_in_one_place(report: Report) -> None:
+    """With its reason, and its experiment's section leads there."""
+    (failure,) = RESULTS["divergence"]["usual"]().failures
+    section = report.html[report.html.index('<section id="undone"') :]
+    assert failure in Page(section[: section.index("</section>")]).words
+    assert "#undone-divergence" in Page(report.html).attributes("href")
+
+
+def test_the_same_numbers_make_the_same_page(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, report: Report) -> None:
+    """Byte for byte, but for the date; and others make another."""
+    put(monkeypatch, *(answering(name, RESULTS[name]["usual"]()) for name in SHOWN))
+    only = [f"--only={name}" for name in SHOWN]
+    springlab("report", *only, "--out", str(tmp_path / "again"))
+    undated = [re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", "", html) for html in (report.html, _page(tmp_path / "again"))]
+    assert undated[0] == undated[1]
+    put(monkeypatch, answering("stiff_limit", RESULTS["stiff_limit"]["no engine"]()))
+    springlab("report", *only, "--out", str(tmp_path / "other"))
+    assert undated[0] != re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", "", _page(tmp_path / "other"))
+
+
+def _page(folder: Path) -> str:
+    return (folder / "index.html").read_text(encoding="utf-8")
+
+
+def test_open_shows_the_page_and_full_runs_in_full(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """What has a fuller form is run in that; what is opened is the page that was written."""
+    shown: list[str] = []
+    monkeypatch.setattr("click.launch", shown.append)
+    usual, fuller = (RESULTS["stiff_limit"][case]() for case in ("usual", "no engine"))
+    experiment = replace(answering("stiff_limit", usual), run_in_full=lambda _: replace(fuller, findings=["In full."]))
+    put(monkeypatch, experiment)
+    said = springlab("report", "--only", "stiff_limit", "--full", "--open", "--out", str(tmp_path))
+    assert said.code == 0
+    assert "In full." in said.out
+    assert "Made by springlab report --only stiff_limit --full" in Page(_page(tmp_path)).words
+    assert shown == [str(tmp_path / "index.html")]
 
 
 def test_the_environment_is_told_with_versions(report: Report) -> None:
@@ -150,11 +218,11 @@ def test_the_tables_can_be_taken_from_the_page_itself(report: Report) -> None:
 
 
 def test_the_figures_are_beside_the_page_too(report: Report) -> None:
-    """As SVG, the same as in the page."""
+    """As SVG, the same as in the page but for ids and colours."""
     for name in SHOWN:
         svg = (report.folder / name / f"{name}.svg").read_text(encoding="utf-8")
         assert svg.startswith("<svg")
-        assert svg in report.html
+        assert inline(svg, name, "").partition("xmlns")[2] in report.html
 
 
 def test_an_experiment_that_raises_is_a_failure_in_its_place(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -167,7 +235,7 @@ def test_an_experiment_that_raises_is_a_failure_in_its_place(monkeypatch: pytest
     html = (tmp_path / "index.html").read_text(encoding="utf-8")
     check_self_contained(html)
     shown = Page(html)
-    assert [attributes["id"] for attributes in shown.of("section")] == ["errata", "stiff_limit", "environment"]
+    assert [attributes["id"] for attributes in shown.of("section")] == ["found", "errata", "stiff_limit", *CLOSING]
     assert "ArithmeticError: mass < 0 & <b>not</b> > 0" in shown.words
     assert len(shown.of("figure")) == 1
     assert find("stiff_limit").question in shown.words
@@ -227,5 +295,5 @@ def test_without_names_the_report_has_a_section_for_every_experiment_that_belong
     check_self_contained(html)
     wanted = [name for name in NAMES if find(name).in_report]
     assert len(wanted) >= 3
-    assert [attributes["id"] for attributes in Page(html).of("section")] == [*wanted, "environment"]
+    assert [attributes["id"] for attributes in Page(html).of("section")] == ["found", *wanted, *CLOSING]
     assert all(f"did not come to its end: ArithmeticError: no {name}" in Page(html).words for name in wanted)
