@@ -32,7 +32,7 @@ def inline(svg: str, prefix: str, alt: str) -> str:
     Colours of heat maps stay as they are.
     """
     svg = IDLE.sub("", svg)
-    svg = re.sub(r'<g id="[^"]*"', "<g", svg)  # nothing refers to groups
+    svg = re.sub(r'<(g|image)([^>]*?) id="[^"]*"', r"<\1\2", svg)  # nothing refers to groups and images
     svg = re.sub(r'\bid="([^"]*)"', rf'id="{prefix}-\1"', svg)
     svg = re.sub(r'(url\(#|xlink:href="#)', rf"\1{prefix}-", svg)
     svg = COLOUR.sub(_changeable, svg)

@@ -11,7 +11,7 @@ import pytest
 from reference import catalogue
 from reference.axes import Axes
 from reference.kernels import advance, loops_for
-from reference.obstacles import Circle, Cylinder, Obstacle, Plane, Sphere
+from reference.obstacles import Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.scenes import find
 from reference.simulate import simulate
 from reference.slide_17 import CircleAsMeant, CircleAsPrinted
@@ -39,6 +39,8 @@ SYSTEMS: dict[str, MassSpringSystem] = {
     "sphere and plane": replace(
         CLOTH, obstacles=(Sphere(tuple(BELOW), 0.5), Plane(tuple(BELOW + np.array([0.0, 0.45, 0.0])), (0.1, 1.0, 0.2)))
     ),
+    "rectangle": replace(BARRIER, obstacles=(Box((0.5, -0.5), (0.3, 0.2)),)),
+    "box": replace(CLOTH, obstacles=(Box(tuple(BELOW), (0.1, 0.4, 0.1)),)),
     "cylinder": replace(CLOTH, obstacles=(Cylinder(tuple(BELOW), (1.0, 0.2, 2.0), 0.5),)),
 }
 
@@ -79,11 +81,10 @@ def test_a_sweep_does_the_same_to_the_bit(name: str) -> None:
 
 
 def test_same_bits_fail_on_another_rule() -> None:
-    """Slide 17's, on which loops agree with themselves, but not with ours."""
-    for name in ("circle as meant", "circle as printed"):
-        other = advance(SYSTEMS[name], catalogue.find("heun"), DT, STEPS)
-        with pytest.raises(AssertionError):
-            check_same_bits(BARRIER, other)
+    """Slide 17's as it is printed, on which loops agree with themselves, but not with ours."""
+    other = advance(SYSTEMS["circle as printed"], catalogue.find("heun"), DT, STEPS)
+    with pytest.raises(AssertionError):
+        check_same_bits(BARRIER, other)
 
 
 def test_the_numbers_of_an_obstacle_are_not_in_the_text() -> None:
@@ -100,7 +101,7 @@ def test_the_numbers_of_an_obstacle_are_not_in_the_text() -> None:
 class Corner(Obstacle):
     """What is below the one and left of the other of two axes' planes: a kind as a contributor would add one."""
 
-    point: tuple[float, ...] = (0.3, -0.25)
+    point: tuple[float, ...] = (0.9, -0.1)
 
     @property
     def dimension(self) -> int:

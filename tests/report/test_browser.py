@@ -28,8 +28,8 @@ def browser() -> Iterator[Any]:
 def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A page with every kind of thing on it: an experiment that failed, too, and a long table."""
     folder = tmp_path_factory.mktemp("page")
-    sections = [_section(name, folder) for name in RESULTS]
-    sections[-1] = Section(find("errata"), failure="ArithmeticError: a long reason " + "x" * 200)
+    sections = [_section(name, folder) for name in RESULTS if name != "errata"]
+    sections.append(Section(find("errata"), failure="ArithmeticError: a long reason " + "x" * 200))
     written = folder / "index.html"
     written.write_text(page(sections), encoding="utf-8")
     return written
