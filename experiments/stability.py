@@ -20,7 +20,7 @@ from experiments.runner import current
 from experiments.runs import Progress
 from experiments.steppers import all_steppers
 from reference.catalogue import Scheme
-from reference.errors import SolverError
+from reference.errors import InputError, SolverError
 from reference.identify import Identification, candidates_for, identify_run
 from reference.outcome import Outcome
 from reference.pendulum import why_no_pendulum
@@ -188,7 +188,10 @@ def _predict(identification: Identification, system: MassSpringSystem, rest: Equ
     if identification.identified_as is None:
         return Limit(None, identification.reason or str(identification).partition(": ")[2])
     named = catalogued()[identification.identified_as]
-    return stability_limit(named.scheme, equilibrium(named.equations, system) if named.on_rods else rest)
+    try:
+        return stability_limit(named.scheme, equilibrium(named.equations, system) if named.on_rods else rest)
+    except InputError as error:
+        return Limit(None, f"{named.name} has no rest to be predicted about: {error}")
 
 
 def measure_engine(
