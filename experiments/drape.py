@@ -20,8 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import demands, registry, version
-from engines.engine import find as find_engine
+from engines.engine import Engine, demands, registry, version
 from experiments.experiment import Experiment, Result, Table
 from experiments.runner import answer, current
 from experiments.runs import Progress
@@ -89,10 +88,10 @@ def hung(bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
     return {"positions": positions, "time": time, **shadow(positions, disc(RADIUS, spacing, sample).triangles, system)}
 
 
-def hung_in(engine: str, bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
+def hung_in(engine: Engine, bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
     """The same in an engine, for a second."""
     system, dt = cloth(bending_length, spacing, sample)
-    simulation = find_engine(engine).start(system, dt)
+    simulation = engine.start(system, dt)
     for _ in range(round(1.0 / dt)):
         simulation.step()
     positions, _ = simulation.state()
@@ -126,12 +125,12 @@ def folds(outline: Array) -> tuple[int, float]:
     return count if amplitudes[count] > FLAT else 0, float(amplitudes[count])
 
 
-def able(system: MassSpringSystem) -> list[str]:
+def able(system: MassSpringSystem) -> list[Engine]:
     """Of each package that is installed the first engine that can do all that a system asks."""
-    found: dict[str, str] = {}
-    for name, engine in registry().items():
+    found: dict[str, Engine] = {}
+    for engine in registry().values():
         if set(demands(system)) <= engine.capabilities and version(engine) is not None:
-            found.setdefault(engine.package, name)
+            found.setdefault(engine.package, engine)
     return list(found.values())
 
 
@@ -140,11 +139,11 @@ def run(progress: Progress) -> Result:
     cases: list[tuple[Any, ...]] = [(hung, c, SPACING, i) for c in LENGTHS for i in range(SAMPLES)]
     cases += [(hung, c, a, i) for c in OTHER_LENGTHS for a in OTHERS for i in range(SAMPLES)]
     cases += [(hung, c, COARSE, 0) for c in ENGINE_LENGTHS]
-    names = able(cloth(ENGINE_LENGTHS[0], COARSE, 0)[0])
-    cases += [(hung_in, name, c, COARSE, 0) for name in names for c in ENGINE_LENGTHS]
+    engines = able(cloth(ENGINE_LENGTHS[0], COARSE, 0)[0])
+    cases += [(hung_in, engine, c, COARSE, 0) for engine in engines for c in ENGINE_LENGTHS]
 
     def done(case: tuple[Any, ...]) -> Any:
-        progress(" ".join(map(str, case[1:])))
+        progress(" ".join(str(getattr(what, "name", what)) for what in case[1:]))
         return answer(*case)
 
     with current().threads() as pool:
@@ -153,7 +152,7 @@ def run(progress: Progress) -> Result:
     failures = []
     for case, found in zip(cases, answers, strict=True):
         *by, c, spacing, sample = case[1:]
-        name = by[0] if by else "kick_drift"
+        name = by[0].name if by else "kick_drift"
         if isinstance(found, Outcome):
             failures.append(f"{name}, bending length {c:g} m: {found.ending}, {found.reason}")
             continue

@@ -17,7 +17,7 @@ from experiments.steppers import all_steppers
 from reference.catalogue import find as find_scheme
 from reference.identify import LARGE, Identification, candidates_for, identify_run
 from reference.outcome import Outcome
-from reference.scenes import Scene, scenes
+from reference.scenes import Scene, Setup, scenes
 from reference.simulate import simulate
 from reference.state import Trajectory
 from reference.stepper import Stepper, catalogued
@@ -68,24 +68,26 @@ def run(progress: Progress) -> Result:
     runs: list[Run] = []
     motions: dict[str, tuple[MassSpringSystem, Trajectory]] = {}
     for name, scene in scenes().items():
-        system = scene.system({})
-        runs += _runs(scene, system, lambda engine, name=name: progress(f"{name}, {engine}"))  # type: ignore[misc]
+        runs += _runs(scene, lambda engine, name=name: progress(f"{name}, {engine}"))  # type: ignore[misc]
         progress(f"{name}, {SHOWN_BY}")
-        motions[name] = system, motion(scene, system)
+        setup = scene.setup({})
+        motions[name] = setup.system, motion(setup)
     return result_of(runs, motions)
 
 
-def _runs(scene: Scene, system: MassSpringSystem, progress: Progress) -> Iterator[Run]:
+def _runs(scene: Scene, progress: Progress) -> Iterator[Run]:
+    setup = scene.setup({})
+    system, changes = setup.system, setup.changes
     engines = [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
-    outcomes = list(side_by_side(engines, lambda s: s.run(system, scene.dt, STEPS), progress))
+    outcomes = list(side_by_side(engines, lambda s: s.run(system, scene.dt, STEPS, changes), progress))
     claimed = {name for stepper in engines for name in stepper.engine.identified_as.values()}
     large = len(system.masses) > LARGE
     tried = [c for name, c in catalogued().items() if name in claimed and not (large and c.on_rods)]
     moved = [outcome for _, outcome in outcomes if outcome.trajectory is not None]
-    known = _known(tried, moved, scene, system)
+    known = _known(tried, moved, setup)
     found = {s.name: identify_run(s.name, outcome, system, known) for s, outcome in outcomes}
     begun = [(s, _beginning(o)) for s, o in outcomes if o.trajectory is not None and found[s.name].error > NEAR]
-    short = candidates_for(begun, system, scene.dt, FIRST) if begun else {}
+    short = candidates_for(begun, system, scene.dt, FIRST, changes) if begun else {}
     for stepper, outcome in begun:
         found[stepper.name] = identify_run(stepper.name, outcome, system, short)
     strangers = {stepper.name for stepper, _ in begun}
@@ -94,18 +96,17 @@ def _runs(scene: Scene, system: MassSpringSystem, progress: Progress) -> Iterato
         yield Run(scene, system, stepper, outcome, found[stepper.name], compared)
 
 
-def _known(
-    steppers: Sequence[Stepper], runs: Sequence[Outcome], scene: Scene, system: MassSpringSystem
-) -> dict[str, Trajectory]:
+def _known(steppers: Sequence[Stepper], runs: Sequence[Outcome], setup: Setup) -> dict[str, Trajectory]:
     """Of these schemes the trajectories that some run follows; which one does not is seen in the first steps."""
     known: dict[str, Trajectory] = {}
+    system, changes = setup.system, setup.changes
     for stepper in steppers:
         runs = [run for run in runs if identify_run("", run, system, known).error > NEAR]
-        begun = stepper.run(system, scene.dt, FIRST).trajectory if runs else None
+        begun = stepper.run(system, setup.dt, FIRST, changes).trajectory if runs else None
         if begun is None:
             continue
         if any(identify_run("", _beginning(run), system, {"": begun}).error <= NEAR for run in runs):
-            whole = stepper.run(system, scene.dt, STEPS).trajectory
+            whole = stepper.run(system, setup.dt, STEPS, changes).trajectory
             known |= {} if whole is None else {stepper.name: whole}
     return known
 
@@ -117,9 +118,9 @@ def _beginning(outcome: Outcome) -> Outcome:
     return replace(outcome, trajectory=Trajectory(at.times[few], at.positions[few], at.velocities[few]))
 
 
-def motion(scene: Scene, system: MassSpringSystem) -> Trajectory:
+def motion(setup: Setup) -> Trajectory:
     """A scene's motion by the reference, at about STATES times from its start to its end."""
-    whole = simulate(system, find_scheme(SHOWN_BY), scene.dt, scene.duration)
+    whole = simulate(setup.system, find_scheme(SHOWN_BY), setup.dt, setup.duration, setup.changes)
     last = len(whole) - 1
     kept = [round(i * last / STATES) for i in range(STATES + 1)] if last > STATES else list(range(last + 1))
     return Trajectory(whole.times[kept], whole.positions[kept], whole.velocities[kept])
@@ -168,9 +169,10 @@ def _findings(runs: list[Run]) -> list[str]:
         found.append(f"Not identified: {', '.join(map(_stranger, strangers))}.")
     contact = [r for r in moved if r.met_obstacle]
     if contact:
-        alike = sum(r.is_identified for r in contact)
+        alike = sum(r.is_identified and r.compared == STEPS for r in contact)
         found.append(
-            f"Of {len(contact)} engine runs that meet an obstacle {alike} are a scheme with the lecture's rule."
+            f"Of {len(contact)} engine runs that meet an obstacle {alike} are a scheme with the reference's rule to "
+            "the end: engines have contacts of their own."
         )
     lacking = Counter(
         r.outcome.reason.removeprefix(f"{r.stepper.name} cannot do ") for r in runs if r.outcome.ending == "unsupported"

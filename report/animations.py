@@ -63,9 +63,8 @@ class Animation:
 
 def animation(name: str) -> Animation:
     """The default scene of a name, by the reference."""
-    scene = find(name)
-    system = scene.system({})
-    moved = motion(scene, system)
+    setup = find(name).setup({})
+    system, moved = setup.system, motion(setup)
     drawn = _drawn(system, moved)
     width, height = drawn.size
     found = 100 * strain(system, moved.positions)

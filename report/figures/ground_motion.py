@@ -21,7 +21,7 @@ def draw(result: Result) -> Picture:
     """Two plots."""
     figure, (sway, truck) = new_figure(figsize=(11, 4.8), ncols=2)
     rows: Mapping[str, Ran] = result.data["rows"]
-    _draw_sway(sway, rows, result.data["natural"], result.data["steady"])
+    _draw_sway(sway, rows, result.data["natural"], result.data["linear"])
     _draw_truck(truck, rows, result.data["line"])
     return Picture(figure, _alt(result))
 
@@ -32,8 +32,11 @@ def crests(motion: Array) -> IntArray:
     return np.asarray(np.flatnonzero((size[1:-1] >= size[:-2]) & (size[1:-1] > size[2:])) + 1, dtype=np.int64)
 
 
-def _draw_sway(axes: Any, rows: Mapping[str, Ran], natural: Array, steady: tuple[Array, Array]) -> None:
-    axes.plot(steady[0], 1e3 * steady[1], label="steady, predicted", **PREDICTED)
+def _draw_sway(axes: Any, rows: Mapping[str, Ran], natural: Array, linear: Array) -> None:
+    at = crests(linear)
+    axes.plot(
+        SWEEP.frequency(at * DT), 1e3 * np.abs(linear[at]), label="linear bridge, predicted", zorder=5, **PREDICTED
+    )
     for frequency in natural:
         axes.axvline(frequency, color="#999999", linewidth=1)
         says = f"natural frequency, predicted: {frequency:.2f} Hz"
@@ -74,7 +77,8 @@ def _draw_truck(axes: Any, rows: Mapping[str, Ran], line: tuple[Array, Array]) -
 def _alt(result: Result) -> str:
     rows, line = result.data["rows"], result.data["line"]
     natural = ", ".join(f"{f:.2f}" for f in result.data["natural"])
-    sways = "; ".join(f"{name} at {peak(ran)[0]:.2f} Hz, by {1e3 * peak(ran)[1]:.0f} mm" for name, ran in rows.items())
+    peaks = {"predicted": peak(result.data["linear"]), **{name: peak(ran.shaken) for name, ran in rows.items()}}
+    sways = "; ".join(f"{name} at {at:.2f} Hz, by {1e3 * by:.0f} mm" for name, (at, by) in peaks.items())
     off = "; ".join(
         f"{name} at {speed:g} m/s: {100 * off_the_line(sag, speed, line):.0f} %"
         for name, ran in rows.items()

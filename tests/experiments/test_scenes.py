@@ -50,7 +50,7 @@ def test_who_meets_an_obstacle_is_counted_apart() -> None:
     assert not ran("barrier", "heun", 200).met_obstacle
     late = ran("barrier", "heun", 600)
     assert late.met_obstacle
-    assert "Of 1 engine runs that meet an obstacle 1 are" in " ".join(of(ran("string", "heun"), late).findings)
+    assert "Of 1 engine runs that meet an obstacle 0 are" in " ".join(of(ran("string", "heun"), late).findings)
 
 
 def test_without_engines_there_is_a_sentence() -> None:
@@ -60,11 +60,16 @@ def test_without_engines_there_is_a_sentence() -> None:
 
 def test_the_motion_shown_is_the_scenes_from_start_to_end() -> None:
     """At most so many states of it, the reference's to the bit."""
-    scene = find("string")
-    system = scene.system({})
-    shown = scenes.motion(scene, system)
-    whole = catalogued()["heun"].run(system, scene.dt, round(scene.duration / scene.dt)).trajectory
+    setup = find("string").setup({})
+    shown = scenes.motion(setup)
+    whole = catalogued()["heun"].run(setup.system, setup.dt, round(setup.duration / setup.dt)).trajectory
     assert whole is not None
     assert len(shown) == scenes.STATES + 1
     assert np.array_equal(shown.positions[-1], whole.positions[-1])
-    assert shown.times[-1] == pytest.approx(scene.duration)
+    assert shown.times[-1] == pytest.approx(setup.duration)
+
+
+def test_what_drives_a_scene_is_shown() -> None:
+    """The truck of `crossing` bends the bridge: it rests at first, and is not where it was in the end."""
+    shown = scenes.motion(find("crossing").setup({})).positions
+    assert np.ptp(shown[:, :, 1], axis=0).max() > 1e-3

@@ -35,10 +35,8 @@ def check_places(made: Animation, positions: np.ndarray) -> None:
 
 def test_the_frames_are_the_motion() -> None:
     """Of the string; and those of a string by another step are not."""
-    scene = find("string")
-    system = scene.system({})
     made = animation("string")
-    moved = motion(scene, system).positions
+    moved = motion(find("string").setup({})).positions
     check_places(made, moved)
     wrong = moved.copy()
     wrong[-1, -1, 0] += 0.05
