@@ -18,7 +18,7 @@ from tests.conformance.doctored import Doctored
 DT, STEPS = 1e-3, 400
 
 #: As large as they are shown, but of fewer masses: MuJoCo's implicit tendons take time with the cube of their number.
-SCENES = {name: {"rows": 7, "columns": 7, "rest_length": 0.09} for name in ("falling_cloth", "tablecloth")}
+SCENES = {name: {"rows": 8, "columns": 8, "rest_length": 0.077} for name in ("falling_cloth", "tablecloth")}
 
 
 def check_as_the_reference(name: str, outcome: Outcome) -> None:
@@ -26,7 +26,7 @@ def check_as_the_reference(name: str, outcome: Outcome) -> None:
 
     A mass comes to an obstacle with 2 m/s at most, and is inside by 2 mm when a step finds it there. Energy is lost;
     gained is at most a hundredth of weight times size. Heights from the lowest mass to the highest are those of
-    kick-drift to a fifteenth of the size: contacts differ in what they leave of a velocity, and cloth multiplies it.
+    kick-drift to a twentieth of the size: contacts differ in what they leave of a velocity, and cloth multiplies it.
     """
     system = find_scene(name).system(SCENES[name])
     assert outcome.trajectory is not None, outcome.reason
@@ -36,7 +36,7 @@ def check_as_the_reference(name: str, outcome: Outcome) -> None:
     energies = [energy(system, state) for state in motion.states()]
     assert max(energies) - energies[0] < 0.01 * system.masses.sum() * 9.81 * system.size
     known = simulate(system, find("kick_drift"), DT, DT * STEPS).positions[-1, :, 1]
-    assert np.abs(np.sort(motion.positions[-1, :, 1]) - np.sort(known)).max() < system.size / 15
+    assert np.abs(np.sort(motion.positions[-1, :, 1]) - np.sort(known)).max() < system.size / 20
 
 
 @pytest.mark.parametrize("name", SCENES)
