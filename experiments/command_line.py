@@ -6,9 +6,14 @@ Commands are imported when they are called, so that `springlab --help` answers a
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 
 import click
+
+#: Matrices are small here, and processes run beside one another: more threads for each would wait for one another, at
+#: twice the time. NumPy asks for it when it is imported, here and in every process that is started.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 #: Command, its module and function, and what `--help` says of it without importing it.
 COMMANDS = {
