@@ -13,9 +13,11 @@ from pathlib import Path
 
 from engines.isolation import isolated
 from experiments.experiment import Experiment, Result, find, write_tables
+from experiments.own_scene import experiments_of
 from experiments.runner import LocalCrew, Runner, current, using
 from experiments.runs import Progress
 from experiments.store import Store, StoreError
+from reference.scenes import Setup
 from report.figures import draw
 
 #: An experiment may take so long [s], and its process so much memory [bytes].
@@ -24,7 +26,7 @@ TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
 
 @dataclass(frozen=True)
 class Section:
-    """One experiment on the page: its answer, or why there is none; and whether it was run in full."""
+    """One experiment on the page: its answer, or why there is none; whether it was run in full; a command of its own."""
 
     experiment: Experiment
     result: Result | None = None
@@ -33,10 +35,13 @@ class Section:
     downloads: Sequence[tuple[str, str]] = ()
     failure: str = ""
     full: bool = False
+    made_by: str = ""
 
     @property
     def command(self) -> str:
         """What makes its figure and tables."""
+        if self.made_by:
+            return self.made_by
         name = self.experiment.name
         return f"springlab report --only {name} --full" if self.full else f"springlab run {name}"
 
@@ -88,6 +93,16 @@ def all_sections(
                 left = [experiment.name for experiment in running.values() if experiment.name not in done]
                 progress(f"{len(done)} of {len(experiments)} done; next: {', '.join(left)}")
     return [done[experiment.name] for experiment in experiments]
+
+
+def scene_sections(setup: Setup, command: str, folder: Path, progress: Progress) -> list[Section]:
+    """A section for every question to somebody's scene, each with a folder of its own."""
+    made = []
+    for experiment in experiments_of(setup):
+        progress(experiment.title)
+        asked = section(experiment, folder / experiment.name, progress)
+        made.append(replace(asked, made_by=command))
+    return made
 
 
 def _isolated_section(experiment: Experiment, folder: Path, store: Path, fresh: bool, full: bool) -> Section:
