@@ -10,6 +10,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from time import perf_counter
 
 from engines.isolation import isolated
 from experiments.experiment import Experiment, Result, find, write_tables
@@ -75,21 +76,33 @@ def all_sections(
 ) -> list[Section]:
     """A section for every experiment, in their order, each with a folder of its own.
 
-    Experiments run beside one another, each in a process of its own; those that measure times run alone, at the end.
+    What is kept of before, with nothing changed since, is shown again. The others run beside one another, each in
+    a process of its own; those that measure times run alone, at the end.
 
     Args:
         full: whether those that can are to be run in full.
     """
-    crowd = [experiment for experiment in experiments if not experiment.timed]
-    alone = [experiment for experiment in experiments if experiment.timed]
+    from report.kept import keep, kept
+
+    shelf = current().store
     done: dict[str, Section] = {}
-    progress(f"0 of {len(experiments)} done")
+    for experiment in [] if fresh or shelf is None else experiments:
+        again = kept(experiment, full, shelf, folder)
+        if again is not None:
+            done[experiment.name] = again
+    missing = [experiment for experiment in experiments if experiment.name not in done]
+    crowd = [experiment for experiment in missing if not experiment.timed]
+    alone = [experiment for experiment in missing if experiment.timed]
+    progress(f"{len(done)} of {len(experiments)} done")
     for group, workers in ((crowd, os.cpu_count()), (alone, 1)):
         with current().threads(workers) as pool:
             made = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
+            begin = perf_counter()
             running = {pool.submit(made, experiment): experiment for experiment in group}
             for future in as_completed(running):
-                done[running[future].name] = future.result()
+                came = future.result()
+                seconds = perf_counter() - begin
+                done[running[future].name] = came if shelf is None else keep(came, full, shelf, seconds)
                 left = [experiment.name for experiment in running.values() if experiment.name not in done]
                 progress(f"{len(done)} of {len(experiments)} done; next: {', '.join(left)}")
     return [done[experiment.name] for experiment in experiments]
