@@ -184,16 +184,19 @@ def _advice(
     if answer["dt"] is None:
         return Advice(engine.name, scheme, predicted, Limit(None, answer["reason"]), own)
     limit = min(answer["dt"], predicted.dt or answer["dt"])  # pushes may grow too slowly to be seen
-    dt, confirmed = _tried(engine, setup, rounded_down(ADVISED * limit))
+    dt, confirmed = _tried(engine, setup, own, rounded_down(ADVISED * limit))
     return Advice(engine.name, scheme, predicted, Limit(answer["dt"]), own, dt, confirmed, answer["grows"])
 
 
-def _tried(engine: EngineStepper, setup: Setup, dt: float) -> tuple[float | None, Outcome]:
+def _tried(engine: EngineStepper, setup: Setup, own: Outcome, dt: float) -> tuple[float | None, Outcome]:
     """The step with which the scene comes to its end, from a dt on by halving; None where it never does."""
+    works = setup.dt if own.ending == "done" else 0.0
     confirmed = _run(engine, setup, dt)
     for _ in range(HALVINGS):
         if confirmed.ending != "diverged":
             break
+        if dt > works > dt / 2:
+            return works, own
         dt = rounded_down(dt / 2)
         confirmed = _run(engine, setup, dt)
     return (dt if confirmed.ending == "done" else None), confirmed

@@ -24,6 +24,9 @@ def result_of(setup: Setup, found: Sequence[Advice]) -> Result:
     others = [advice for advice in found if advice not in able]
     sentences = [overall(setup, able), *(sentence(setup, advice) for advice in able)]
     sentences += [f"{advice.engine} cannot take this scene: {advice.own.reason}." for advice in others]
+    if setup.changes:
+        names = ", ".join(dict.fromkeys(change.parameter for change in setup.changes))
+        sentences.insert(1, f"Limits are those of the scene as it starts; while it runs, this changes: {names}.")
     failures = [f"{a.engine}: {a.own.ending}, {a.own.reason}" for a in found if a.own.ending != "done"]
     table = Table("advice", COLUMNS, [_row(setup, advice) for advice in found])
     return Result(sentences, [table], {"advice": found, "setup": setup}, failures)
@@ -67,8 +70,9 @@ def sentence(setup: Setup, advice: Advice) -> str:
         return f"{said} ({advice.own.reason}): {use}."
     if ADVISED * limit < dt:
         return f"{name} at dt = {dt:g} s is stable, but only just, by {limit / dt - 1:.1%}: {use}."
-    if advice.advised is None or advice.advised < dt:
-        return f"{name} at dt = {dt:g} s is stable with margin {limit / dt:.2f}, yet longer steps fail: {use}."
+    if advice.advised is None or advice.advised <= dt:
+        said = f"{name} at dt = {dt:g} s is stable, at rest with margin {limit / dt:.2f}"
+        return f"{said}; but the scene itself blows up with longer steps: {use}."
     return (
         f"{name} at dt = {dt:g} s is stable with margin {limit / dt:.2f}: its limit is {limit:.3g} s, and "
         f"dt = {advice.advised:g} s still works."

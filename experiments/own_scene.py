@@ -42,6 +42,8 @@ def experiments_of(setup: Setup) -> list[Experiment]:
         ("motion", "The motion compared", "How far is each engine from the true motion?", lambda p: moved(setup, ask(p), p)),
         ("own_scene", "The scene", "What is it made of, and where does it end?", lambda _: made_of(setup)),
     ]
+    if not len(setup.system.springs):  # there is nothing that engines could do in different ways
+        del questions[1]
     return [Experiment(name, title, question, "", run) for name, title, question, run in questions]
 
 

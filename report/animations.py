@@ -58,14 +58,19 @@ class Animation:
 
     def html(self) -> str:
         """The element to be put in. The page has SCRIPT once, after all of them."""
-        return f'<div class="motion">{self.still}<script type="application/json">{self.data}</script></div>'
+        data = f'<script type="application/json">{self.data}</script>'
+        return f'<figure class="motion" data-name="{escape(self.name)}">{self.still}{data}</figure>'
 
 
 def animation(name: str) -> Animation:
     """The default scene of a name, by the reference."""
     scene = find(name)
     system = scene.system({})
-    moved = motion(scene, system)
+    return animated(name, system, motion(scene, system))
+
+
+def animated(name: str, system: MassSpringSystem, moved: Trajectory) -> Animation:
+    """A motion of a system."""
     drawn = _drawn(system, moved)
     width, height = drawn.size
     found = 100 * strain(system, moved.positions)

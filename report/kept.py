@@ -22,7 +22,7 @@ PROJECT = Path(__file__).parents[1]
 
 #: What is computed and drawn with: folders whole, and what figures take from this room.
 ROOMS = ("reference", "engines", "experiments", "report/figures")
-DRAWING = ("backdrop", "drawing", "film", "kept", "sections", "sheet", "view")
+DRAWING = ("animations", "backdrop", "drawing", "film", "kept", "sections", "sheet", "view")
 
 
 def kept(experiment: Experiment, full: bool, store: Store, folder: Path) -> Section | None:
@@ -117,6 +117,7 @@ def document(section: Section) -> dict[str, Any]:
         "alt": section.alt,
         "downloads": list(section.downloads),
         "full": section.full,
+        "motions": section.motions,
     }
 
 
@@ -126,4 +127,4 @@ def from_document(experiment: Experiment, told: Mapping[str, Any]) -> Section:
     result = Result(told["findings"], tables, {}, told["failures"])
     downloads = [(name, link) for name, link in told["downloads"]]
     made = Section(experiment, result, told["svg"], told["alt"], downloads)
-    return replace(made, full=told["full"])
+    return replace(made, full=told["full"], motions=told["motions"])

@@ -91,11 +91,18 @@ def _rendered(first: First, shown: Sequence[Section], sections: Sequence[Section
         packages=cards,
         undone=_undone(sections),
         environment=_environment(),
+        script=_script() if any(section.motions for section in shown) else "",
         findings=FINDINGS,
         rows=ROWS,
     )
     dark = "".join(f"{name}: {value}; " for name, value in dark_colours(html))
     return html.replace("/* greys and series in the dark */", dark)
+
+
+def _script() -> str:
+    from report.animations import SCRIPT
+
+    return SCRIPT
 
 
 def _overview(engines: Sequence[Explained]) -> str:

@@ -19,7 +19,7 @@ from experiments.runner import LocalCrew, Runner, current, using
 from experiments.runs import Progress
 from experiments.store import Store, StoreError
 from reference.scenes import Setup
-from report.figures import draw
+from report.figures import animate, draw
 
 #: An experiment may take so long [s], and its process so much memory [bytes].
 TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
@@ -27,7 +27,7 @@ TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
 
 @dataclass(frozen=True)
 class Section:
-    """One experiment on the page: its answer, or why there is none; whether it was run in full; a command of its own."""
+    """One experiment on the page: its answer, or why there is none; whether it was run in full; its own command; animations."""
 
     experiment: Experiment
     result: Result | None = None
@@ -37,6 +37,7 @@ class Section:
     failure: str = ""
     full: bool = False
     made_by: str = ""
+    motions: str = ""
 
     @property
     def command(self) -> str:
@@ -57,13 +58,13 @@ def section(experiment: Experiment, folder: Path, progress: Progress) -> Section
         result = experiment.run(progress)
         picture = draw(experiment.name, result)
         files = write_tables(result, folder)
-        svg = picture.svg()
+        svg, motions = picture.svg(), animate(experiment.name, result)
         (folder / f"{experiment.name}.svg").write_text(svg, encoding="utf-8")
     except (OSError, StoreError):
         raise
     except Exception as error:
         return Section(experiment, failure=f"{type(error).__name__}: {error}")
-    return Section(experiment, result, svg, picture.alt, [(file.name, embedded(file)) for file in files])
+    return Section(experiment, result, svg, picture.alt, [(file.name, embedded(file)) for file in files], motions=motions)
 
 
 def all_sections(

@@ -47,7 +47,7 @@ def _row(axes: Any, y: int, advice: Advice, setup: Setup) -> None:
 
 def _words(advice: Advice, setup: Setup) -> str:
     if advice.limit is None:
-        return "limit not measured"
+        return f"{'' if advice.own.ending == 'done' else 'blows up; '}limit not measured"
     if setup.dt > advice.limit:
         return f"blows up: {setup.dt / advice.limit:.2g} times too long"
     if advice.own.ending != "done":

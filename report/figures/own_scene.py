@@ -9,6 +9,19 @@ from report.drawing import strain
 from report.figures import Picture, new_figure
 from report.figures.scenes import still
 
+#: An animation of more springs would be a page for itself.
+MOST = 2000
+
+
+def animate(result: Result) -> str:
+    """The scene as it moves, where it does and is not too large for a page."""
+    from report.animations import animated
+
+    system, motion = result.data["system"], result.data["motion"]
+    if len(motion) < 2 or not 0 < len(system.springs) <= MOST:
+        return ""
+    return animated("the scene", system, motion).html()
+
 
 def draw(result: Result) -> Picture:
     """One still with its scales."""
