@@ -58,10 +58,9 @@ def sentence(setup: Setup, advice: Advice) -> str:
     if advice.on_rods:
         name = f"{name}, which puts rods for springs,"
     if limit is None:
-        ended = (
-            "comes to the scene's end" if advice.own.ending == "done" else f"{_bad(advice)} ({advice.own.reason})"
-        )
-        return f"{name} at dt = {dt:g} s {ended}; no limit was measured ({advice.measured.reason})."
+        ended = "comes to the scene's end" if advice.own.ending == "done" else f"{_bad(advice)} ({advice.own.reason})"
+        theory = f"; {advice.predicted.dt:.2g} s is predicted" if advice.predicted.dt else ""
+        return f"{name} at dt = {dt:g} s {ended}; no limit was measured ({advice.measured.reason}){theory}."
     use = f"use dt = {advice.advised:g} s or less" if advice.advised else "no step is known to be safe"
     if dt > limit:
         return f"{name} at dt = {dt:g} s blows up: it is {dt / limit:.2f} times the limit, {limit:.3g} s; {use}."

@@ -39,7 +39,12 @@ def experiments_of(setup: Setup) -> list[Experiment]:
 
     questions = [
         ("advice", "Which dt", f"With which dt is {setup.name} stable, in each engine?", ask),
-        ("motion", "The motion compared", "How far is each engine from the true motion?", lambda p: moved(setup, ask(p), p)),
+        (
+            "motion",
+            "The motion compared",
+            "How far is each engine from the true motion?",
+            lambda p: moved(setup, ask(p), p),
+        ),
         ("own_scene", "The scene", "What is it made of, and where does it end?", lambda _: made_of(setup)),
     ]
     if not len(setup.system.springs):  # there is nothing that engines could do in different ways

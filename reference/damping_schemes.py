@@ -48,7 +48,9 @@ def kick_drift_implicit_damping_and_drag(motion: SpringMotion, state: State, dt:
     (M + dt C) (v1 - v0) = dt f(x0, v0) with C the whole damping matrix: MuJoCo's `implicit` integrator.
     """
     system = motion.system
-    blocks = damping_blocks(system, motion.placed(state), dt * system.damping) + Blocks.of_masses(system, dt * system.drag)
+    blocks = damping_blocks(system, motion.placed(state), dt * system.damping) + Blocks.of_masses(
+        system, dt * system.drag
+    )
     return state.kick(dt * solve_velocities(system, blocks, motion.acceleration(state))).drift(dt)
 
 

@@ -43,6 +43,7 @@ class First:
     picture: str
     columns: Sequence[str]
     rows: Sequence[Sequence[object]]
+    above: int = 3  # sentences, before the figure
 
 
 def page(sections: Sequence[Section]) -> str:
@@ -73,6 +74,7 @@ def scene_page(name: str, sections: Sequence[Section]) -> str:
         inline(advice.svg, advice.experiment.name, advice.alt) if advice.svg else "",
         [] if result is None else result.tables[0].columns,
         [] if result is None else result.tables[0].rows,
+        above=1,
     )
     return _rendered(first, others, sections, [])
 

@@ -64,7 +64,9 @@ def section(experiment: Experiment, folder: Path, progress: Progress) -> Section
         raise
     except Exception as error:
         return Section(experiment, failure=f"{type(error).__name__}: {error}")
-    return Section(experiment, result, svg, picture.alt, [(file.name, embedded(file)) for file in files], motions=motions)
+    return Section(
+        experiment, result, svg, picture.alt, [(file.name, embedded(file)) for file in files], motions=motions
+    )
 
 
 def all_sections(

@@ -10,8 +10,11 @@ from experiments.experiment import Result
 from reference.scenes import Setup
 from report.figures import COLOURS, MEASURED, PREDICTED, Picture, few_ticks, new_figure
 
-#: The axis goes so many times beyond the numbers on it, to the right as far as labels reach.
-LEFT, RIGHT = 2.0, 6.0
+#: The axis goes so many times beyond the numbers on it to the left; to the right, where words stand, a part of itself.
+LEFT, RIGHT = 2.0, 0.35
+
+#: Beyond so large a quotient of numbers on the axis, 1, 2 and 5 of every decade would run into one another.
+FEW_DECADES = 100
 
 
 def draw(result: Result) -> Picture:
@@ -22,7 +25,8 @@ def draw(result: Result) -> Picture:
     figure, axes = new_figure(figsize=(9.5, 1.7 + 0.3 * max(len(rows), 1)))
     numbers = [setup.dt, *(n for a in rows for n in (a.predicted.dt, a.measured.dt) if n is not None)]
     axes.set_xscale("log")
-    axes.set_xlim(min(numbers) / LEFT, max(numbers) * RIGHT)
+    left = min(numbers) / LEFT
+    axes.set_xlim(left, max(numbers) * max(4.0, (max(numbers) / left) ** RIGHT))
     axes.set_ylim(len(rows) - 0.4, -1.6)
     axes.axvline(setup.dt, color=COLOURS[0], linestyle="--", linewidth=1.4)
     axes.text(setup.dt, -1.1, f" the scene's dt, {setup.dt:g} s", color=COLOURS[0], fontweight="bold", va="center")
@@ -31,7 +35,8 @@ def draw(result: Result) -> Picture:
     axes.set_yticks(range(len(rows)), [advice.engine for advice in rows])
     axes.tick_params(axis="y", length=0)
     axes.grid(visible=False, axis="y")
-    few_ticks(axes)
+    if max(numbers) < FEW_DECADES * min(numbers):
+        few_ticks(axes)
     axes.set_xlabel("largest stable dt [s]: predicted (bar), measured (dot)")
     return Picture(figure, _alt(setup, rows))
 
