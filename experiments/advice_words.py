@@ -41,8 +41,8 @@ def overall(setup: Setup, able: Sequence[Advice]) -> str:
         reasons = list(dict.fromkeys(advice.measured.reason for advice in able))
         done = sum(advice.own.ending == "done" for advice in able)
         return (
-            f"At dt = {setup.dt:g} s {done} of {len(able)} engine settings come to the scene's end. For none was a limit "
-            f"measured: {'; '.join(reasons)}."
+            f"At dt = {setup.dt:g} s {done} of {len(able)} engine settings come to the scene's end. "
+            f"For none was a limit measured: {'; '.join(reasons)}."
         )
     stable = [a for a in limited if setup.dt <= (a.limit or 0) and a.own.ending == "done"]
     start = f"At dt = {setup.dt:g} s {len(stable)} of {len(limited)} engine settings with a limit are stable here"

@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import demands, registry, version
+from engines.engine import Engine, demands, registry, version
 from engines.engine import find as find_engine
 from experiments.experiment import Experiment, Result, Table
 from experiments.runner import answer, current
@@ -89,10 +89,10 @@ def hung(bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
     return {"positions": positions, "time": time, **shadow(positions, disc(RADIUS, spacing, sample).triangles, system)}
 
 
-def hung_in(engine: str, bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
+def hung_in(engine: Engine, bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
     """The same in an engine, for a second."""
     system, dt = cloth(bending_length, spacing, sample)
-    simulation = find_engine(engine).start(system, dt)
+    simulation = engine.start(system, dt)
     for _ in range(round(1.0 / dt)):
         simulation.step()
     positions, _ = simulation.state()
@@ -141,10 +141,10 @@ def run(progress: Progress) -> Result:
     cases += [(hung, c, a, i) for c in OTHER_LENGTHS for a in OTHERS for i in range(SAMPLES)]
     cases += [(hung, c, COARSE, 0) for c in ENGINE_LENGTHS]
     names = able(cloth(ENGINE_LENGTHS[0], COARSE, 0)[0])
-    cases += [(hung_in, name, c, COARSE, 0) for name in names for c in ENGINE_LENGTHS]
+    cases += [(hung_in, find_engine(name), c, COARSE, 0) for name in names for c in ENGINE_LENGTHS]
 
     def done(case: tuple[Any, ...]) -> Any:
-        progress(" ".join(map(str, case[1:])))
+        progress(" ".join(str(getattr(part, "name", part)) for part in case[1:]))
         return answer(*case)
 
     with current().threads() as pool:
@@ -153,7 +153,7 @@ def run(progress: Progress) -> Result:
     failures = []
     for case, found in zip(cases, answers, strict=True):
         *by, c, spacing, sample = case[1:]
-        name = by[0] if by else "kick_drift"
+        name = by[0].name if by else "kick_drift"
         if isinstance(found, Outcome):
             failures.append(f"{name}, bending length {c:g} m: {found.ending}, {found.reason}")
             continue

@@ -86,9 +86,9 @@ def equilibrium(equations: Callable[[MassSpringSystem], Motion], system: MassSpr
 def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     """J over the free positions and dt x velocities: exactly where the scheme allows, else by differences.
 
-    A scheme that asks for accelerations only, of all masses or of one at a time, is linear in them; so is one that solves
-    for the damping of springs, as a push changes their directions by little and the rates they have at rest not. Given the
-    linearised equations and the identity matrix in place of a state, its own function returns J.
+    A scheme that asks for accelerations only, of all masses or of one at a time, is linear in them; so is one that
+    solves for the damping of springs, whose directions a push changes by little, and whose rates at rest are zero.
+    Given the linearised equations and the identity matrix in place of a state, its own function returns J.
     """
     allowed = not scheme.springs_only or scheme.kind == "in_place" or scheme.solves
     linear = isinstance(rest.motion, SpringMotion) and allowed

@@ -19,8 +19,12 @@ from report.sections import Section
 FINDINGS, ROWS = 2, 12
 
 #: Of the first figure's table.
-ENGINE_COLUMNS = ("engine setting", "identified as", "measured: from the true motion [m]")
-ENGINE_COLUMNS += ("identified: from its scheme [m]",)
+ENGINE_COLUMNS = (
+    "engine setting",
+    "identified as",
+    "measured: from the true motion [m]",
+    "identified: from its scheme [m]",
+)
 
 
 @dataclass(frozen=True)

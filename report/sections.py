@@ -27,7 +27,13 @@ TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
 
 @dataclass(frozen=True)
 class Section:
-    """One experiment on the page: its answer, or why there is none; whether it was run in full; its own command; animations."""
+    """One experiment on the page: its answer, or why there is none.
+
+    Attributes:
+        full: whether it was run in full.
+        made_by: its command, where that is not the experiment's own.
+        motions: its animations, as HTML.
+    """
 
     experiment: Experiment
     result: Result | None = None
@@ -89,8 +95,8 @@ def all_sections(
 
     shelf = current().store
     done: dict[str, Section] = {}
-    for experiment in [] if fresh or shelf is None else experiments:
-        again = kept(experiment, full, shelf, folder)
+    for experiment in [] if fresh else experiments:
+        again = None if shelf is None else kept(experiment, full, shelf, folder)
         if again is not None:
             done[experiment.name] = again
     missing = [experiment for experiment in experiments if experiment.name not in done]

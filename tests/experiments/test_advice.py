@@ -1,4 +1,4 @@
-"""Advice on dt: each engine confirms it when run with it, and refutes it beyond the limit; odd scenes are told plainly."""
+"""Advice on dt: engines confirm it when run with it, and refute it beyond the limit; odd scenes are told plainly."""
 
 from __future__ import annotations
 
