@@ -31,7 +31,7 @@ for (const figure of document.querySelectorAll(".motion")) {
   const each = 1000 * data.duration / (data.frames - 1);
   const tick = (now) => {
     if (!playing) return;
-    const frame = Math.floor((now - begin) / each) % data.frames;
+    const frame = Math.max(0, Math.floor((now - begin) / each)) % data.frames;  // a frame can begin before "begin"
     slider.value = frame;
     show(frame);
     requestAnimationFrame(tick);
