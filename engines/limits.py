@@ -11,7 +11,7 @@ import numpy as np
 from engines.engine import Engine, Unsupported
 from engines.jacobian import spectral_radius, step_jacobian
 from reference.outcome import Outcome
-from reference.probe import measured_limit, random_growth
+from reference.probe import GROWN, SEEN, STEPS, limit_near, measured_limit, random_growth
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -58,6 +58,46 @@ def limit_of_engine(
         return Outcome("unsupported", str(error))
 
 
+class NearLimit(TypedDict):
+    """An engine's limit, and whether pushes grow beyond it, in plain numbers.
+
+    Attributes:
+        dt: the limit [s], or None with the reason.
+        grows: whether pushes grow at so many times the limit; None where there is none.
+    """
+
+    dt: float | None
+    reason: str
+    grows: bool | None
+
+
+def limit_of_engine_near(
+    engine: Engine,
+    still: Array,
+    pushed: MassSpringSystem,
+    expected: float | None,
+    dt: float,
+    precision: float,
+    beyond: float,
+) -> NearLimit | Outcome:
+    """As `limit_of_engine`, in a few runs where the limit is where theory expects it; and what is beyond it.
+
+    Args:
+        expected: the predicted limit [s]; None where there is none.
+        beyond: at so many times the limit pushes are to be looked at too.
+    """
+
+    def growth(h: float, steps: int) -> float:
+        return growth_of_engine(engine, still, pushed, h, steps)
+
+    try:
+        limit, reason = limit_near(growth, expected, dt, precision)
+        grows = None if limit is None else growth(beyond * limit, STEPS) > SEEN
+        return {"dt": limit, "reason": reason, "grows": grows}
+    except Unsupported as error:
+        return Outcome("unsupported", str(error))
+
+
 def growths_of_engine(
     engine: Engine, cases: Sequence[tuple[Array, MassSpringSystem, float]], steps: int
 ) -> dict[str, Array] | Outcome:
@@ -72,7 +112,10 @@ def growth_of_engine(engine: Engine, still: Array, pushed: MassSpringSystem, dt:
     """What becomes of a push in an engine, per step."""
     simulation = engine.start(pushed, dt)
     offsets = [pushed.positions - still]
+    far = GROWN * np.linalg.norm(offsets[0])
     for _ in range(steps):
         simulation.step()
         offsets.append(simulation.state()[0] - still)
+        if not np.linalg.norm(offsets[-1]) <= far:  # nor where it is no number: the rest would say no more
+            break
     return random_growth(np.array(offsets))

@@ -1,4 +1,4 @@
-"""With which dt should a scene be run in each engine? What a report of somebody's own scene says.
+"""With which dt should a scene be run in each engine? Measured, predicted and tried.
 
 An engine's limit is measured, from small pushes about the scene at rest, and predicted, from the scheme the engine is
 identified with there. The advice is a step a tenth below the limit, and it is tried: the scene itself is run with it,
@@ -7,22 +7,26 @@ and with a step a tenth above the limit the pushes have to grow.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import floor, log10
 
 from engines.isolation import EngineStepper
-from engines.limits import growths_of_engine
-from experiments.experiment import Result, Table
+from engines.limits import limit_of_engine_near
+from experiments.comparison import too_slow
 from experiments.runner import current
 from experiments.runs import Progress
-from experiments.stability import Row, at_rest_and_pushed, rest_of_engine, stability_rows
+from experiments.stability import at_rest_and_pushed, rest_of_engine
 from experiments.steppers import all_steppers
+from reference.catalogue import find
 from reference.changes import whole_steps
+from reference.errors import InputError, SolverError
+from reference.identify import Identification, candidates_for, identify_run
 from reference.outcome import Outcome
-from reference.probe import SEEN, STEPS
+from reference.pendulum import why_no_pendulum
 from reference.scenes import Setup
-from reference.stability import spring_equilibrium
+from reference.stability import Equilibrium, Limit, equilibrium, fastest_rate, find_limit, growth, spring_equilibrium
+from reference.stepper import SchemeStepper, catalogued
 from reference.system import MassSpringSystem
 
 #: The advised step, and the one that is to be unstable, as parts of the limit.
@@ -31,50 +35,99 @@ ADVISED, REFUTED = 0.9, 1.1
 #: Where the scene itself needs shorter steps than pushes about its rest do, this often the step is halved.
 HALVINGS = 6
 
+#: An engine is identified from so many steps, at a tenth of what the fastest mode allows.
+IDENTIFYING_STEPS = 40
+
+#: Limits are predicted and measured to this part of themselves.
+PREDICTION, MEASUREMENT = 1e-4, 1e-3
+
+#: What is solved to 1e-8 m/s only has the limits of what is solved to the end.
+SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
+
 
 @dataclass(frozen=True)
 class Advice:
     """What there is to say of one engine.
 
     Attributes:
-        row: its predicted and measured limit.
+        engine: its name.
+        scheme: what it was identified as on this scene; None where it was not.
+        predicted, measured: its limits, each with the reason where there is none.
         own: how the scene ended with the dt it was given.
         advised: the step to use [s]; None where there is none.
         confirmed: how the scene ended with it.
         grows: whether pushes grow at REFUTED of the limit; None where that was not looked at.
     """
 
-    row: Row
+    engine: str
+    scheme: str | None
+    predicted: Limit
+    measured: Limit
     own: Outcome
-    advised: float | None
-    confirmed: Outcome | None
-    grows: bool | None
+    advised: float | None = None
+    confirmed: Outcome | None = None
+    grows: bool | None = None
 
     @property
     def limit(self) -> float | None:
         """The largest stable step [s], measured."""
-        return self.row.measured.dt
+        return self.measured.dt
+
+    @property
+    def on_rods(self) -> bool:
+        """Whether the engine puts rods for the springs: what it steps is not quite the scene."""
+        return self.scheme is not None and catalogued()[self.scheme].on_rods
 
 
-def advise(setup: Setup, progress: Progress) -> list[Advice]:
-    """What there is to say of every installed engine, for a scene and its dt.
+def installed() -> list[EngineStepper]:
+    """The engines there are on this machine."""
+    return [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
+
+
+def advise(setup: Setup, engines: Sequence[EngineStepper], progress: Progress) -> list[Advice]:
+    """What there is to say of engines, for a scene and its dt.
 
     Raises:
-        SolverError: if the scene, left to itself, comes to no rest.
+        InputError: for a dt or duration that makes no sense.
     """
-    engines = [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
-    still = at_rest(setup.system)
-    rows = {row.stepper: row for row in stability_rows(still, engines, progress)}
-    progress("advised steps tried")
+    whole_steps(setup.dt, setup.duration)
     with current().threads() as pool:
-        found = pool.map(lambda engine: _advice(engine, setup, still, rows[engine.name]), engines)
-        return list(found)
+        progress("the scene at its own dt")
+        ran = pool.map(lambda engine: _run(engine, setup, setup.dt), engines)
+        own = {engine.name: outcome for engine, outcome in zip(engines, ran, strict=True)}
+        try:
+            rest = rest_of(setup.system)
+        except (SolverError, InputError) as error:
+            return [_without_limit(engine.name, own[engine.name], str(error)) for engine in engines]
+        able = [engine for engine in engines if own[engine.name].ending != "unsupported"]
+        identified, predicted = _predicted(rest, able, progress)
+        progress("measured limits, and advised steps tried")
+
+        def advised(e: EngineStepper) -> Advice:
+            return _advice(e, setup, rest, identified[e.name].identified_as, predicted[e.name], own[e.name])
+
+        found = {advice.engine: advice for advice in pool.map(advised, able)}
+    return [found.get(e.name) or _without_limit(e.name, own[e.name], own[e.name].reason) for e in engines]
 
 
-def at_rest(system: MassSpringSystem) -> MassSpringSystem:
-    """The system whose stability is asked for: without obstacles, and without weight where nothing holds it."""
+def _without_limit(engine: str, own: Outcome, reason: str) -> Advice:
+    return Advice(engine, None, Limit(None, reason), Limit(None, reason), own)
+
+
+def rest_of(system: MassSpringSystem) -> Equilibrium:
+    """Where a system is at rest: without obstacles, and without weight where nothing holds it.
+
+    Raises:
+        SolverError: if it comes to no rest.
+        InputError: if there is nothing in it that could be unstable.
+    """
+    if not len(system.springs) or system.fixed.all():
+        raise InputError("there is no spring that could move a mass, and so any step is stable")
     alone = replace(system, obstacles=())
-    return alone if system.fixed.any() else replace(alone, gravity=0 * system.gravity)
+    rest = spring_equilibrium(alone if system.fixed.any() else replace(alone, gravity=0 * system.gravity))
+    if fastest_rate(rest) == 0:
+        raise InputError("no spring and no drag moves a mass, and so any step is stable")
+    return rest
 
 
 def rounded_down(dt: float) -> float:
@@ -83,96 +136,86 @@ def rounded_down(dt: float) -> float:
     return float(f"{floor(dt / unit * (1 + 1e-12)) * unit:.2g}")
 
 
-def _advice(engine: EngineStepper, setup: Setup, still: MassSpringSystem, row: Row) -> Advice:
-    own = _run(engine, setup, setup.dt)
-    if row.outcome != "done" or row.measured.dt is None:
-        return Advice(row, own, None, None, None)
-    dt = rounded_down(ADVISED * row.measured.dt)
+def _predicted(
+    rest: Equilibrium, engines: Sequence[EngineStepper], progress: Progress
+) -> tuple[Mapping[str, Identification], Mapping[str, Limit]]:
+    """What engines are identified as on the system at rest, and the limits that follow; each scheme's once."""
+    system = rest.motion.system  # type: ignore[attr-defined]
+    dt = 0.1 / fastest_rate(rest)
+    progress("identification")
+    with current().threads() as pool:
+        runs = list(pool.map(lambda engine: engine.run(system, dt, IDENTIFYING_STEPS), engines))
+    seen = list(zip(engines, runs, strict=True))
+    known = candidates_for(seen, system, dt, IDENTIFYING_STEPS)
+    identified = {engine.name: identify_run(engine.name, run, system, known) for engine, run in seen}
+    limits: dict[str | None, Limit] = {None: Limit(None, "no scheme of the catalogue is this near")}
+    for name in dict.fromkeys(found.identified_as for found in identified.values()):
+        if name is not None:
+            progress(f"predicted limit of {name}")
+            limits[name] = predict(catalogued()[name], system, rest)
+    predicted = {name: limits[found.identified_as] for name, found in identified.items()}
+    return identified, predicted
+
+
+def predict(named: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Limit:
+    """A scheme's limit about a rest, or why it is not known."""
+    scheme = find(SOLVED[named.name]) if named.name in SOLVED else named.scheme
+    try:
+        about = equilibrium(named.equations, system) if named.on_rods else rest
+    except (InputError, SolverError) as error:
+        return Limit(None, f"{named.name} has no rest to be predicted about: {error}")
+    unit = 1 / fastest_rate(about)
+    return find_limit(lambda dt: growth(scheme, about, dt) - 1, unit, precision=PREDICTION)
+
+
+def _advice(
+    engine: EngineStepper, setup: Setup, rest: Equilibrium, scheme: str | None, predicted: Limit, own: Outcome
+) -> Advice:
+    system = rest.motion.system  # type: ignore[attr-defined]
+    about = rest_of_engine(engine.engine, system, rest)
+    if isinstance(about, Outcome):
+        return Advice(engine.name, scheme, predicted, Limit(None, about.reason), own)
+    still, pushed = at_rest_and_pushed(system, about)
+    unit = 1 / fastest_rate(about)
+    asked = (engine.engine, still, pushed, predicted.dt, unit, MEASUREMENT, REFUTED)
+    answer = engine.isolate(limit_of_engine_near, *asked, time_limit=2 * engine.time_limit)
+    if isinstance(answer, Outcome):
+        return Advice(engine.name, scheme, predicted, Limit(None, answer.reason), own)
+    if answer["dt"] is None:
+        return Advice(engine.name, scheme, predicted, Limit(None, answer["reason"]), own)
+    limit = min(answer["dt"], predicted.dt or answer["dt"])  # pushes may grow too slowly to be seen
+    dt, confirmed = _tried(engine, setup, own, rounded_down(ADVISED * limit))
+    return Advice(engine.name, scheme, predicted, Limit(answer["dt"]), own, dt, confirmed, answer["grows"])
+
+
+def _tried(engine: EngineStepper, setup: Setup, own: Outcome, dt: float) -> tuple[float | None, Outcome]:
+    """The step with which the scene comes to its end, from a dt on by halving; None where it never does."""
+    works = setup.dt if own.ending == "done" else 0.0
     confirmed = _run(engine, setup, dt)
     for _ in range(HALVINGS):
         if confirmed.ending != "diverged":
             break
+        if dt > works > dt / 2:
+            return works, own
         dt = rounded_down(dt / 2)
         confirmed = _run(engine, setup, dt)
-    return Advice(row, own, dt, confirmed, _grows(engine, still, REFUTED * row.measured.dt))
+    return (dt if confirmed.ending == "done" else None), confirmed
 
 
 def _run(engine: EngineStepper, setup: Setup, dt: float) -> Outcome:
     """How the scene ends with a dt, without what it did on the way."""
+    left_out = _left_out(engine, setup.system)
+    if left_out:
+        return left_out
     outcome = engine.run(setup.system, dt, max(1, round(setup.duration / dt)), setup.changes)
     return replace(outcome, trajectory=None)
 
 
-def _grows(engine: EngineStepper, still: MassSpringSystem, dt: float) -> bool | None:
-    rest = rest_of_engine(engine.engine, still, spring_equilibrium(still))
-    if isinstance(rest, Outcome):
-        return None
-    x, pushed = at_rest_and_pushed(still, rest)
-    answer = engine.isolate(growths_of_engine, engine.engine, [(x, pushed, dt)], STEPS)
-    return None if isinstance(answer, Outcome) else bool(answer["growth"][0] > SEEN)
-
-
-def result_of(setup: Setup, found: Sequence[Advice]) -> Result:
-    """Advice as findings, the most important first, and a table."""
-    columns = ["engine", "at the scene's dt", "margin", "predicted limit [s]", "measured limit [s]"]
-    columns += ["advised dt [s]", "the scene with it", "pushes at 1.1 of the limit", "reason"]
-    rows = [_table_row(setup, advice) for advice in found]
-    failures = [f"{a.row.stepper}: {a.own.ending}, {a.own.reason}" for a in found if a.own.ending != "done"]
-    return Result(findings(setup, found), [Table("advice", columns, rows)], {"advice": found, "setup": setup}, failures)
-
-
-def _table_row(setup: Setup, advice: Advice) -> list[object]:
-    margin = None if advice.limit is None else advice.limit / setup.dt
-    confirmed = advice.confirmed.ending if advice.confirmed else None
-    grows = {None: None, True: "grow", False: "do not grow"}[advice.grows]
-    reason = advice.own.reason or advice.row.measured.reason
-    row = advice.row
-    limits = [row.predicted.dt, row.measured.dt]
-    return [row.stepper, advice.own.ending, margin, *limits, advice.advised, confirmed, grows, reason]
-
-
-def findings(setup: Setup, found: Sequence[Advice]) -> list[str]:
-    """A sentence for every engine that can take the scene; then those that cannot, with the reason."""
-    able = [advice for advice in found if advice.row.outcome == "done" or advice.own.ending != "unsupported"]
-    others = [advice for advice in found if advice not in able]
-    sentences = [_overall(setup, able), *(sentence(setup, advice) for advice in able)]
-    return [*sentences, *(f"{advice.row.stepper} cannot take this scene: {advice.own.reason}." for advice in others)]
-
-
-def sentence(setup: Setup, advice: Advice) -> str:
-    """What one engine does at the scene's dt, and what to use."""
-    name, dt, limit = advice.row.stepper, setup.dt, advice.limit
-    if limit is None:
-        ended = (
-            "runs to its end" if advice.own.ending == "done" else f"ends as {advice.own.ending}: {advice.own.reason}"
-        )
-        return f"{name}, at dt = {dt:g} s, {ended}; no limit was measured ({advice.row.measured.reason})."
-    use = f"use dt = {advice.advised:g} s or less" if advice.advised else "no step is known to be safe"
-    if dt > limit:
-        return f"{name} at dt = {dt:g} s blows up: it is {dt / limit:.2f} times the limit, {limit:.3g} s; {use}."
-    if advice.own.ending != "done":
-        said = f"{name} at dt = {dt:g} s ends as {advice.own.ending}, though the limit at rest is {limit:.3g} s"
-        return f"{said} ({advice.own.reason}): {use}."
-    if ADVISED * limit < dt:
-        return f"{name} at dt = {dt:g} s is stable, but only just, by {limit / dt - 1:.1%}: {use}."
-    return f"{name} at dt = {dt:g} s is stable with margin {limit / dt:.2f}: its limit is {limit:.3g} s."
-
-
-def _overall(setup: Setup, able: Sequence[Advice]) -> str:
-    limited = [advice for advice in able if advice.limit is not None]
-    if not able:
-        return "No installed engine can take this scene."
-    if not limited:
-        return "For no engine was a limit measured."
-    stable = [a for a in limited if setup.dt <= (a.limit or 0) and a.own.ending == "done"]
-    steps = [advice.advised for advice in limited if advice.advised]
-    start = (
-        f"At dt = {setup.dt:g} s {len(stable)} of {len(limited)} engine settings with a limit are stable on this scene"
-    )
-    return f"{start}; dt = {min(steps):g} s is safe in all of them." if steps else f"{start}."
-
-
-def answer(setup: Setup, progress: Progress) -> Result:
-    """`advise`, as findings and a table. Raises as it does; InputError for a dt or duration that makes no sense."""
-    whole_steps(setup.dt, setup.duration)
-    return result_of(setup, advise(setup, progress))
+def _left_out(engine: EngineStepper, system: MassSpringSystem) -> Outcome | None:
+    """An engine that would take minutes, or puts rods where no rope is, is not asked."""
+    slow = too_slow(engine, system)
+    if slow:
+        return replace(slow, reason=slow.reason.partition(";")[0])
+    named = catalogued().get(engine.engine.identified_as.get("plain", ""))
+    reason = why_no_pendulum(replace(system, obstacles=())) if named is not None and named.on_rods else None
+    return Outcome("unsupported", f"{engine.name} puts rods for springs: {reason}") if reason else None

@@ -36,7 +36,7 @@ RADIUS, SUPPORT, DENSITY = 0.15, 0.09, 0.2
 LENGTHS = (0.005, 0.01, 0.017, 0.025, 0.036, 0.05)
 
 #: Spacings of the masses [m]: of all cloths; of some more, to see what it matters; and of those that engines get.
-SPACING, OTHERS, COARSE = 0.0075, (0.012, 0.006), 0.02
+SPACING, OTHERS, COARSE = 0.0075, (0.012,), 0.02
 
 #: The bending lengths [m] of those.
 OTHER_LENGTHS, ENGINE_LENGTHS = (0.017,), (0.017,)

@@ -123,19 +123,20 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
 
     Args:
         blocks: B, the derivative of the forces times a time.
-        right: r, velocities too, shape (n, d).
+        right: r, velocities too, shape (n, d); or many of them at once, shape (n, d, columns).
 
     Raises:
         SolverError: if there is no such velocity.
     """
     free = ~system.fixed
-    large = free.sum() * system.dimension >= ITERATE_FROM
+    many = right.ndim == 3
+    large = free.sum() * system.dimension >= ITERATE_FROM and not many
     found = _by_iteration(system, blocks, right) if large else None
     if found is not None:
         return found
     mass = np.repeat(system.masses[free], system.dimension)
-    matrix = assemble(system, -1.0 * blocks)
-    momentum = mass * right[free].ravel()
+    matrix = assemble(system, -1.0 * blocks, sparse=False if many else None)
+    momentum = (mass * right[free].reshape(len(mass), -1).T).T
     result = np.zeros_like(right)
     if isinstance(matrix, np.ndarray):
         matrix[np.diag_indices_from(matrix)] += mass
@@ -149,7 +150,7 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
 
         # the pattern is symmetric: of SuperLU's orders the one made for such leaves half of the work
         solution = spsolve((matrix + diags_array(mass)).tocsc(), momentum, permc_spec="MMD_AT_PLUS_A")
-    result[free] = solution.reshape(-1, system.dimension)
+    result[free] = solution.reshape(right[free].shape)
     return result
 
 

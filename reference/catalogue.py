@@ -36,6 +36,7 @@ class Scheme:
         kind: see Kind.
         springs_only: whether it needs springs (damped ones apart, or one mass at a time) and so cannot step a pendulum.
         quick_up_to: how many masses it steps some hundred times within half a minute; None for as many as any.
+        solves: whether it solves linear equations for the damping, and is linear in everything else.
     """
 
     step: Step
@@ -43,6 +44,7 @@ class Scheme:
     kind: Kind
     springs_only: bool
     quick_up_to: int | None = None
+    solves: bool = False
 
     @cached_property
     def name(self) -> str:
@@ -56,12 +58,16 @@ class Scheme:
 
 
 def scheme(
-    order: int, kind: Kind = "scheme", springs_only: bool = False, quick_up_to: int | None = None
+    order: int,
+    kind: Kind = "scheme",
+    springs_only: bool = False,
+    quick_up_to: int | None = None,
+    solves: bool = False,
 ) -> Callable[[Step], Step]:
     """Enter the decorated step into the catalogue."""
 
     def enter(step: Step) -> Step:
-        entry = Scheme(step, order, kind, springs_only, quick_up_to)
+        entry = Scheme(step, order, kind, springs_only, quick_up_to, solves)
         _SCHEMES[entry.name] = entry
         return step
 

@@ -24,7 +24,7 @@ from reference.system import MassSpringSystem
 ROUNDS = 10
 
 
-@scheme(order=1, kind="engine_scheme", springs_only=True)
+@scheme(order=1, kind="engine_scheme", springs_only=True, solves=True)
 def kick_drift_implicit_damping(motion: SpringMotion, state: State, dt: float) -> State:
     """Kick-drift with the damping of the springs implicit (Baraff and Witkin, SIGGRAPH 1998, for damping alone)."""
     kicked = state.kick(dt * motion.acceleration(state, damping=False))
@@ -41,14 +41,16 @@ def kick_drift_implicit_drag(motion: SpringMotion, state: State, dt: float) -> S
     return state.kick(dt * motion.acceleration(state) / slower).drift(dt)
 
 
-@scheme(order=1, kind="engine_scheme", springs_only=True)
+@scheme(order=1, kind="engine_scheme", springs_only=True, solves=True)
 def kick_drift_implicit_damping_and_drag(motion: SpringMotion, state: State, dt: float) -> State:
     """Kick-drift with everything that depends on velocities implicit, damping of the springs and drag.
 
     (M + dt C) (v1 - v0) = dt f(x0, v0) with C the whole damping matrix: MuJoCo's `implicit` integrator.
     """
     system = motion.system
-    blocks = damping_blocks(system, state, dt * system.damping) + Blocks.of_masses(system, dt * system.drag)
+    blocks = damping_blocks(system, motion.placed(state), dt * system.damping) + Blocks.of_masses(
+        system, dt * system.drag
+    )
     return state.kick(dt * solve_velocities(system, blocks, motion.acceleration(state))).drift(dt)
 
 
@@ -75,7 +77,7 @@ def kick_drift_truncated_damping(motion: SpringMotion, state: State, dt: float) 
     return kicked.kick(change).drift(dt)
 
 
-@scheme(order=1, kind="engine_scheme", springs_only=True)
+@scheme(order=1, kind="engine_scheme", springs_only=True, solves=True)
 def drift_kick_implicit_damping(motion: SpringMotion, state: State, dt: float) -> State:
     """Drift-kick with the damping of the springs implicit."""
     drifted = state.drift(dt)
@@ -106,7 +108,7 @@ def drift_kick_sequential_damping(motion: SpringMotion, state: State, dt: float)
     return State(kicked.time, kicked.positions, velocities)
 
 
-@scheme(order=1, kind="engine_scheme", springs_only=True)
+@scheme(order=1, kind="engine_scheme", springs_only=True, solves=True)
 def drift_kick_exponential_damping(motion: SpringMotion, state: State, dt: float) -> State:
     """Drift-kick, springs damped as if each alone decayed exponentially: dt c becomes m (exp(dt c / m) - 1).
 
@@ -141,7 +143,7 @@ def slowed(motion: SpringMotion, state: State, coefficients: Array) -> State:
     """The state after an implicit step of damping alone: dt c_j [N s^2/m = kg] given for every spring, shape (s,)."""
     if not coefficients.any():
         return state
-    blocks = damping_blocks(motion.system, state, coefficients)
+    blocks = damping_blocks(motion.system, motion.placed(state), coefficients)
     velocities = solve_velocities(motion.system, blocks, state.velocities)
     return State(state.time, state.positions, velocities)
 

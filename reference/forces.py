@@ -115,6 +115,10 @@ class SpringMotion:
         """The rate of change of the whole state: velocities and accelerations."""
         return Slope(1.0, state.velocities, self.acceleration(state))
 
+    def placed(self, state: State) -> State:
+        """Where springs have their directions: where the masses are."""
+        return state
+
     def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
         """The derivatives of the forces by positions [N/m] and by velocities [N s/m], spring by spring."""
         return spring_blocks(self.system, state)

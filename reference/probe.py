@@ -26,6 +26,9 @@ GROWN = 100.0
 #: Growth in a step that is seen for sure in that time: a doubling between its first and its last quarter.
 SEEN = float(np.log(2) / (0.75 * STEPS))
 
+#: How near to where it is expected a limit is looked for first, in parts as large as the precision.
+NEAR = 4
+
 
 def random_growth(offsets: Array) -> float:
     """Growth in a step, from the mean squares of offsets in the first and the last quarter of a run.
@@ -85,3 +88,30 @@ def measured_limit(growth: Callable[[float, int], float], dt: float, precision: 
     if growth(0.7 * low, 20 * STEPS) > SEEN / 20:
         return None, f"unstable at any dt that was tried: in longer runs at {0.7 * low:.3g} s too"
     return low, ""
+
+
+def limit_near(
+    growth: Callable[[float, int], float], expected: float | None, dt: float, precision: float
+) -> tuple[float | None, str]:
+    """As `measured_limit`, in a few runs where the limit is where it is expected, and by its own way where it is not.
+
+    The steps that are tried are whole powers of 1 + precision: where to look is expected, what is found is not.
+
+    Args:
+        expected: the limit that theory predicts [s]; None where it knows of none.
+    """
+
+    def unstable(h: float) -> bool:
+        return growth(h, STEPS) > SEEN
+
+    if expected is not None:
+        middle = round(np.log(expected) / np.log1p(precision))
+        low, high = middle - NEAR, middle + NEAR
+        if not unstable((1 + precision) ** low) and unstable((1 + precision) ** high):
+            while high - low > 1:
+                middle = (low + high) // 2
+                low, high = (low, middle) if unstable((1 + precision) ** middle) else (middle, high)
+            return (1 + precision) ** low, ""
+    if unstable(dt / 10):
+        return None, f"unstable at {dt / 10:.3g} s, a tenth of what the fastest motion lasts; no shorter step was tried"
+    return measured_limit(growth, dt, precision)

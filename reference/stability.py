@@ -86,10 +86,12 @@ def equilibrium(equations: Callable[[MassSpringSystem], Motion], system: MassSpr
 def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     """J over the free positions and dt x velocities: exactly where the scheme allows, else by differences.
 
-    A scheme that asks for accelerations only, of all masses or of one at a time, is linear in them. Given the
-    linearised equations and the identity matrix in place of a state, its own function returns J.
+    A scheme that asks for accelerations only, of all masses or of one at a time, is linear in them; so is one that
+    solves for the damping of springs, whose directions a push changes by little, and whose rates at rest are zero.
+    Given the linearised equations and the identity matrix in place of a state, its own function returns J.
     """
-    linear = isinstance(rest.motion, SpringMotion) and (not scheme.springs_only or scheme.kind == "in_place")
+    allowed = not scheme.springs_only or scheme.kind == "in_place" or scheme.solves
+    linear = isinstance(rest.motion, SpringMotion) and allowed
     return _by_linear_motion(scheme, rest, dt) if linear else _by_differences(scheme, rest, dt)
 
 
@@ -100,16 +102,25 @@ class LinearMotion:
     """
 
     def __init__(self, system: MassSpringSystem, equilibrium: State) -> None:
+        self.system, self._equilibrium = system, equilibrium
         free = np.repeat(~system.fixed, system.dimension)
         mass = np.repeat(system.masses, system.dimension)[free, None]
         self._by_position, self._by_velocity = (np.zeros((len(free), len(free))) for _ in range(2))
         by_position, by_velocity = spring_blocks(system, equilibrium)
         self._by_position[np.ix_(free, free)] = assemble(system, by_position, sparse=False) / mass
         self._by_velocity[np.ix_(free, free)] = assemble(system, by_velocity, sparse=False) / mass
+        self._drag = np.where(system.fixed, 0.0, system.drag / system.masses)[:, None, None]
 
-    def acceleration(self, state: State) -> Array:
-        """Of all masses."""
-        return self._of_rows(slice(None), state).reshape(state.positions.shape)
+    def acceleration(self, state: State, damping: bool = True) -> Array:
+        """Of all masses; without the damping of the springs if so asked."""
+        if damping:
+            return self._of_rows(slice(None), state).reshape(state.positions.shape)
+        moved = self._by_position @ state.positions.reshape(len(self._by_position), -1)
+        return np.asarray(moved.reshape(state.positions.shape) - self._drag * state.velocities)
+
+    def placed(self, state: State) -> State:
+        """Where springs have their directions: at rest, whatever the pushes."""
+        return self._equilibrium
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Of mass i alone."""

@@ -58,13 +58,18 @@ class Animation:
 
     def html(self) -> str:
         """The element to be put in. The page has SCRIPT once, after all of them."""
-        return f'<div class="motion">{self.still}<script type="application/json">{self.data}</script></div>'
+        data = f'<script type="application/json">{self.data}</script>'
+        return f'<figure class="motion" data-name="{escape(self.name)}">{self.still}{data}</figure>'
 
 
 def animation(name: str) -> Animation:
     """The default scene of a name, by the reference."""
     setup = find(name).setup({})
-    system, moved = setup.system, motion(setup)
+    return animated(name, setup.system, motion(setup))
+
+
+def animated(name: str, system: MassSpringSystem, moved: Trajectory) -> Animation:
+    """A motion of a system."""
     drawn = _drawn(system, moved)
     width, height = drawn.size
     found = 100 * strain(system, moved.positions)

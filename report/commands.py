@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 
 import click
 
+from experiments.arguments import setup_for
 from experiments.console import RESULTS, progress, show_result
 from experiments.experiment import NAMES, find
 from experiments.runner_options import chosen_runner, resume_option, runner_options, store_option
+from reference.errors import InputError
 
 if TYPE_CHECKING:
     from experiments.stability import Row
@@ -133,28 +135,44 @@ def run_command(
 
 
 @click.command("report")
+@click.argument("scene", required=False)
 @click.option("--only", "names", multiple=True, metavar="EXPERIMENT", help="Only these experiments.")
 @click.option("--full", is_flag=True, help="All experiments, also those that take long, and finer maps.")
 @click.option("--open", "show", is_flag=True, help="Open the page in the browser.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "report", show_default=True)
 @resume_option
 @store_option
-def report_command(names: Sequence[str], full: bool, show: bool, out: Path, resume: bool, store: Path) -> int:
-    """Run the experiments and write one self-contained page, OUT/index.html. Exit code 1 if an experiment failed."""
-    from report.page import page
-    from report.sections import all_sections
+def report_command(
+    scene: str | None, names: Sequence[str], full: bool, show: bool, out: Path, resume: bool, store: Path
+) -> int:
+    """Run the experiments and write one self-contained page, OUT/index.html. Exit code 1 if an experiment failed.
 
+    With SCENE (a name or a TOML file) the page is about that scene: which dt to use in which engine.
+    """
+    from report.page import page, scene_page
+    from report.sections import all_sections, scene_sections
+
+    if scene is not None:
+        if names or full:
+            raise InputError("--only and --full are of experiments: expected no SCENE with them")
+        setup = setup_for(scene)
     wanted = [find(name) for name in dict.fromkeys(names or NAMES)]
     if not names and not full:
         wanted = [experiment for experiment in wanted if experiment.in_report]
     out.mkdir(parents=True, exist_ok=True)
     with chosen_runner(resume, store), progress("report") as tell:
-        sections = all_sections(wanted, out, tell, store, fresh=not resume, full=full)
+        if scene is not None:
+            sections = scene_sections(setup, f"springlab report {scene}", out, tell)
+            html = scene_page(setup.name, sections)
+        else:
+            sections = all_sections(wanted, out, tell, store, fresh=not resume, full=full)
+            html = page(sections)
     written = out / "index.html"
-    written.write_text(page(sections), encoding="utf-8")
+    written.write_text(html, encoding="utf-8")
     for answer in sections:
-        first = answer.failure if answer.result is None else answer.result.findings[0]
-        click.echo(f"{answer.experiment.title}: {first}\n")
+        said = [answer.failure] if answer.result is None else answer.result.findings
+        told = "\n".join(said) if answer.experiment.name == "advice" else said[0]
+        click.echo(f"{answer.experiment.title}: {told}\n")
     click.echo(f"written: {written}")
     if show:
         click.launch(str(written))

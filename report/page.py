@@ -9,7 +9,7 @@ from engines.engine import installed_version, registry
 from experiments.console import plain
 from experiments.environment import environment
 from report import overview
-from report.cards import packages
+from report.cards import Package, packages
 from report.figures import Picture
 from report.inline_svg import dark_colours, inline
 from report.overview import Explained, explained
@@ -17,6 +17,14 @@ from report.sections import Section
 
 #: So many findings are shown, and a table of so many rows is open; more is folded.
 FINDINGS, ROWS = 2, 12
+
+#: Of the first figure's table.
+ENGINE_COLUMNS = (
+    "engine setting",
+    "identified as",
+    "measured: from the true motion [m]",
+    "identified: from its scheme [m]",
+)
 
 
 @dataclass(frozen=True)
@@ -28,29 +36,79 @@ class Undone:
     reasons: Sequence[str]
 
 
+@dataclass(frozen=True)
+class First:
+    """The first screen: a title, what the page is about, sentences, a figure and its table."""
+
+    title: str
+    lead: str
+    sentences: Sequence[str]
+    caption: str
+    picture: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[object]]
+    above: int = 3  # sentences, before the figure
+
+
 def page(sections: Sequence[Section]) -> str:
-    """The whole page as HTML that asks for nothing from anywhere."""
+    """The report of experiments as HTML that asks for nothing from anywhere."""
+    engines = explained(next((section for section in sections if section.experiment.name == "divergence"), None))
+    first = First(
+        "springlab report",
+        "The lab that explains physics engines: it finds the scheme that each one steps by.",
+        overview.sentences(sections),
+        "what is left of an engine's error once its scheme is known",
+        _overview(engines),
+        ENGINE_COLUMNS,
+        [[engine.engine, engine.scheme, engine.error, engine.deviation] for engine in engines],
+    )
+    return _rendered(first, sections, sections, packages(_identified(engines)))
+
+
+def scene_page(name: str, sections: Sequence[Section]) -> str:
+    """The report of somebody's scene: what its first section says, then the others."""
+    advice, *others = sections
+    result = advice.result
+    failed = f"Which dt to use is not known: {advice.failure}."
+    first = First(
+        f"{name}: which dt",
+        f"springlab on the scene {name}: up to which step each engine is stable on it, predicted and measured.",
+        [failed] if result is None else result.findings,
+        "largest stable steps of engines, and the scene's own",
+        inline(advice.svg, advice.experiment.name, advice.alt) if advice.svg else "",
+        [] if result is None else result.tables[0].columns,
+        [] if result is None else result.tables[0].rows,
+        above=1,
+    )
+    return _rendered(first, others, sections, [])
+
+
+def _rendered(first: First, shown: Sequence[Section], sections: Sequence[Section], cards: Sequence[Package]) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     templates = Environment(
         loader=PackageLoader("report"), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
     templates.filters["plain"] = plain
-    engines = explained(next((section for section in sections if section.experiment.name == "divergence"), None))
     html = templates.get_template("page.html.j2").render(
-        sections=sections,
-        sentences=overview.sentences(sections),
-        engines=engines,
-        overview=_overview(engines),
-        pictures={s.experiment.name: inline(s.svg, s.experiment.name, s.alt) for s in sections if s.svg},
-        packages=packages(_identified(engines)),
+        first=first,
+        sections=shown,
+        pictures={s.experiment.name: inline(s.svg, s.experiment.name, s.alt) for s in shown if s.svg},
+        packages=cards,
         undone=_undone(sections),
         environment=_environment(),
+        script=_script() if any(section.motions for section in shown) else "",
         findings=FINDINGS,
         rows=ROWS,
     )
     dark = "".join(f"{name}: {value}; " for name, value in dark_colours(html))
     return html.replace("/* greys and series in the dark */", dark)
+
+
+def _script() -> str:
+    from report.animations import SCRIPT
+
+    return SCRIPT
 
 
 def _overview(engines: Sequence[Explained]) -> str:

@@ -10,13 +10,16 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from time import perf_counter
 
 from engines.isolation import isolated
 from experiments.experiment import Experiment, Result, find, write_tables
+from experiments.own_scene import experiments_of
 from experiments.runner import LocalCrew, Runner, current, using
 from experiments.runs import Progress
 from experiments.store import Store, StoreError
-from report.figures import draw
+from reference.scenes import Setup
+from report.figures import animate, draw
 
 #: An experiment may take so long [s], and its process so much memory [bytes].
 TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
@@ -24,7 +27,13 @@ TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
 
 @dataclass(frozen=True)
 class Section:
-    """One experiment on the page: its answer, or why there is none; and whether it was run in full."""
+    """One experiment on the page: its answer, or why there is none.
+
+    Attributes:
+        full: whether it was run in full.
+        made_by: its command, where that is not the experiment's own.
+        motions: its animations, as HTML.
+    """
 
     experiment: Experiment
     result: Result | None = None
@@ -33,10 +42,14 @@ class Section:
     downloads: Sequence[tuple[str, str]] = ()
     failure: str = ""
     full: bool = False
+    made_by: str = ""
+    motions: str = ""
 
     @property
     def command(self) -> str:
         """What makes its figure and tables."""
+        if self.made_by:
+            return self.made_by
         name = self.experiment.name
         return f"springlab report --only {name} --full" if self.full else f"springlab run {name}"
 
@@ -51,13 +64,15 @@ def section(experiment: Experiment, folder: Path, progress: Progress) -> Section
         result = experiment.run(progress)
         picture = draw(experiment.name, result)
         files = write_tables(result, folder)
-        svg = picture.svg()
+        svg, motions = picture.svg(), animate(experiment.name, result)
         (folder / f"{experiment.name}.svg").write_text(svg, encoding="utf-8")
     except (OSError, StoreError):
         raise
     except Exception as error:
         return Section(experiment, failure=f"{type(error).__name__}: {error}")
-    return Section(experiment, result, svg, picture.alt, [(file.name, embedded(file)) for file in files])
+    return Section(
+        experiment, result, svg, picture.alt, [(file.name, embedded(file)) for file in files], motions=motions
+    )
 
 
 def all_sections(
@@ -70,24 +85,46 @@ def all_sections(
 ) -> list[Section]:
     """A section for every experiment, in their order, each with a folder of its own.
 
-    Experiments run beside one another, each in a process of its own; those that measure times run alone, at the end.
+    What is kept of before, with nothing changed since, is shown again. The others run beside one another, each in
+    a process of its own; those that measure times run alone, at the end.
 
     Args:
         full: whether those that can are to be run in full.
     """
-    crowd = [experiment for experiment in experiments if not experiment.timed]
-    alone = [experiment for experiment in experiments if experiment.timed]
+    from report.kept import keep, kept
+
+    shelf = current().store
     done: dict[str, Section] = {}
-    progress(f"0 of {len(experiments)} done")
+    for experiment in [] if fresh else experiments:
+        again = None if shelf is None else kept(experiment, full, shelf, folder)
+        if again is not None:
+            done[experiment.name] = again
+    missing = [experiment for experiment in experiments if experiment.name not in done]
+    crowd = [experiment for experiment in missing if not experiment.timed]
+    alone = [experiment for experiment in missing if experiment.timed]
+    progress(f"{len(done)} of {len(experiments)} done")
     for group, workers in ((crowd, os.cpu_count()), (alone, 1)):
         with current().threads(workers) as pool:
             made = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
+            begin = perf_counter()
             running = {pool.submit(made, experiment): experiment for experiment in group}
             for future in as_completed(running):
-                done[running[future].name] = future.result()
+                came = future.result()
+                seconds = perf_counter() - begin
+                done[running[future].name] = came if shelf is None else keep(came, full, shelf, seconds)
                 left = [experiment.name for experiment in running.values() if experiment.name not in done]
                 progress(f"{len(done)} of {len(experiments)} done; next: {', '.join(left)}")
     return [done[experiment.name] for experiment in experiments]
+
+
+def scene_sections(setup: Setup, command: str, folder: Path, progress: Progress) -> list[Section]:
+    """A section for every question to somebody's scene, each with a folder of its own."""
+    made = []
+    for experiment in experiments_of(setup):
+        progress(experiment.title)
+        asked = section(experiment, folder / experiment.name, progress)
+        made.append(replace(asked, made_by=command))
+    return made
 
 
 def _isolated_section(experiment: Experiment, folder: Path, store: Path, fresh: bool, full: bool) -> Section:

@@ -95,3 +95,9 @@ def draw(name: str, result: Result) -> Picture:
     with ONE_AT_A_TIME, rc_context(STYLE):
         picture: Picture = importlib.import_module(f"report.figures.{name}").draw(result)
     return picture
+
+
+def animate(name: str, result: Result) -> str:
+    """The animations of an experiment's result as HTML, by report.figures.NAME where that makes any."""
+    found = getattr(importlib.import_module(f"report.figures.{name}"), "animate", None)
+    return "" if found is None else str(found(result))

@@ -33,6 +33,14 @@ def draw(result: Result) -> Picture:
     return Picture(figure, _alt(motions))
 
 
+def animate(result: Result) -> str:
+    """Some of the scenes as they move."""
+    from report.animations import SHOWN, animated
+
+    motions = result.data["motions"]
+    return "".join(animated(name, *motions[name]).html() for name in SHOWN if name in motions)
+
+
 def still(figure: Any, axes: Any, system: MassSpringSystem, motion: Trajectory) -> None:
     """The end of a motion on axes, with the scale of strain at their right."""
     from matplotlib.axes import Axes

@@ -37,6 +37,8 @@ def _panel(panel: object, case: str, rows: Sequence[Row], names: Sequence[str]) 
             axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)  # type: ignore[attr-defined]
         if row.measured.dt is not None:
             axes.plot(row.measured.dt, y, color=COLOURS[1], markersize=5, **MEASURED)  # type: ignore[attr-defined]
+        if row.predicted.dt is not None and row.measured.dt is None:
+            axes.text(1.2 * row.predicted.dt, y, "not measured", va="center", fontsize=8, color="#555555")  # type: ignore[attr-defined]
         if row.predicted.dt is None and row.measured.dt is None:
             word = _short(row)
             axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), va="center", fontsize=8, color="#555555")  # type: ignore[attr-defined]

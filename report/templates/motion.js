@@ -21,17 +21,17 @@ for (const figure of document.querySelectorAll(".motion")) {
       dot.setAttribute("cx", at(frame, data.dotted[i], 0)); dot.setAttribute("cy", at(frame, data.dotted[i], 1));
     });
   };
-  const controls = document.createElement("p"), button = document.createElement("button");
+  const controls = document.createElement("figcaption"), button = document.createElement("button");
   const slider = document.createElement("input");
   Object.assign(slider, {type: "range", min: 0, max: data.frames - 1, value: data.frames - 1});
-  slider.setAttribute("aria-label", "time");
-  controls.append(button, slider);
+  slider.setAttribute("aria-label", `time, ${figure.dataset.name}`);
+  controls.append(`${figure.dataset.name} `, button, slider);
   figure.append(controls);
   let playing = false, begin = 0;
   const each = 1000 * data.duration / (data.frames - 1);
   const tick = (now) => {
     if (!playing) return;
-    const frame = Math.floor((now - begin) / each) % data.frames;
+    const frame = Math.max(0, Math.floor((now - begin) / each)) % data.frames;  // a frame can begin before "begin"
     slider.value = frame;
     show(frame);
     requestAnimationFrame(tick);
@@ -42,6 +42,7 @@ for (const figure of document.querySelectorAll(".motion")) {
     begin = performance.now() - (slider.value % (data.frames - 1)) * each;
     if (playing) requestAnimationFrame(tick);
   };
+  addEventListener("beforeprint", () => { play(false); slider.value = data.frames - 1; show(data.frames - 1); });
   button.onclick = () => play(!playing);
   slider.oninput = () => { play(false); show(+slider.value); };
   play(!matchMedia("(prefers-reduced-motion: reduce)").matches);

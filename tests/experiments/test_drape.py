@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from engines.engine import find as find_engine
 from experiments import drape
 from experiments.drape import DIRECTIONS, able, cloth, covered, folds, hung, hung_in, shadow
 from reference.drape import disc
@@ -81,7 +82,7 @@ def test_an_engine_hangs_the_same_cloth() -> None:
     if not names:
         pytest.skip("no engine is installed that can take it")
     assert len({find("drape").name, *names}) == len(names) + 1
-    found = hung_in(names[-1], 0.017, 0.02, 0)
+    found = hung_in(find_engine(names[-1]), 0.017, 0.02, 0)
     assert found["coefficient"] == pytest.approx(hung(0.017, 0.02, 0)["coefficient"], abs=1e-3)
 
 

@@ -7,7 +7,10 @@ from html.parser import HTMLParser
 
 #: Attributes that make a browser fetch or go somewhere, and elements that do without one.
 ADDRESSES = ("src", "href", "xlink:href", "srcset", "poster", "data", "action", "formaction", "background", "ping")
-FETCHING = ("script", "link", "iframe", "frame", "object", "embed", "base", "form")
+FETCHING = ("link", "iframe", "frame", "object", "embed", "base", "form")
+
+#: What a script could ask for something with.
+ASKING = ("http", "//www", "fetch", "import", "XMLHttp", "WebSocket", "EventSource", "sendBeacon", "location")
 
 
 class Page(HTMLParser):
@@ -16,6 +19,7 @@ class Page(HTMLParser):
     Attributes:
         elements: every element's name and attributes, in order.
         styles: the texts of all style elements and attributes.
+        scripts: the texts of all script elements.
         words: the text outside of styles, pictures and scripts.
     """
 
@@ -23,6 +27,7 @@ class Page(HTMLParser):
         super().__init__()
         self.elements: list[tuple[str, dict[str, str]]] = []
         self.styles: list[str] = []
+        self.scripts: list[str] = []
         self.words = ""
         self._inside: list[str] = []
         self.feed(html)
@@ -45,6 +50,8 @@ class Page(HTMLParser):
         """Note a text."""
         if "style" in self._inside:
             self.styles.append(data)
+        elif "script" in self._inside:
+            self.scripts.append(data)
         elif not self._inside:
             self.words += data
 
@@ -67,6 +74,9 @@ def check_self_contained(html: str) -> None:
             check_address(attributes.get(name, "#"), f"<{tag} {name}>")
     for name in ("clip-path", "fill", "stroke", "mask", "filter", "marker-start", "marker-mid", "marker-end"):
         page.styles += page.attributes(name)
+    for script in page.scripts:
+        for word in ASKING:
+            assert word not in script, f"a script says {word}"
     for style in page.styles:
         assert "@import" not in style
         for address in re.findall(r"url\(\s*['\"]?([^'\")]*)", style):

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from experiments.experiment import find, write_tables
-from report.figures import draw
+from report.figures import animate, draw
 from report.page import page
 from report.sections import Section, embedded
 from tests.report.browser import VIEWS, Shown, chromium
@@ -40,7 +40,8 @@ def _section(name: str, folder: Path) -> Section:
     result = replace(result, findings=[*result.findings, "One more.", "And another."])
     picture = draw(name, result)
     files = write_tables(result, folder)
-    return Section(find(name), result, picture.svg(), picture.alt, [(file.name, embedded(file)) for file in files])
+    downloads = [(file.name, embedded(file)) for file in files]
+    return Section(find(name), result, picture.svg(), picture.alt, downloads, motions=animate(name, result))
 
 
 @pytest.mark.parametrize("view", VIEWS, ids=str)

@@ -1,0 +1,120 @@
+"""What a report says of somebody's own scene: which dt to use, how engines move it, what it is made of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+import numpy as np
+
+from experiments import advice_words
+from experiments.advice import Advice, installed
+from experiments.comparison import compare
+from experiments.divergence import result_of
+from experiments.experiment import Experiment, Result, Table
+from experiments.runs import Progress
+from reference.catalogue import find
+from reference.changes import whole_steps
+from reference.outcome import Outcome
+from reference.scenes import Setup
+from reference.state import Array, Trajectory
+from reference.stepper import catalogued
+
+#: The scheme that shows how the scene moves, and how many of its states are kept.
+SHOWN_BY, STATES = "heun", 60
+
+
+def experiments_of(setup: Setup) -> list[Experiment]:
+    """The questions to a scene, the one about dt first."""
+
+    @cache
+    def advised() -> Result:
+        return advice_words.answer(setup, told[-1])
+
+    told: list[Progress] = [lambda _: None]
+
+    def ask(progress: Progress) -> Result:
+        told.append(progress)
+        return advised()
+
+    questions = [
+        ("advice", "Which dt", f"With which dt is {setup.name} stable, in each engine?", ask),
+        (
+            "motion",
+            "The motion compared",
+            "How far is each engine from the true motion?",
+            lambda p: moved(setup, ask(p), p),
+        ),
+        ("own_scene", "The scene", "What is it made of, and where does it end?", lambda _: made_of(setup)),
+    ]
+    if not len(setup.system.springs):  # there is nothing that engines could do in different ways
+        del questions[1]
+    return [Experiment(name, title, question, "", run) for name, title, question, run in questions]
+
+
+def moved(setup: Setup, advised: Result, progress: Progress) -> Result:
+    """All engines that can take the scene against its true motion; with the advised dt where none survives its own."""
+    found: Sequence[Advice] = advised.data["advice"]
+    able = [advice.engine for advice in found if advice.own.ending != "unsupported"]
+    survive = any(advice.own.ending == "done" for advice in found)
+    steps = [advice.advised for advice in found if advice.advised]
+    dt = setup.dt if survive or not steps else min(steps)
+    at = Setup(setup.name, setup.system, dt, setup.duration, setup.changes)
+    result = result_of(compare(at, [engine for engine in installed() if engine.name in able], progress))
+    start = f"With dt = {dt:g} s, {'its own' if survive or not steps else 'as none comes to its end with its own'}. "
+    first, *others = result.findings
+    return Result([start + first, *others], result.tables, result.data, result.failures)
+
+
+def made_of(setup: Setup) -> Result:
+    """The scene's parameters and changes in a table, and its motion by the reference."""
+    system = setup.system
+    rows: list[list[object]] = [
+        ["masses", len(system.masses), ""],
+        ["of them fixed", int(system.fixed.sum()), ""],
+        ["springs", len(system.springs), ""],
+        ["mass of one", _range(system.masses), "kg"],
+        ["rest length", _range(system.rest_lengths), "m"],
+        ["stiffness", _range(system.stiffness), "N/m"],
+        ["damping along springs", _range(system.damping), "N s/m"],
+        ["drag on every mass", f"{system.drag:g}", "N s/m"],
+        ["gravity", ", ".join(f"{g:g}" for g in system.gravity), "m/s^2"],
+        ["obstacles", ", ".join(obstacle.kind for obstacle in system.obstacles) or "none", ""],
+        ["dt", f"{setup.dt:g}", "s"],
+        ["duration", f"{setup.duration:g}", "s"],
+        *_changes(setup),
+    ]
+    shown = _motion(setup)
+    end = f"after {shown.times[-1]:g} s, by {SHOWN_BY}"
+    finding = f"{setup.name} has {len(system.masses)} masses and {len(system.springs)} springs; it is shown {end}."
+    return Result([finding], [Table("scene", ["what", "value", "unit"], rows)], {"system": system, "motion": shown})
+
+
+def _range(values: Array) -> str:
+    if not len(values):
+        return "none"
+    low, high = float(np.min(values)), float(np.max(values))
+    return f"{low:g}" if low == high else f"{low:g} to {high:g}"
+
+
+def _changes(setup: Setup) -> list[list[object]]:
+    """Each parameter that changes on the fly, when for the first and the last time."""
+    rows: list[list[object]] = []
+    for name in dict.fromkeys(change.parameter for change in setup.changes):
+        times = sorted(change.time for change in setup.changes if change.parameter == name)
+        count = f"{len(times)} times, from {times[0]:g} to {times[-1]:g}" if len(times) > 1 else f"at {times[0]:g}"
+        rows.append([f"{name} changes", count, "s"])
+    return rows
+
+
+def _motion(setup: Setup) -> Trajectory:
+    """By the reference, up to where it blows up if it does; at about STATES times."""
+    steps = whole_steps(setup.dt, setup.duration)
+    outcome: Outcome = catalogued()[find(SHOWN_BY).name].run(setup.system, setup.dt, steps, setup.changes)
+    whole = outcome.trajectory
+    last = len(whole) - 1 if whole is not None and outcome.ending == "done" else 0
+    if whole is None or not last:
+        start = setup.system.start
+        return Trajectory.of([start])
+    kept = [round(i * last / STATES) for i in range(STATES + 1)] if last > STATES else list(range(last + 1))
+    return Trajectory(whole.times[kept], whole.positions[kept], whole.velocities[kept])
