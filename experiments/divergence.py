@@ -10,6 +10,7 @@ from experiments.experiment import Experiment, Result, Table
 from experiments.runs import Progress
 from experiments.steppers import default_steppers
 from reference.scenes import Setup, find
+from reference.state import Array
 
 
 def setup() -> Setup:
@@ -65,9 +66,14 @@ def _over_time(comparison: Comparison) -> Table:
     rows = []
     for run in comparison.runs:
         for i, time in enumerate(comparison.times.tolist()):
-            error, deviation = (None if a is None else finite(float(a[i])) for a in (run.error, run.deviation))
+            error, deviation = (_at(distances, i) for distances in (run.error, run.deviation))
             rows.append([run.stepper.name, time, error, deviation])
     return Table("divergence_over_time", ["stepper", "time [s]", "error [m]", "deviation [m]"], rows)
+
+
+def _at(distances: Array | None, i: int) -> float | None:
+    """The i-th distance [m]; None where there is none, as after a run has blown up."""
+    return None if distances is None or i >= len(distances) else finite(float(distances[i]))
 
 
 def _failures(comparison: Comparison) -> list[str]:

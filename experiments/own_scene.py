@@ -13,15 +13,16 @@ from experiments.comparison import compare
 from experiments.divergence import result_of
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs import Progress
-from reference.catalogue import find
 from reference.changes import whole_steps
-from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
 from reference.stepper import catalogued
 
 #: The scheme that shows how the scene moves, and how many of its states are kept.
-SHOWN_BY, STATES = "heun", 60
+SHOWN_BY, STATES = "rk4", 60
+
+#: Where it blows up with the scene's own dt, these parts of that are tried.
+SHORTER = (1, 4, 16, 64)
 
 
 def experiments_of(setup: Setup) -> list[Experiment]:
@@ -84,8 +85,8 @@ def made_of(setup: Setup) -> Result:
         ["duration", f"{setup.duration:g}", "s"],
         *_changes(setup),
     ]
-    shown = _motion(setup)
-    end = f"after {shown.times[-1]:g} s, by {SHOWN_BY}"
+    shown, dt = _motion(setup)
+    end = f"after {shown.times[-1]:g} s, by {SHOWN_BY} with dt = {dt:g} s"
     finding = f"{setup.name} has {len(system.masses)} masses and {len(system.springs)} springs; it is shown {end}."
     return Result([finding], [Table("scene", ["what", "value", "unit"], rows)], {"system": system, "motion": shown})
 
@@ -107,14 +108,17 @@ def _changes(setup: Setup) -> list[list[object]]:
     return rows
 
 
-def _motion(setup: Setup) -> Trajectory:
-    """By the reference, up to where it blows up if it does; at about STATES times."""
-    steps = whole_steps(setup.dt, setup.duration)
-    outcome: Outcome = catalogued()[find(SHOWN_BY).name].run(setup.system, setup.dt, steps, setup.changes)
-    whole = outcome.trajectory
-    last = len(whole) - 1 if whole is not None and outcome.ending == "done" else 0
-    if whole is None or not last:
-        start = setup.system.start
-        return Trajectory.of([start])
+def _motion(setup: Setup) -> tuple[Trajectory, float]:
+    """By the reference, at about STATES times; and the step [s], as much shorter than its own as it takes to live."""
+    for shorter in SHORTER:
+        dt = setup.dt / shorter
+        outcome = catalogued()[SHOWN_BY].run(setup.system, dt, whole_steps(dt, setup.duration), setup.changes)
+        if outcome.ending == "done" and outcome.trajectory is not None:
+            return _thinned(outcome.trajectory), dt
+    return Trajectory.of([setup.system.start]), dt
+
+
+def _thinned(whole: Trajectory) -> Trajectory:
+    last = len(whole) - 1
     kept = [round(i * last / STATES) for i in range(STATES + 1)] if last > STATES else list(range(last + 1))
     return Trajectory(whole.times[kept], whole.positions[kept], whole.velocities[kept])

@@ -14,11 +14,14 @@ import pytest
 from engines.engine import registry, version
 from engines.isolation import EngineStepper
 from experiments.comparison import compare, too_slow
+from experiments.divergence import result_of
 from experiments.steppers import all_steppers, default_steppers
+from reference.catalogue import find as find_scheme
 from reference.catalogue import schemes
 from reference.lecture import listings
 from reference.scenes import Setup
 from reference.scenes import find as find_scene
+from reference.stepper import SchemeStepper
 from tests.experiments.terminal import springlab
 
 #: [m], where the string is 1.25 m long.
@@ -279,3 +282,15 @@ def test_engines_say_how_many_masses_are_too_many() -> None:
     large = find_scene("cloth").system({"rows": 30, "columns": 30})
     assert too_slow(all_steppers()["mujoco_tendons_implicit"], large) is not None
     assert too_slow(all_steppers()["mujoco_rope"], large) is None
+
+
+def test_after_a_run_has_ended_early_it_has_no_distance() -> None:
+    """Heun with steps three times too long is no number before the end: the rows after that are empty."""
+    system = find_scene("string").system({})
+    comparison = compare(Setup("string", system, 0.03, 30.0), [SchemeStepper(find_scheme("heun"))])
+    (run,) = comparison.runs
+    assert run.error is not None
+    assert len(run.error) < len(comparison.times)
+    rows = result_of(comparison).tables[1].rows
+    assert len(rows) == len(comparison.times)
+    assert rows[-1][2] is None
