@@ -12,7 +12,7 @@ from reference.changes import Change
 from reference.errors import InputError, SolverError
 from reference.exact import WHY_NOT_EXACT
 from reference.state import Array, State
-from reference.system import MassSpringSystem, Value
+from reference.system import Value
 from report.live.cursor import at_rest_where_fixed, hook, on_hook, pinned, with_cursor, without_last
 from report.live.history import History, Moment
 from report.live.measures import Measures
@@ -30,7 +30,7 @@ MOST_WORLDS = 4
 BUDGET = 0.03
 
 #: And the true motion so long for one, on average; beyond that it is not followed.
-TRUTH_BUDGET = 0.012
+TRUTH_BUDGET = 0.02
 
 TOO_SLOW = "the true motion is not followed: it takes too long here; distances are from the first world"
 

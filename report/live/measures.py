@@ -20,7 +20,8 @@ class Measures:
     """Rows of numbers, one for each frame: the lab's clock, the time, and three numbers for each world.
 
     Energy is in J. Momentum is how far its sum is from that of the true motion [kg m/s], distance how far the mass is
-    that is farthest from where it truly is [m]; where the true motion is not followed, from the first world's.
+    that is farthest from where it truly is [m]. Where the true motion is not followed both are from the first world's, and of
+    that one they are no numbers.
     """
 
     def __init__(self, names: Sequence[str]) -> None:
@@ -41,8 +42,9 @@ class Measures:
         for world in worlds:
             state = State(0.0, world.state.positions[:n], world.state.velocities[:n])
             row.append(world.energy)
-            row.append(float(np.linalg.norm(momentum(own, state) - right_momentum)))
-            row.append(distance(state, right))
+            known = true is not None or world is not worlds[0]
+            row.append(float(np.linalg.norm(momentum(own, state) - right_momentum)) if known else np.nan)
+            row.append(distance(state, right) if known else np.nan)
         self._rows.append(tuple(row))
 
     def forget_after(self, clock: float) -> None:
