@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
 from experiments.advice import rounded_down
 from report.live import scenes
 from report.live.dials import Dial
-from report.live.lab import MOST_WORLDS, Lab
+from report.live.lab import Lab
 from report.live.parameters import GRAVITIES, PRESETS, sliders
-from report.live.stepping import choices
+from report.live.stepping import MOST_WORLDS, choices
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -58,6 +59,15 @@ class Controls:
         """Where plots are to go."""
         return self._plots_tab
 
+    def _by_viewer(self, action: Callable[[], None]) -> Callable[[Any], None]:
+        """What to do when a viewer moves something; what the page sets itself is no news."""
+
+        def moved(event: Any) -> None:
+            if event.client is not None:
+                self._page.do(action)
+
+        return moved
+
     # Made once.
 
     def _add_run(self) -> None:
@@ -66,7 +76,7 @@ class Controls:
             run = gui.add_button_group("", ("Play", "Pause", "Step", "Reset"))
             run.on_click(lambda event: page.do(lambda: self._run(event.target.value)))
             self._back = gui.add_slider("back [s]", min=0.0, max=10.0, step=0.05, initial_value=0.0)
-            self._back.on_update(lambda event: event.client and page.do(self._rewind))
+            self._back.on_update(self._by_viewer(self._rewind))
             self._speed = Dial(
                 self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, lambda value: page.do(self._pace)
             )
@@ -78,9 +88,9 @@ class Controls:
         with gui.add_folder("Scene") as self._scene_folder:
             names = page.scene_names()
             self._scene = gui.add_dropdown("scene", names, initial_value=page.lab.opened.name)
-            self._scene.on_update(lambda event: event.client and page.do(lambda: page.open(self._scene.value)))
+            self._scene.on_update(self._by_viewer(lambda: page.open(self._scene.value)))
             self._barrier = gui.add_checkbox("barrier in the way", False)
-            self._barrier.on_update(lambda event: event.client and page.do(self._reopen))
+            self._barrier.on_update(self._by_viewer(self._reopen))
             slides = gui.add_button_group("as on slide", tuple(PRESETS))
             slides.on_click(lambda event: page.do(lambda: page.preset(event.target.value)))
 
@@ -91,7 +101,7 @@ class Controls:
             for i in range(MOST_WORLDS):
                 options = choices() if i == 0 else [NOBODY, *choices()]
                 menu = gui.add_dropdown(f"world {i + 1}", options, initial_value=options[0])
-                menu.on_update(lambda event: event.client and page.do(self._choose))
+                menu.on_update(self._by_viewer(self._choose))
                 self._worlds.append(menu)
             beside = gui.add_checkbox("side by side", False)
             beside.on_update(lambda _: page.do(lambda: setattr(page.stage, "beside", beside.value)))
@@ -126,7 +136,7 @@ class Controls:
                     self._gui.add_dropdown(name, words, initial_value=lab.opened.settings.get(name, words[0]))
                 )
             for part in self._counts.values():
-                part.on_update(lambda event: event.client and self._page.do(self._reopen))
+                part.on_update(self._by_viewer(self._reopen))
         with self._parameters:
             self._add_dials(lab)
         for i, menu in enumerate(self._worlds):
@@ -151,7 +161,7 @@ class Controls:
             self._dials[slider.name] = Dial(
                 self._client,
                 label,
-                lab._set.get(slider.name, slider.value),
+                lab.numbers.get(slider.name, slider.value),
                 slider.low,
                 slider.high,
                 move,

@@ -9,8 +9,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from reference.changes import Change
-from reference.errors import InputError, SolverError
-from reference.exact import WHY_NOT_EXACT
+from reference.errors import InputError
 from reference.state import Array, State
 from reference.system import Value
 from report.live.cursor import at_rest_where_fixed, hook, on_hook, pinned, with_cursor, without_last
@@ -20,19 +19,12 @@ from report.live.parameters import own_value
 from report.live.prediction import Prediction, Predictor
 from report.live.reproduction import Reproduction, Stretch, reproduction
 from report.live.scenes import Opened, open_scene
-from report.live.stepping import Stopped, choices
-from report.live.world import World, true_state
-
-#: No more worlds than can be told apart by their colours.
-MOST_WORLDS = 4
+from report.live.stepping import checked
+from report.live.truth import Truth
+from report.live.world import World, ending
 
 #: All worlds together may take so long for a frame [s]; then the lab goes slower than asked.
 BUDGET = 0.03
-
-#: And the true motion so long for one, on average; beyond that it is not followed.
-TRUTH_BUDGET = 0.02
-
-TOO_SLOW = "the true motion is not followed: it takes too long here; distances are from the first world"
 
 
 class Lab:
@@ -48,6 +40,7 @@ class Lab:
         speed: seconds of the scene in a second.
         most_steps: no more in a frame.
         notice: what the last blow-up or failure was; empty where there was none.
+        numbers: of parameters that were moved since the scene was opened.
     """
 
     def __init__(
@@ -58,6 +51,8 @@ class Lab:
     ) -> None:
         self.playing, self.speed, self.most_steps, self.notice = False, 1.0, 1000, ""
         self.worlds: list[World] = []
+        self._grabbed: int | None = None
+        self._at: Moment | None = None
         self._predictor = Predictor()
         self._steppers = checked(steppers)
         self.open(scene, settings)
@@ -75,19 +70,20 @@ class Lab:
         opened = open_scene(scene, settings, barrier)
         self.opened: Opened = opened
         self.own, self._dt = opened.system, opened.dt if dt is None else dt
-        self._set: dict[str, float] = {}
+        self.numbers: dict[str, float] = {}
         self.reset()
 
     def reset(self) -> None:
         """Back to the scene's start, with the parameters as they are now."""
         self.notice, self.clock, self.time = "", 0.0, 0.0
-        self._carry, self._grabbed, self._at = 0.0, None, None
+        self._carry = 0.0
+        self._grabbed = self._at = None
         self.own = self.system = self.opened.system
         self._due = sorted(self.opened.changes, key=lambda c: c.time)
         self._begin(self.opened.settings if self.opened.as_named else None, [self.own.start] * len(self._steppers))
         self._history, self.measures = History(), Measures(self._steppers)
-        self._follow_truth()
-        for name, number in self._set.items():
+        self._truth = Truth(self.own)
+        for name, number in self.numbers.items():
             self._change(name, own_value(self.opened.system, name, number))
         self._ask()
         self._record()
@@ -142,7 +138,7 @@ class Lab:
         value = own_value(self.opened.system, name, number)
         self.own.with_parameter(name, value)
         self._go_on_from_here()
-        self._set[name] = number
+        self.numbers[name] = number
         self._change(name, value)
         self._ask()
 
@@ -194,10 +190,10 @@ class Lab:
             return
         self._go_on_from_here()
         states = [self._without_cursor(world.state) for world in self.worlds]
-        true = None if self.true is None else self._without_cursor(self.true)
+        true = None if self._truth.state is None else self._without_cursor(self._truth.state)
         self._grabbed, self.system = mass, with_cursor(self.own, mass, place)
         end = hook(self.own, place)
-        self.true = None if true is None else on_hook(true, end)
+        self._truth.state = None if true is None else on_hook(true, end)
         self._begin(None, [on_hook(state, end) for state in states])
 
     def release(self) -> None:
@@ -205,7 +201,7 @@ class Lab:
         if self._grabbed is None:
             return
         states = [self._without_cursor(world.state) for world in self.worlds]
-        self.true = None if self.true is None else self._without_cursor(self.true)
+        self._truth.state = None if self._truth.state is None else self._without_cursor(self._truth.state)
         self._grabbed, self.system = None, self.own
         self._begin(None, states)
 
@@ -216,8 +212,8 @@ class Lab:
         self.release()
         self._go_on_from_here()
         self.own = self.system = pinned(self.own, mass)
-        if self.true is not None:
-            self.true = at_rest_where_fixed(self.own, self.true)
+        if self._truth.state is not None:
+            self._truth.state = at_rest_where_fixed(self.own, self._truth.state)
         self._again()
 
     def _without_cursor(self, state: State) -> State:
@@ -246,11 +242,12 @@ class Lab:
             now = self._until_due(min(left, chunk))
             for world in self.worlds:
                 world.advance(now)
-            self._advance_truth(now)
+            self._truth.advance(self.system, now * self._dt)
             self.stretch = self.stretch.after(now)
             self.time += now * self._dt
             left -= now
-            self._look_for_ends()
+            for world in self.worlds:
+                self._tell(world)
             if time.perf_counter() > deadline:
                 break
             # twice as many at a time as long as they are quick
@@ -275,7 +272,7 @@ class Lab:
         self.playing, self.notice, self._at = False, "", moment
         for world, state in zip(self.worlds, moment.states, strict=True):
             world.state = state
-        self.time, self.own, self.system, self.true = moment.time, moment.own, moment.system, moment.true
+        self.time, self.own, self.system, self._truth.state = moment.time, moment.own, moment.system, moment.true
 
     def _go_on_from_here(self) -> None:
         """If the past is being looked at, it is now the present."""
@@ -305,6 +302,16 @@ class Lab:
     # What is known.
 
     @property
+    def true(self) -> State | None:
+        """Where it truly is; None where that is not followed."""
+        return self._truth.state
+
+    @property
+    def why_no_truth(self) -> str:
+        """Why it is not followed; empty where it is."""
+        return self._truth.why_not
+
+    @property
     def predictions(self) -> Mapping[str, Prediction]:
         """By stepper, for the parameters last answered for."""
         return self._predictor.found
@@ -326,28 +333,6 @@ class Lab:
     def _ask(self) -> None:
         self._predictor.ask(self._steppers, self.own, self._dt)
 
-    def _follow_truth(self) -> None:
-        self.why_no_truth = WHY_NOT_EXACT if self.own.obstacles else ""
-        self.true: State | None = None if self.own.obstacles else self.own.start
-        self._truth_took = 0.0
-
-    def _advance_truth(self, steps: int) -> None:
-        if self.true is None:
-            return
-        begin = time.perf_counter()
-        try:
-            self.true = true_state(self.system, self.true, steps * self._dt)
-        except (SolverError, Stopped) as error:
-            self.true, self.why_no_truth = None, str(error)
-        # slowly: the first time SciPy is imported, and others use the machine too
-        self._truth_took += 0.05 * (min(time.perf_counter() - begin, 0.1) - self._truth_took)
-        if self._truth_took > TRUTH_BUDGET:
-            self.true, self.why_no_truth = None, TOO_SLOW
-
-    def _look_for_ends(self) -> None:
-        for world in self.worlds:
-            self._tell(world)
-
     def _tell(self, world: World) -> None:
         """Of a world that has stopped just now, once: then everything pauses."""
         if world.stopped and not world.told:
@@ -356,30 +341,8 @@ class Lab:
             self.notice = " ".join(filter(None, [self.notice, ending(world, self._dt, self.predictions)]))
 
     def _record(self) -> None:
-        self.measures.take(self.clock, self.time, self.worlds, self.true, self.own)
+        self.measures.take(self.clock, self.time, self.worlds, self._truth.state, self.own)
         states = tuple(world.state for world in self.worlds)
         self._history.keep(
-            Moment(self.clock, self.time, self.own, self.system, states, self.true, self.stretch, self._grabbed)
+            Moment(self.clock, self.time, self.own, self.system, states, self._truth.state, self.stretch, self._grabbed)
         )
-
-
-def checked(names: Sequence[str]) -> tuple[str, ...]:
-    """Steppers by name, if they are known and not too many. Raises InputError."""
-    from reference.errors import unknown_name
-
-    if not 1 <= len(names) <= MOST_WORLDS:
-        raise InputError(f"{len(names)} worlds: expected from 1 to {MOST_WORLDS}")
-    known = choices()
-    for name in names:
-        if name not in known:
-            raise unknown_name("stepper", name, known)
-    return tuple(names)
-
-
-def ending(world: World, dt: float, predictions: Mapping[str, Prediction]) -> str:
-    """What is said of a world that has stopped: what happened, and what theory makes of dt."""
-    if not world.blown_up:
-        return f"{world.name} stopped: {world.stopped}."
-    said = f"{world.name} blew up: {world.stopped}."
-    known = predictions.get(world.name)
-    return f"{said} {known.of(dt)}" if known else said

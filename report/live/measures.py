@@ -20,8 +20,8 @@ class Measures:
     """Rows of numbers, one for each frame: the lab's clock, the time, and three numbers for each world.
 
     Energy is in J. Momentum is how far its sum is from that of the true motion [kg m/s], distance how far the mass is
-    that is farthest from where it truly is [m]. Where the true motion is not followed both are from the first world's, and of
-    that one they are no numbers.
+    that is farthest from where it truly is [m]. Where the true motion is not followed both are from the first world's,
+    and of that one they are no numbers.
     """
 
     def __init__(self, names: Sequence[str]) -> None:

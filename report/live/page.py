@@ -12,8 +12,7 @@ import threading
 import time
 import traceback
 from collections.abc import Callable
-from contextlib import ExitStack
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -199,12 +198,6 @@ class Page:
         known = scenes.names()
         return known if self._scene in known else [self._scene, *known]
 
-    def everything(self) -> ExitStack:
-        """All that is put on the page within comes at once."""
-        stack = ExitStack()
-        stack.enter_context(self._client.atomic())
-        return stack
-
 
 def banner(text: str, colour: str, role: str = "status") -> str:
     """A line that is to be seen, as HTML."""
@@ -217,12 +210,8 @@ def copyable(lines: str, note: str) -> str:
     copy = "const t=this.previousElementSibling;t.select();navigator.clipboard?navigator.clipboard.writeText(t.value)"
     copy += ":document.execCommand('copy');this.textContent='Copied'"
     area = (
-        '<textarea readonly aria-label="command" rows="5" style="width:100%;font:.75em monospace" onclick="this.select()"'
-        f' data-springlab="command">{html.escape(lines)}</textarea>'
+        '<textarea readonly aria-label="command" rows="5" style="width:100%;font:.75em monospace" '
+        f'onclick="this.select()">{html.escape(lines)}</textarea>'
     )
     button = f'<button type="button" onclick="{html.escape(copy)}">Copy</button>'
     return f'<div style="margin:.2em .8em">{area}{button} <small>{html.escape(note)}</small></div>'
-
-
-def ask_nothing(*_: Any) -> None:
-    """For events nobody waits for."""

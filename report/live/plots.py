@@ -51,9 +51,9 @@ class Plots:
         ]
         return client.gui.add_uplot(
             data=(nothing, *(np.zeros(2) for _ in names)),
-            series=({"label": "t [s]"}, *lines),  # type: ignore[arg-type]
-            scales={"x": {"time": False}},  # type: ignore[arg-type]
-            axes=({"label": "t [s]", "size": 36, "labelSize": 16}, {"size": 66}),  # type: ignore[arg-type]
+            series=({"label": "t [s]"}, *lines),
+            scales={"x": {"time": False}},
+            axes=({"label": "t [s]", "size": 36, "labelSize": 16}, {"size": 66}),
             title=title,
             height=190,
         )

@@ -37,7 +37,7 @@ class LiveServer:
         check_port(host, port)
         import viser
 
-        class Server(viser.ViserServer):
+        class Server(viser.ViserServer):  # type: ignore[misc]
             """One that never opens a way in from outside."""
 
             def request_share_url(self, verbose: bool = True) -> str | None:

@@ -153,7 +153,7 @@ class Stage:
             self._others.append(self._true)
         self._true.visible, self._true.points = True, points
 
-    def _places(self, system: MassSpringSystem, state: State) -> Array:
+    def _places(self, system: MassSpringSystem, state: State) -> Any:
         """In three dimensions, near enough to be drawn, in single precision."""
         places = np.zeros((len(system.masses), 3), dtype=np.float32)
         reach = 1e4 * system.size

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -19,6 +20,9 @@ from reference.loops import Loops
 from reference.obstacles import keep_out
 from reference.state import Array, State
 from reference.system import MassSpringSystem, Value
+
+#: No more worlds than can be told apart by their colours.
+MOST_WORLDS = 4
 
 #: What an engine must be able to begin with, to go on from where a world is.
 NEEDED = frozenset({"stretched", "velocities"})
@@ -45,6 +49,17 @@ def choices() -> list[str]:
     """What a world can be stepped by: every scheme, the wrong ones too, and the engines that can start in motion."""
     able = [e.name for e in registry().values() if e.capabilities >= NEEDED and version(e) is not None]
     return [*catalogue.schemes(), *able]
+
+
+def checked(names: Sequence[str]) -> tuple[str, ...]:
+    """Steppers by name, if they are known and not too many. Raises InputError."""
+    if not 1 <= len(names) <= MOST_WORLDS:
+        raise InputError(f"{len(names)} worlds: expected from 1 to {MOST_WORLDS}")
+    known = choices()
+    for name in names:
+        if name not in known:
+            raise unknown_name("stepper", name, known)
+    return tuple(names)
 
 
 def scheme_behind(name: str, system: MassSpringSystem) -> Scheme:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from reference.conserved import energy, momentum
 from reference.outcome import blow_up
 from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem, Value
-from report.live.stepping import Stepping, Stopped, moved, stepping
+from report.live.prediction import Prediction
+from report.live.stepping import Stepping, Stopped, stepping
 
 #: A spring so many times its length is no physics any more, and the eye need not wait for more.
 STRAIN = 20.0
@@ -107,14 +110,10 @@ def distance(one: State, other: State) -> float:
     return float(np.linalg.norm(one.positions[:n] - other.positions[:n], axis=1).max(initial=0.0))
 
 
-def true_state(system: MassSpringSystem, state: State, duration: float) -> State:
-    """The true motion, a moment further on: `exact` from a state, for a duration [s].
-
-    Raises:
-        SolverError: where there is none.
-        Stopped: where the state is not of numbers.
-    """
-    from reference.exact import exact
-
-    motion = exact(moved(system, state), duration, 1)
-    return State(state.time + duration, motion.positions[-1], motion.velocities[-1])
+def ending(world: World, dt: float, predictions: Mapping[str, Prediction]) -> str:
+    """What is said of a world that has stopped: what happened, and what theory makes of dt."""
+    if not world.blown_up:
+        return f"{world.name} stopped: {world.stopped}."
+    said = f"{world.name} blew up: {world.stopped}."
+    known = predictions.get(world.name)
+    return f"{said} {known.of(dt)}" if known else said
