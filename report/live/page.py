@@ -66,6 +66,9 @@ class Page:
             lab = self.lab = Lab(self._scene)
             self._open()
             self._frames()
+        except InputError as error:
+            # The file it was started with may be gone.
+            self.say(str(error))
         except Exception:
             # A viewer that is gone in the middle of a frame is no error.
             if not self._ended.is_set():

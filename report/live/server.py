@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import logging
 import socket
 import threading
 import time
@@ -64,6 +65,8 @@ class LiveServer:
 
     def stop(self) -> None:
         """End all pages, then the server."""
+        # Viewers who are still there are cut off: what websockets says of that is no news.
+        logging.getLogger("websockets.server").setLevel(logging.CRITICAL)
         with self._lock:
             pages, self.pages = list(self.pages.values()), {}
         for page in pages:

@@ -16,6 +16,9 @@ from report.live.scenes import names
 from tests.report.live.commands import ends_of
 from tests.report.live.visit import ROOT, Visitor, browser, server
 
+#: What viser's own page has to say against itself when something is dragged; nothing comes of it.
+THEIRS = ("Unable to preventDefault inside passive event listener invocation.",)
+
 #: Opened by the ordinary tests; the others with --full.
 FEW = ("cloth", "barrier")
 
@@ -42,7 +45,7 @@ def visitor(chromium: Any, address: str) -> Iterator[Visitor]:
     port = address.rpartition(":")[2]
     elsewhere = [url for url in found.asked if not re.match(rf"(blob:)?http://localhost:{port}/|data:", url)]
     found.page.close()
-    assert (elsewhere, found.errors) == ([], [])
+    assert (elsewhere, [error for error in found.errors if error not in THEIRS]) == ([], [])
 
 
 def test_past_the_limit_the_banner_comes_and_below_it_does_not(visitor: Visitor) -> None:
@@ -88,19 +91,18 @@ def test_a_mass_is_dragged(visitor: Visitor) -> None:
     """By its last mass, with the mouse, while nothing else moves: then it is no run that a command can say whole."""
     visitor.press("Pause")
     visitor.press("Reset")
-    visitor.page.wait_for_timeout(500)
+    visitor.page.wait_for_timeout(1500)
     assert "string-live" not in visitor.command()
-    found = False
-    for x in range(760, 860, 8):
-        visitor.page.mouse.move(x, 340)
-        visitor.page.mouse.down()
-        visitor.page.mouse.move(x - 60, 280, steps=4)
-        visitor.page.mouse.up()
-        visitor.page.wait_for_timeout(250)
-        if "string-live" in visitor.command():
-            found = True
-            break
-    assert found
+    x, y = visitor.rightmost_mass()
+    visitor.page.mouse.move(x, y)
+    visitor.page.wait_for_timeout(300)
+    visitor.page.mouse.down()
+    for i in range(1, 9):
+        visitor.page.mouse.move(x - 8 * i, y - 8 * i)
+        visitor.page.wait_for_timeout(60)
+    visitor.page.mouse.up()
+    visitor.page.wait_for_timeout(700)
+    assert "string-live" in visitor.command()
 
 
 @pytest.mark.parametrize("scene", names())

@@ -116,6 +116,19 @@ class Visitor:
             f"parseFloat((e.textContent.match(/t = ([0-9.]+) s/) || [])[1]) > {time})"
         )
 
+    def rightmost_mass(self) -> tuple[int, int]:
+        """Where the mass farthest to the right is on the screen [px], by its colour: blue, in whatever light."""
+        from io import BytesIO
+
+        import numpy as np
+        from PIL import Image
+
+        seen = np.asarray(Image.open(BytesIO(self.page.screenshot())).convert("RGB")).astype(int)
+        r, g, b = seen[:, 350:890].transpose(2, 0, 1)
+        rows, columns = np.nonzero((b > 130) & (b > r + 80) & (g > 70))
+        last = columns.max()
+        return 350 + int(last) - 3, int(np.median(rows[columns >= last - 4]))
+
     def command(self) -> str:
         """What "Copy command" shows."""
         self.press("Copy command")
