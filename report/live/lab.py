@@ -75,7 +75,7 @@ class Lab:
 
     def reset(self) -> None:
         """Back to the scene's start, with the parameters as they are now."""
-        self.notice, self.clock, self.time = "", 0.0, 0.0
+        self.clock = self.time = 0.0
         self._carry = 0.0
         self._grabbed = self._at = None
         self.own = self.system = self.opened.system
@@ -89,7 +89,8 @@ class Lab:
         self._record()
 
     def _begin(self, settings: Mapping[str, str] | None, states: Sequence[State]) -> None:
-        """A stretch of its own, from these states."""
+        """A stretch of its own, from these states; worlds that had stopped try again."""
+        self.notice = ""
         for world in self.worlds[len(self._steppers) :]:
             world.end()
         del self.worlds[len(self._steppers) :]
