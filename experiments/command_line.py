@@ -24,6 +24,7 @@ COMMANDS = {
     ),
     "identify": ("experiments.commands:identify_command", "Say which scheme a stepper is."),
     "stability": ("report.commands:stability_command", "Predict and measure the largest stable dt; map growth."),
+    "live": ("report.live.command:live_command", "Open a page where scenes run and everything can be changed."),
     "sweep": ("experiments.sweep_commands:sweep_command", "Run steppers over a grid of parameters; nothing is lost."),
     "results": ("experiments.sweep_commands:results_command", "Show or export what is in the store."),
     "versions": (

@@ -17,8 +17,8 @@ VIEWS += [(800, "dark", "print")]
 
 
 @contextmanager
-def chromium() -> Iterator[Any]:
-    """The browser; where there is none the test is skipped, but never in CI."""
+def chromium(*graphics: str) -> Iterator[Any]:
+    """The browser; where there is none the test is skipped, but never in CI. Without graphics unless told how."""
     found = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     if found is None:
         if os.environ.get("CI"):
@@ -27,7 +27,9 @@ def chromium() -> Iterator[Any]:
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=found, args=["--no-sandbox", "--disable-gpu"])
+        browser = playwright.chromium.launch(
+            executable_path=found, args=["--no-sandbox", *(graphics or ["--disable-gpu"])]
+        )
         try:
             yield browser
         finally:

@@ -1,0 +1,46 @@
+"""The command that opens the live lab: live."""
+
+from __future__ import annotations
+
+import os
+import sys
+
+import click
+
+#: Addresses that only this machine can reach.
+LOOPBACK = ("127.0.0.1", "localhost", "::1")
+
+
+@click.command("live")
+@click.argument("scene", default="string")
+@click.option("--host", default="127.0.0.1", show_default=True, help="The address to listen at; 0.0.0.0 is every one.")
+@click.option("--port", default=8080, show_default=True, help="0 for any that is free.")
+@click.option("--open/--no-open", "show", default=True, help="Open the page in the browser.")
+def live_command(scene: str, host: str, port: int, show: bool) -> None:
+    """Open a page where SCENE (a name or a TOML file) runs, and everything can be changed while it does."""
+    from report.live.server import LiveServer
+
+    server = LiveServer(scene, host, port)
+    try:
+        if host not in LOOPBACK:
+            print(
+                f"listening at {host}: whoever can reach this machine can use the lab and its processor",
+                file=sys.stderr,
+            )
+        print(f"springlab live: {server.address} (Ctrl-C ends it)", flush=True)
+        if show and not _opened(server.address):
+            print(f"no browser found here: open {server.address} in yours", file=sys.stderr)
+        server.wait()
+    except KeyboardInterrupt:
+        print()
+    finally:
+        server.stop()
+
+
+def _opened(address: str) -> bool:
+    """Whether a browser with a window took it; one that would take over the terminal is not asked."""
+    import webbrowser
+
+    if sys.platform.startswith("linux") and not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        return False
+    return webbrowser.open(address)

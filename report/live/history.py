@@ -1,0 +1,84 @@
+"""The last seconds, to go back to: as many frames as fit into a number of seconds and of bytes."""
+
+from __future__ import annotations
+
+from collections import deque
+from dataclasses import dataclass
+
+from reference.state import State
+from reference.system import MassSpringSystem
+from report.live.reproduction import Stretch
+
+#: So far back one can go [s of the lab's clock], and what that may take of the memory [bytes].
+SECONDS, BYTES = 10.0, 64 * 2**20
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """All there is at one frame.
+
+    Attributes:
+        clock: when it was, by the lab's own clock [s]: so many seconds it has run.
+        time: of the scene [s].
+        own: the system with its parameters.
+        system: the same with what hangs on the cursor.
+        states: one for each world.
+        true: of the true motion; None where it is not followed.
+        stretch: what has happened since the last thing no command can say.
+        grabbed: the mass that hangs on the cursor, if one does.
+    """
+
+    clock: float
+    time: float
+    own: MassSpringSystem
+    system: MassSpringSystem
+    states: tuple[State, ...]
+    true: State | None
+    stretch: Stretch
+    grabbed: int | None
+
+    @property
+    def bytes(self) -> int:
+        """What its states take."""
+        states = [*self.states, *([self.true] if self.true else [])]
+        return sum(s.positions.nbytes + s.velocities.nbytes for s in states)
+
+
+class History:
+    """Moments, the oldest first, forgotten in time."""
+
+    def __init__(self) -> None:
+        self._moments: deque[Moment] = deque()
+        self._bytes = 0
+
+    def __len__(self) -> int:
+        return len(self._moments)
+
+    @property
+    def seconds(self) -> float:
+        """How far back it goes [s]."""
+        return self._moments[-1].clock - self._moments[0].clock if self._moments else 0.0
+
+    def keep(self, moment: Moment) -> None:
+        """One more; the oldest go."""
+        self._moments.append(moment)
+        self._bytes += moment.bytes
+        while len(self._moments) > 1 and (self.seconds > SECONDS or self._bytes > BYTES):
+            self._bytes -= self._moments.popleft().bytes
+
+    def back(self, seconds: float) -> Moment | None:
+        """The moment so many seconds before the last one, or the first there is; None where there is none."""
+        if not self._moments:
+            return None
+        then = self._moments[-1].clock - seconds
+        return next((m for m in self._moments if m.clock >= then - 1e-9), self._moments[-1])
+
+    def forget_after(self, moment: Moment) -> None:
+        """What came after it has not happened."""
+        while self._moments and self._moments[-1].clock > moment.clock:
+            self._bytes -= self._moments.pop().bytes
+
+    def clear(self) -> None:
+        """Nothing has happened."""
+        self._moments.clear()
+        self._bytes = 0

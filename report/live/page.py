@@ -1,0 +1,220 @@
+"""The page of one viewer: a lab of their own, what it shows, and what they can move. All else is in `lab`.
+
+What viewers do arrives in other threads; it is put in a queue and done between two frames, in the page's own thread.
+"""
+
+from __future__ import annotations
+
+import html
+import queue
+import sys
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from reference.errors import InputError
+from report.live import scenes
+from report.live.controls import Controls
+from report.live.lab import Lab
+from report.live.parameters import PRESETS
+from report.live.plots import Plots
+from report.live.stage import Stage
+
+if TYPE_CHECKING:
+    from viser import ClientHandle
+
+#: Frames in a second, and how many go by between two looks at what is slow to show.
+RATE, SLOW_EVERY = 60, 12
+
+
+class Page:
+    """One viewer's page, in a thread of its own until `end`.
+
+    Args:
+        client: the viewer.
+        scene: to begin with.
+        company: says how many viewers there are.
+    """
+
+    def __init__(self, client: ClientHandle, scene: str, company: str) -> None:
+        self._client, self._company = client, company
+        self._todo: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._ended = threading.Event()
+        self._scene = scene
+        self.frames = 0
+        self._thread = threading.Thread(target=self._run, daemon=True)
+        self._thread.start()
+
+    def end(self) -> None:
+        """The viewer is gone."""
+        self._ended.set()
+        self._thread.join(5)
+
+    def do(self, action: Callable[[], None]) -> None:
+        """Have something done between two frames."""
+        self._todo.put(action)
+
+    # The thread.
+
+    def _run(self) -> None:
+        lab = None
+        try:
+            lab = self.lab = Lab(self._scene)
+            self._open()
+            self._frames()
+        except InputError as error:
+            # The file it was started with may be gone.
+            self.say(str(error))
+        except Exception:
+            # A viewer that is gone in the middle of a frame is no error.
+            if not self._ended.is_set():
+                traceback.print_exc(file=sys.stderr)
+        finally:
+            if lab is not None:
+                lab.end()
+
+    def _open(self) -> None:
+        self.stage = Stage(self._client, self._dragged, lambda mass: self.do(lambda: self._pin(mass)))
+        self.controls = Controls(self._client, self)
+        self._plots: Plots | None = None
+        self._plotted: tuple[str, ...] = ()
+        self.renew()
+        self.lab.play()
+
+    def _frames(self) -> None:
+        before = time.perf_counter()
+        while not self._ended.is_set():
+            self._do_all()
+            now = time.perf_counter()
+            self.lab.frame(min(now - before, 0.1))
+            before = now
+            self.stage.show(self.lab)
+            if self.frames % SLOW_EVERY == 0:
+                self._show_slow()
+            self.frames += 1
+            time.sleep(max(1 / RATE - (time.perf_counter() - now), 0.001))
+
+    def _do_all(self) -> None:
+        while True:
+            try:
+                action = self._todo.get_nowait()
+            except queue.Empty:
+                return
+            try:
+                action()
+            except InputError as error:
+                self.say(str(error))
+
+    def _show_slow(self) -> None:
+        if self._plotted != self.lab.measures.names:
+            self._plot()
+        if self._plots is not None:
+            self._plots.show(self.lab)
+        self.controls.show(self.lab, self._company)
+
+    def _plot(self) -> None:
+        if self._plots is not None:
+            self._plots.remove()
+        with self.controls.room_for_plots():
+            self._plots = Plots(self._client, self.lab.measures.names)
+        self._plotted = self.lab.measures.names
+
+    # What viewers do.
+
+    def renew(self) -> None:
+        """The lab has another scene, or other worlds: all that depends on it is made anew."""
+        self.controls.renew(self.lab)
+        self._show_slow()
+
+    def open(self, scene: str, settings: dict[str, str] | None = None, barrier: bool | None = None) -> None:
+        """Another scene, or the same with other parameters."""
+        self.lab.open(scene, settings, barrier)
+        self.renew()
+        self.lab.play()
+
+    def preset(self, slide: str) -> None:
+        """One of the lecture's pictures."""
+        preset = PRESETS[slide]
+        self.lab.set_steppers(preset.steppers)
+        self.lab.open(preset.scene, dt=preset.dt)
+        for name, number in preset.parameters.items():
+            self.lab.set_parameter(name, number)
+        self.renew()
+        self.lab.play()
+
+    def start_again_with(self, dt: float) -> None:
+        """From the start, with a step that is stable."""
+        self.lab.reset()
+        self.lab.set_dt(dt)
+        self.lab.play()
+
+    def _dragged(self, mass: int, place: np.ndarray | None) -> None:
+        self.do(self.lab.release if place is None else lambda: self.lab.grab(mass, place))
+
+    def _pin(self, mass: int) -> None:
+        self.lab.toggle_pin(mass)
+        self.stage.repaint(self.lab)
+
+    def say(self, text: str) -> None:
+        """A sentence, for a while."""
+        self._client.add_notification("springlab", html.escape(text), auto_close_seconds=8.0, color="orange")
+
+    def download(self, name: str, content: bytes) -> None:
+        """A file for the viewer."""
+        self._client.send_file_download(name, content, save_immediately=True)
+
+    def picture(self) -> None:
+        """What is seen, as a PNG file."""
+
+        def ask() -> None:
+            from io import BytesIO
+
+            from PIL import Image
+
+            camera = self._client.camera
+            try:
+                seen = self._client.get_render(camera.image_height, camera.image_width, timeout=10.0)
+            except (RuntimeError, TimeoutError) as error:
+                self.say(str(error))
+                return
+            file = BytesIO()
+            Image.fromarray(seen).save(file, "PNG")
+            self.download(f"{self._scene_name}.png", file.getvalue())
+
+        # The browser's answer may take a while: not in the thread that makes frames.
+        threading.Thread(target=ask, daemon=True).start()
+
+    def csv(self) -> None:
+        """What was measured since the last reset."""
+        self.download(f"{self._scene_name}.csv", self.lab.measures.csv().encode())
+
+    @property
+    def _scene_name(self) -> str:
+        return self.lab.opened.name.rpartition("/")[2].removesuffix(".toml")
+
+    def scene_names(self) -> list[str]:
+        """What can be chosen: the scenes, and the file the lab was started with."""
+        known = scenes.names()
+        return known if self._scene in known else [self._scene, *known]
+
+
+def banner(text: str, colour: str, role: str = "status") -> str:
+    """A line that is to be seen, as HTML."""
+    style = f"padding:.5em .7em;border-left:4px solid {colour};font-size:.85em;line-height:1.35;margin:.2em .8em"
+    return f'<div role="{role}" style="{style}">{html.escape(text)}</div>'
+
+
+def copyable(lines: str, note: str) -> str:
+    """Text with a button that copies it, as HTML."""
+    copy = "const t=this.previousElementSibling;t.select();navigator.clipboard?navigator.clipboard.writeText(t.value)"
+    copy += ":document.execCommand('copy');this.textContent='Copied'"
+    area = (
+        '<textarea readonly aria-label="command" rows="5" style="width:100%;font:.75em monospace" '
+        f'onclick="this.select()">{html.escape(lines)}</textarea>'
+    )
+    button = f'<button type="button" onclick="{html.escape(copy)}">Copy</button>'
+    return f'<div style="margin:.2em .8em">{area}{button} <small>{html.escape(note)}</small></div>'

@@ -1,0 +1,96 @@
+"""What the live lab can show: the scenes nothing drives, a file of one's own, each with a barrier or without."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from reference.changes import Change
+from reference.errors import InputError
+from reference.obstacles import Circle, Obstacle, Sphere
+from reference.scenes import find, scenes
+from reference.system import MassSpringSystem
+
+#: More masses than that are no fun to watch.
+MOST_MASSES = 5_000
+
+#: A barrier's radius, and how far it is below the lowest mass, as parts of the system's size: for the default string
+#: the circle of the scene `barrier`.
+RADIUS, BELOW = 0.24, 0.2
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """A scene as it was opened.
+
+    Attributes:
+        name: of the scene, or the path of its file.
+        system: where it starts.
+        dt: the step it is shown with [s].
+        settings: parameters of the scene that were set otherwise, as text.
+        changes: parameters that change while it moves, by themselves.
+        as_named: whether name and settings say it all.
+    """
+
+    name: str
+    system: MassSpringSystem
+    dt: float
+    settings: Mapping[str, str] = field(default_factory=dict)
+    changes: tuple[Change, ...] = ()
+    as_named: bool = True
+
+
+def names() -> list[str]:
+    """The scenes there are: those that a truck or the ground drives all the time are left to `compare`."""
+    return [s.name for s in scenes().values() if not s.driven({}).drives]
+
+
+def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bool | None = None) -> Opened:
+    """A scene by name or file, with some of its parameters.
+
+    Args:
+        barrier: whether there is to be something in the way; left out, as the scene has it.
+
+    Raises:
+        InputError: for what makes no sense, and for systems too large to watch.
+    """
+    from experiments.arguments import setup_for
+
+    settings = settings or {}
+    setup = setup_for(name, settings=settings)
+    system, as_named = setup.system, not setup.changes
+    if len(system.masses) > MOST_MASSES:
+        raise InputError(f"{name} has {len(system.masses):,} masses: expected at most {MOST_MASSES:,} in the live lab")
+    if barrier is not None and barrier != bool(system.obstacles):
+        system = replace(system, obstacles=(in_the_way(system),) if barrier else ())
+        as_named = False
+    return Opened(name, system, setup.dt, settings, setup.changes, as_named)
+
+
+def in_the_way(system: MassSpringSystem) -> Obstacle:
+    """A circle or a sphere below the masses."""
+    low, high = system.positions.min(axis=0), system.positions.max(axis=0)
+    radius = RADIUS * system.size
+    centre = (low + high) / 2
+    centre[1] = low[1] - BELOW * system.size - radius
+    kind = Circle if system.dimension == 2 else Sphere
+    return kind(tuple(centre.tolist()), radius)
+
+
+def counts(name: str) -> Mapping[str, int]:
+    """The scene's parameters that are counts (of masses, rows, panels), with their defaults; none of a file's."""
+    if Path(name).suffix == ".toml" or Path(name).is_file():
+        return {}
+    return {key: value for key, value in find(name).parameters.items() if type(value) is int and value > 0}
+
+
+def words(name: str) -> Mapping[str, tuple[str, ...]]:
+    """The scene's parameters that are a word, with the words there are, the default first; none of a file's."""
+    if Path(name).suffix == ".toml" or Path(name).is_file():
+        return {}
+    scene = find(name)
+    return {
+        key: (scene.parameters[key], *(word for word in choices if word != scene.parameters[key]))
+        for key, choices in scene.choices.items()
+    }

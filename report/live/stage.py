@@ -1,0 +1,245 @@
+"""The scene in the browser: springs coloured by strain, masses in their world's colour, obstacles."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reference.obstacles import Obstacle
+from reference.state import Array, State
+from reference.system import IntArray, MassSpringSystem
+from report.drawing import STRAIN_COLOURS, nice, strain
+
+if TYPE_CHECKING:
+    from viser import ClientHandle
+
+    from report.live.lab import Lab
+
+#: Of the worlds, told apart by everyone (Okabe and Ito); and of the true motion.
+WORLD_COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115), (204, 121, 167))
+TRUE_COLOUR = (150, 150, 150)
+
+#: A fixed mass.
+FIXED_COLOUR = (40, 40, 40)
+
+#: Side by side, worlds are so many sizes of the system apart.
+APART = 1.3
+
+#: Masses of more than these are dots too small to grab: they are drawn smaller.
+FEW = 200
+
+
+class Stage:
+    """What one viewer sees of a lab's worlds.
+
+    Args:
+        client: the viewer.
+        on_drag: told of a drag: which mass, where to [m], shape (d,); None when it is let go.
+        on_click: told of a click on a mass.
+
+    Attributes:
+        beside: whether worlds are side by side, and not one over the other.
+        show_true: whether the true motion is shown, where it is known.
+    """
+
+    def __init__(
+        self, client: ClientHandle, on_drag: Callable[[int, Array | None], None], on_click: Callable[[int], None]
+    ) -> None:
+        self._client, self._on_drag, self._on_click = client, on_drag, on_click
+        self.beside, self.show_true = False, True
+        self._key: object = None
+        self._nodes: list[tuple[Any, Any]] = []
+        self._others: list[Any] = []
+        self._true: Any = None
+        self._most = 0.1
+        self._ramp = _ramp()
+
+    def show(self, lab: Lab) -> None:
+        """The present state."""
+        key = (lab.own.springs.shape, lab.own.positions.shape, lab.own.obstacles, len(lab.worlds), self.beside)
+        with self._client.atomic():
+            if self._key != (key, lab.opened):
+                self._build(lab)
+                self._key = (key, lab.opened)
+            for i, (world, (lines, balls)) in enumerate(zip(lab.worlds, self._nodes, strict=True)):
+                places = self._places(lab.own, world.state)
+                lines.points = places[lab.own.springs]
+                lines.colors = self._colours(lab.own, world.state, i)
+                balls.batched_positions = places
+            self._show_true(lab)
+
+    def repaint(self, lab: Lab) -> None:
+        """Masses may have been pinned or let go."""
+        for i, (_, balls) in enumerate(self._nodes):
+            balls.batched_colors = _ball_colours(lab.own, i)
+
+    def look(self, lab: Lab) -> None:
+        """Straight on, at all there is."""
+        system = lab.own
+        middle, size = _middle(system), 1.5 * float(np.linalg.norm(np.ptp(system.positions, axis=0)))
+        count = len(lab.worlds) if self.beside else 1
+        across = APART * system.size * (count - 1) / 2
+        straight = np.array([0.0, 0.1, 1.0]) if system.dimension == 2 else np.array([0.5, 0.35, 1.0])
+        straight[1] *= system.dimension == 3
+        camera = self._client.camera
+        camera.up_direction = (0.0, 1.0, 0.0)
+        camera.position = middle + np.array([across, 0, 0]) + straight * (size + across)
+        camera.look_at = middle + np.array([across, 0, 0])
+
+    def _build(self, lab: Lab) -> None:
+        for node in [*(node for pair in self._nodes for node in pair), *self._others]:
+            node.remove()
+        self._nodes, self._others, self._true = [], [], None
+        self._most = _strains_to_show(lab.own)
+        scene, system = self._client.scene, lab.own
+        n, size = len(system.masses), system.size
+        radius = size * (0.022 if n <= FEW else 0.006)
+        for i, world in enumerate(lab.worlds):
+            shift = (APART * size * i * self.beside, 0.0, 0.0)
+            places = self._places(system, world.state)
+            lines = scene.add_line_segments(
+                f"/world{i}/springs",
+                points=places[system.springs],
+                colors=self._colours(system, world.state, i),
+                thickness=3.0 if n <= FEW and i == 0 else 1.5,
+                thickness_units="screen",
+                position=shift,
+            )
+            balls = scene.add_batched_meshes_simple(
+                f"/world{i}/masses",
+                *_ball(radius),
+                batched_wxyzs=np.tile(np.array([1.0, 0, 0, 0]), (n, 1)),
+                batched_positions=places,
+                batched_colors=_ball_colours(system, i),
+                lod="off",
+                cast_shadow=False,
+                receive_shadow=False,
+                opacity=None if i == 0 or self.beside else 0.6,
+                position=shift,
+            )
+            self._listen(balls, shift[0], system.dimension)
+            self._nodes.append((lines, balls))
+            self._others += [self._obstacle(f"/world{i}/obstacle{k}", o, shift) for k, o in enumerate(system.obstacles)]
+        self._others = [node for node in self._others if node is not None]
+        self.look(lab)
+
+    def _listen(self, balls: Any, across: float, dimension: int) -> None:
+        def drag(event: Any) -> None:
+            if event.instance_index is not None:
+                place = np.array(event.end_position[:dimension]) - across * np.eye(dimension)[0]
+                self._on_drag(event.instance_index, None if event.phase == "end" else place)
+
+        def click(event: Any) -> None:
+            if event.instance_index is not None:
+                self._on_click(event.instance_index)
+
+        balls.on_drag("left")(drag)
+        balls.on_click(click)
+
+    def _show_true(self, lab: Lab) -> None:
+        if lab.true is None or not self.show_true:
+            if self._true is not None:
+                self._true.visible = False
+            return
+        # just behind the others, where there is a behind
+        places = self._places(lab.own, lab.true) - [0, 0, 0.02 * lab.own.size * (lab.own.dimension == 2)]
+        points = places[lab.own.springs]
+        if self._true is None:
+            self._true = self._client.scene.add_line_segments(
+                "/true", points=points, colors=TRUE_COLOUR, thickness=5.0, thickness_units="screen"
+            )
+            self._others.append(self._true)
+        self._true.visible, self._true.points = True, points
+
+    def _places(self, system: MassSpringSystem, state: State) -> Any:
+        """In three dimensions, near enough to be drawn, in single precision."""
+        places = np.zeros((len(system.masses), 3), dtype=np.float32)
+        reach = 1e4 * system.size
+        places[:, : system.dimension] = np.clip(state.positions[: len(system.masses)], -reach, reach)
+        return places
+
+    def _colours(self, system: MassSpringSystem, state: State, i: int) -> Any:
+        """Of the springs' ends: by strain; a world that lies over the first has its own colour."""
+        if i and not self.beside:
+            return np.broadcast_to(np.array(WORLD_COLOURS[i], dtype=np.uint8), (len(system.springs), 2, 3))
+        part = strain(system, state.positions[: len(system.masses)]) / (2 * self._most) + 0.5
+        index = (np.clip(np.nan_to_num(part), 0, 1) * (len(self._ramp) - 1)).astype(np.intp)
+        return np.repeat(self._ramp[index][:, None], 2, axis=1)
+
+    def _obstacle(self, name: str, obstacle: Obstacle, shift: tuple[float, float, float]) -> Any:
+        """As what can be seen of it; None for a kind that has no shape here."""
+        numbers = obstacle.to_dict()
+        scene, grey = self._client.scene, (190, 190, 190)
+        if numbers["kind"] in ("circle", "sphere"):
+            place = np.pad(np.array(numbers["centre"]), (0, 3 - obstacle.dimension)) + shift
+            if obstacle.dimension == 2:
+                return scene.add_mesh_simple(name, *_disc(numbers["radius"]), color=grey, side="double", position=place)
+            return scene.add_icosphere(name, radius=numbers["radius"], color=grey, position=place)
+        if numbers["kind"] == "box":
+            sizes = np.pad(2 * np.array(numbers["half_sizes"]), (0, 3 - obstacle.dimension), constant_values=0.001)
+            place = np.pad(np.array(numbers["centre"]), (0, 3 - obstacle.dimension)) + shift
+            return scene.add_box(name, color=grey, dimensions=tuple(sizes), position=place)
+        if numbers["kind"] == "plane":
+            place = np.pad(np.array(numbers["point"]), (0, 3 - obstacle.dimension)) + shift
+            return scene.add_grid(name, width=4, height=4, cell_size=0.1, plane="xz", position=place)
+        return None
+
+
+def _middle(system: MassSpringSystem) -> Array:
+    """What is looked at [m], shape (3,): the masses' middle, or below an edge that they hang from."""
+    low, high = system.positions.min(axis=0), system.positions.max(axis=0)
+    middle = (low + high) / 2
+    if high[1] - low[1] < 0.3 * system.size and system.fixed.any():
+        middle[1] -= 0.35 * system.size
+    return np.pad(middle, (0, 3 - system.dimension))
+
+
+def _strains_to_show(system: MassSpringSystem) -> float:
+    """The strain at the ends of the colours: what the weight below a typical spring makes of it, rounded."""
+    weight = float(system.masses[~system.fixed].sum() * np.linalg.norm(system.gravity))
+    stretch = weight / (system.stiffness * system.rest_lengths).clip(1e-12)
+    share = max(1.0, len(system.springs) / 10)
+    return float(np.clip(nice(max(float(np.median(stretch)) / share, 1e-6)), 1e-5, 1.0))
+
+
+def _ramp() -> Any:
+    """256 colours from pushed together to pulled apart, shape (256, 3)."""
+    places = [place for place, _ in STRAIN_COLOURS]
+    colours = np.array([[int(c[i : i + 2], 16) for i in (1, 3, 5)] for _, c in STRAIN_COLOURS])
+    at = np.linspace(0, 1, 256)
+    return np.stack([np.interp(at, places, colours[:, i]) for i in range(3)], axis=1).astype(np.uint8)
+
+
+def _ball_colours(system: MassSpringSystem, i: int) -> Any:
+    return np.where(system.fixed[:, None], FIXED_COLOUR, WORLD_COLOURS[i]).astype(np.uint8)
+
+
+def _ball(radius: float) -> tuple[Array, IntArray]:
+    """An octahedron with its edges cut once: corners (18, 3) [m], faces (32, 3)."""
+    corners = [*np.eye(3), *-np.eye(3)]
+    faces = [(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)]
+    cut: dict[tuple[int, int], int] = {}
+    smaller = []
+    for face in faces:
+        middles = []
+        for a, b in zip(face, (*face[1:], face[0]), strict=True):
+            key = (min(a, b), max(a, b))
+            if key not in cut:
+                cut[key] = len(corners)
+                corners.append((corners[a] + corners[b]) / np.sqrt(2.0))
+            middles.append(cut[key])
+        a, b, c = face
+        ab, bc, ca = middles
+        smaller += [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
+    return radius * np.array(corners), np.array(smaller)
+
+
+def _disc(radius: float) -> tuple[Array, IntArray]:
+    """A flat circle: corners [m], faces."""
+    angles = np.linspace(0, 2 * np.pi, 65)[:-1]
+    rim = np.stack([np.cos(angles), np.sin(angles), 0 * angles], axis=1)
+    corners = np.vstack([np.zeros(3), radius * rim])
+    around = np.arange(64)
+    return corners, np.stack([np.zeros(64, dtype=int), around + 1, (around + 1) % 64 + 1], axis=1)

@@ -1,0 +1,1 @@
+"""Tests of the live lab: first without a page, then in the browser."""

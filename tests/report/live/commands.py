@@ -1,0 +1,48 @@
+"""Where the commands of the page come to: their words understood as `springlab compare` understands them."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Mapping
+from pathlib import Path
+
+from click.testing import CliRunner
+
+from experiments.arguments import parse_changes, parse_settings, setup_for
+from experiments.steppers import find_steppers
+from reference.changes import whole_steps
+from reference.state import State
+from report.compare_command import compare_command
+from report.live.reproduction import Reproduction
+
+
+def ends(found: Reproduction, folder: Path) -> Mapping[str, State]:
+    """The last state of every stepper that the commands run, in a folder with their files."""
+    for name, text in found.files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    return {name: state for line in found.commands for name, state in ends_of(line, folder).items()}
+
+
+def ends_of(line: str, folder: Path) -> Mapping[str, State]:
+    """The last state of every stepper of one command."""
+    program, command, *words = shlex.split(line)
+    assert (program, command) == ("springlab", "compare")
+    with compare_command.make_context("compare", words) as context:
+        asked = context.params
+    scene = str(folder / asked["scene"]) if asked["scene"].endswith(".toml") else asked["scene"]
+    settings, changes = parse_settings(asked["settings"]), parse_changes(asked["changes"])
+    setup = setup_for(scene, asked["dt"], asked["duration"], settings, changes)
+    steps = whole_steps(setup.dt, setup.duration)
+    last = {}
+    for stepper in find_steppers(asked["names"]):
+        trajectory = stepper.run(setup.system, setup.dt, steps, setup.changes).trajectory
+        assert trajectory is not None
+        last[stepper.name] = trajectory.states()[-1]
+    return last
+
+
+def run(line: str) -> str:
+    """What a command prints, run as it stands in the present folder; it has to come to its end."""
+    done = CliRunner().invoke(compare_command, shlex.split(line)[2:])
+    assert done.exit_code == 0, done.output
+    return done.output

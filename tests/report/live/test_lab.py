@@ -1,0 +1,360 @@
+"""The live lab without a page: whatever is moved, each world does what a plain run with the same changes does."""
+
+from __future__ import annotations
+
+import os
+import signal
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+
+from reference.catalogue import find
+from reference.changes import Change
+from reference.errors import InputError
+from reference.scenes import find as find_scene
+from reference.simulate import simulate
+from reference.state import Array, State
+from report.live.lab import Lab
+from report.live.parameters import PRESETS
+from report.live.reproduction import Stretch, reproduction
+from report.live.stepping import EngineStepping
+from tests.report.live.commands import ends, run
+
+#: Of a scheme every bit is the same; an engine that is given its present state again rounds it once.
+ROUNDING = 1e-12
+
+#: What is moved, and how far.
+MOVES = {"stiffness": (100, 300), "mass": (0.015, 0.03), "drag": (0, 0.1), "gravity": (1, 20), "damping": (0, 0.02)}
+
+
+@pytest.fixture
+def labs() -> Iterator[list[Lab]]:
+    """Labs that are ended afterwards."""
+    made: list[Lab] = []
+    yield made
+    for lab in made:
+        lab.end()
+
+
+def open_lab(labs: list[Lab], scene: str = "string", steppers: Sequence[str] = ("kick_drift",), **settings: str) -> Lab:
+    """A lab that is ended after the test."""
+    labs.append(Lab(scene, steppers, settings))
+    return labs[-1]
+
+
+def apart(one: State, other: State) -> float:
+    """The largest difference of a position [m] or velocity [m/s]."""
+    return max(
+        float(np.abs(one.positions - other.positions).max()), float(np.abs(one.velocities - other.velocities).max())
+    )
+
+
+def go_on(lab: Lab, steps: int) -> None:
+    """So many steps, in frames, or until something stops."""
+    for _ in range(0, steps, 20):
+        lab.advance(20)
+
+
+def move_at_random(lab: Lab, seed: int, moves: int = 12) -> list[Change]:
+    """Move sliders at random between frames; what was moved, and when."""
+    random, made = Random(seed), []
+    for _ in range(moves):
+        lab.advance(random.randint(1, 30))
+        name = random.choice(list(MOVES))
+        value = random.uniform(*MOVES[name])
+        lab.set_parameter(name, value)
+        made.append(Change(lab.stretch.steps * lab.dt, name, value))
+    lab.advance(20)
+    return made
+
+
+@pytest.mark.parametrize(
+    ("scene", "name"),
+    [("string", "kick_drift"), ("barrier", "heun"), ("string", "heun_aliased"), ("string", "implicit_midpoint")],
+)
+def test_a_scheme_does_what_a_plain_run_does(labs: list[Lab], scene: str, name: str) -> None:
+    """To the last bit, though loops compiled meanwhile take over. A change one step late is seen: shown to fail."""
+    lab = open_lab(labs, scene, [name])
+    made = move_at_random(lab, 1)
+    system, steps = find_scene(scene).system({}), lab.stretch.steps
+    (world,) = lab.worlds
+    plain = simulate(system, find(name), lab.dt, steps * lab.dt, made).states()[-1]
+    assert apart(world.state, plain) == 0
+    late = [replace(change, time=change.time + lab.dt) for change in made]
+    assert apart(world.state, simulate(system, find(name), lab.dt, steps * lab.dt, late).states()[-1]) > 1e-6
+
+
+@pytest.mark.parametrize("name", ["pymunk_springs", "mujoco_tendons", "mujoco_tendons_rk4"])
+def test_an_engine_does_what_its_run_by_command_does(labs: list[Lab], tmp_path: Path, name: str) -> None:
+    """Changed on the fly, in a process of its own, beside a scheme."""
+    lab = open_lab(labs, "string", [name, "heun"])
+    move_at_random(lab, 2)
+    last = ends(lab.reproduction(), tmp_path)
+    for world in lab.worlds:
+        assert apart(world.state, last[world.name]) <= ROUNDING
+
+
+def disturb_with_dt(lab: Lab) -> None:
+    """Another step, midway."""
+    lab.set_dt(0.7e-3)
+
+
+def disturb_by_drag(lab: Lab) -> None:
+    """A mass dragged about and let go."""
+    for place in ((0.9, 0.1), (1.0, 0.2), (0.8, 0.3)):
+        lab.grab(6, np.array(place))
+        lab.advance(7)
+    lab.release()
+
+
+def hold(lab: Lab) -> None:
+    """A mass on the cursor, which is not let go."""
+    lab.grab(3, np.array([0.3, 0.1]))
+
+
+def disturb_by_pin(lab: Lab) -> None:
+    """A mass pinned, the anchor let go."""
+    lab.toggle_pin(4)
+    lab.advance(5)
+    lab.toggle_pin(0)
+
+
+def disturb_by_stepper(lab: Lab) -> None:
+    """Other steppers take over, and one comes in besides."""
+    lab.set_steppers(["rk4", "pymunk_springs", "euler"])
+
+
+@pytest.mark.parametrize(
+    "disturb", [disturb_with_dt, disturb_by_drag, hold, disturb_by_pin, disturb_by_stepper], ids=lambda f: f.__name__
+)
+def test_the_command_comes_to_the_present_state(labs: list[Lab], tmp_path: Path, disturb: object) -> None:
+    """After what a command cannot say it is given a file; every stepper ends where it is seen, to rounding."""
+    lab = open_lab(labs, "string", ["heun", "mujoco_tendons"])
+    lab.advance(40)
+    before = [world.state for world in lab.worlds]
+    disturb(lab)  # type: ignore[operator]
+    assert np.abs(without_cursor(lab, 0) - before[0].positions).max() < 0.4
+    lab.advance(25)
+    lab.set_parameter("stiffness", 180.0)
+    lab.advance(10)
+    last = ends(lab.reproduction(), tmp_path)
+    for world in lab.worlds:
+        assert apart(world.state, last[world.name]) <= ROUNDING, world.name
+
+
+def without_cursor(lab: Lab, i: int) -> Array:
+    """Positions of a world's own masses [m]."""
+    return lab.worlds[i].state.positions[: len(lab.own.masses)]
+
+
+def test_the_command_line_itself_runs_it(labs: list[Lab], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both as a scene with changes, and from a file."""
+    lab = open_lab(labs, "string", ["kick_drift"], masses="4")
+    lab.advance(30)
+    lab.set_parameter("stiffness", 150.0)
+    lab.advance(30)
+    (line,) = lab.reproduction().commands
+    assert line.startswith("springlab compare string --stepper=kick_drift --dt=0.001 --duration=0.06 --set=masses=4")
+    assert "kick_drift" in run(line)
+    lab.set_dt(2e-3)
+    lab.advance(3)
+    found = lab.reproduction()
+    monkeypatch.chdir(tmp_path)
+    for name, text in found.files.items():
+        Path(name).write_text(text)
+    assert "kick_drift" in run(found.commands[0])
+
+
+def test_many_changes_go_into_a_file(labs: list[Lab], tmp_path: Path) -> None:
+    """And those of one number for each spring, where springs differ: there a slider is a multiple."""
+    lab = open_lab(labs, "bridge", ["heun"])
+    lab.advance(3)
+    lab.set_parameter("stiffness", 0.5)
+    lab.advance(3)
+    found = lab.reproduction()
+    assert list(found.files) == ["bridge-live.toml"]
+    assert apart(lab.worlds[0].state, ends(found, tmp_path)["heun"]) <= ROUNDING * lab.own.size
+    np.testing.assert_allclose(lab.own.stiffness, 0.5 * find_scene("bridge").system({}).stiffness, rtol=1e-15)
+
+
+def test_a_forgotten_change_is_seen(labs: list[Lab], tmp_path: Path) -> None:
+    """Shown to fail: the command of a stretch without its changes comes to another state."""
+    lab = open_lab(labs)
+    lab.advance(20)
+    lab.set_parameter("stiffness", 150.0)
+    lab.advance(40)
+    forgetful: Stretch = replace(lab.stretch, changes=())
+    assert apart(lab.worlds[0].state, ends(reproduction(forgetful), tmp_path)["kick_drift"]) > 1e-6
+
+
+def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:
+    """No reset: between the last frame and the next the state has not moved, in schemes and engines."""
+    lab = open_lab(labs, "string", ["heun", "pymunk_springs"])
+    lab.advance(50)
+    before = [world.state for world in lab.worlds]
+    lab.set_parameter("stiffness", 120.0)
+    lab.set_dt(1.3e-3)
+    for world, state in zip(lab.worlds, before, strict=True):
+        assert apart(world.state, state) == 0
+    lab.set_steppers(["rk4", "mujoco_tendons"])
+    for world, state in zip(lab.worlds, before, strict=True):
+        assert apart(world.state, state) == 0
+    assert lab.time == pytest.approx(0.05)
+
+
+def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
+    """Going on from there gives what came before again; the parameters of then are back, and the command knows."""
+    lab = open_lab(labs, "string", ["heun", "pymunk_springs"])
+    seen = []
+    for i in range(60):
+        if i == 30:
+            lab.set_parameter("stiffness", 100.0)
+        lab.advance(16)
+        seen.append((lab.time, [world.state for world in lab.worlds]))
+    lab.rewind(0.016 * 40)
+    at = next(i for i, (time, _) in enumerate(seen) if time == lab.time)
+    assert at < 25
+    assert lab.own.stiffness[0] == 200.0
+    lab.advance(16)
+    assert lab.time == seen[at + 1][0]
+    for world, state in zip(lab.worlds, seen[at + 1][1], strict=True):
+        assert apart(world.state, state) <= ROUNDING
+    last = ends(lab.reproduction(), tmp_path)
+    assert apart(lab.worlds[0].state, last["heun"]) <= ROUNDING
+
+
+@pytest.mark.parametrize("scene", ["string", "cloth"])
+def test_past_the_predicted_limit_it_blows_up_and_below_it_stays(labs: list[Lab], scene: str) -> None:
+    """A dt over the limit by 7 % pauses with a reason that has both numbers; a tenth below the limit it goes on."""
+    lab = open_lab(labs, scene, ["kick_drift"])
+    lab.wait_for_predictions()
+    limit = lab.predictions["kick_drift"].limit
+    assert limit is not None
+    lab.set_dt(1.07 * limit)
+    lab.wait_for_predictions()
+    lab.play()
+    go_on(lab, 4000)
+    assert not lab.playing
+    assert "blew up" in lab.notice
+    assert "is 1.07 times the predicted largest stable dt" in lab.notice
+    assert "The fastest mode grows" in lab.notice
+    lab.reset()
+    lab.set_dt(0.9 * limit)
+    lab.play()
+    go_on(lab, 600)
+    assert lab.playing
+    assert lab.notice == ""
+
+
+def test_after_a_blow_up_what_is_changed_is_tried(labs: list[Lab]) -> None:
+    """A shorter step gives a torn string no second life, but the world that was well goes on with it."""
+    lab = open_lab(labs, "string", ["euler", "rk4"])
+    lab.set_dt(9e-3)
+    go_on(lab, 3000)
+    assert lab.notice
+    steps = lab.stretch.steps
+    lab.set_dt(1e-3)
+    assert lab.notice == ""
+    lab.advance(10)
+    assert lab.stretch.steps == 10 != steps
+    assert lab.worlds[1].stopped is None
+
+
+def test_the_first_blow_up_is_left_behind_by_playing_again(labs: list[Lab]) -> None:
+    """Play starts again, and the other worlds were not harmed."""
+    lab = open_lab(labs, "string", ["euler", "kick_drift"])
+    lab.set_dt(9e-3)
+    lab.play()
+    go_on(lab, 3000)
+    assert lab.worlds[0].blown_up
+    assert lab.worlds[1].stopped is None
+    lab.play()
+    assert (lab.time, lab.notice, lab.playing) == (0.0, "", True)
+
+
+def test_an_engine_that_is_killed_is_one_world_less(labs: list[Lab]) -> None:
+    """With its reason; the others go on, and it begins again with a reset."""
+    lab = open_lab(labs, "string", ["mujoco_tendons", "heun"])
+    lab.advance(5)
+    stepping = lab.worlds[0]._stepping
+    assert isinstance(stepping, EngineStepping)
+    pid = stepping._session.pid
+    assert pid is not None
+    os.kill(pid, signal.SIGKILL)
+    lab.advance(5)
+    assert lab.worlds[0].stopped == "crashed: killed by SIGKILL"
+    assert "mujoco_tendons stopped: crashed: killed by SIGKILL" in lab.notice
+    assert lab.worlds[1].stopped is None
+    lab.reset()
+    lab.advance(5)
+    assert [world.stopped for world in lab.worlds] == [None, None]
+
+
+def test_numbers_that_are_none_are_a_blow_up(labs: list[Lab]) -> None:
+    """Pymunk goes to NaN in silence: the world keeps its last good state and says so."""
+    lab = open_lab(labs, "string", ["pymunk_springs"])
+    lab.set_dt(0.1)
+    go_on(lab, 1000)
+    assert lab.worlds[0].blown_up
+    assert np.isfinite(lab.worlds[0].state.positions).all()
+
+
+def test_an_engine_that_cannot_says_why(labs: list[Lab]) -> None:
+    """Pymunk is flat; the world beside it swings."""
+    lab = open_lab(labs, "cloth", ["kick_drift", "pymunk_springs"])
+    assert lab.worlds[1].stopped == "unsupported: pymunk_springs cannot do motion in three dimensions"
+    assert lab.worlds[0].stopped is None
+
+
+@pytest.mark.parametrize("slide", PRESETS)
+def test_the_lectures_pictures(labs: list[Lab], slide: str) -> None:
+    """On slide 15 Euler explodes within 1.5 s, and Heun does not; the others go on."""
+    preset = PRESETS[slide]
+    lab = open_lab(labs, preset.scene, preset.steppers)
+    lab.set_dt(preset.dt)
+    for name, number in preset.parameters.items():
+        lab.set_parameter(name, number)
+    go_on(lab, 1500)
+    stopped = {world.name for world in lab.worlds if world.stopped}
+    assert stopped == ({"euler"} if slide == "15" else set())
+
+
+def test_the_true_motion_is_followed(labs: list[Lab]) -> None:
+    """Dormand-Prince, frame by frame with changes: rk4 with small steps is as near as its own error, 5e-9 m."""
+    lab = open_lab(labs, "string", ["rk4"])
+    lab.set_dt(2.5e-4)
+    for i in range(20):
+        if i == 8:
+            lab.set_parameter("stiffness", 150.0)
+        lab.advance(64)
+    _, numbers = lab.measures.last(100.0, 100)
+    if lab.true is not None:  # else the machine is too busy to follow it
+        assert numbers[-1, 0, 2] < 5e-8
+    assert lab.measures.csv().splitlines()[0] == "time [s],rk4 energy [J],rk4 momentum off [kg m/s],rk4 distance [m]"
+
+
+@pytest.mark.parametrize(
+    ("what", "said"),
+    [
+        (lambda lab: lab.set_dt(0.0), "dt = 0: expected a number > 0"),
+        (lambda lab: lab.set_dt(float("nan")), "dt = nan"),
+        (lambda lab: lab.set_parameter("mass", -1.0), "mass = -1: expected a number > 0"),
+        (lambda lab: lab.set_steppers(["huen"]), "unknown stepper 'huen': did you mean 'heun'?"),
+        (lambda lab: lab.set_steppers(["heun"] * 5), "5 worlds: expected from 1 to 4"),
+        (lambda lab: lab.open("strin"), "unknown scene 'strin': did you mean 'string'?"),
+        (lambda lab: lab.open("cloth", {"rows": "900"}), "cloth has 9,000 masses: expected at most 5,000"),
+    ],
+)
+def test_what_makes_no_sense_changes_nothing(labs: list[Lab], what: object, said: str) -> None:
+    """One line, and the lab goes on as it was."""
+    lab = open_lab(labs)
+    lab.advance(10)
+    with pytest.raises(InputError, match="^" + said.replace("?", r"\?")):
+        what(lab)  # type: ignore[operator]
+    lab.advance(10)
+    assert lab.stretch.steps == 20
+    assert lab.worlds[0].stopped is None
