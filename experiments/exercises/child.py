@@ -119,6 +119,8 @@ def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
             if any(changed(g, a) for g, a in zip(given, arguments, strict=True)):
                 answer["modified"] = True
             kept.append((returned, values[-1]))
+            if question["steps"] and not all(map(_fits, values[-1], arguments)):
+                break
             fed = [v.item() if v.ndim == 0 else v for v in values[-1]]
             arguments = [*fed, *first[len(fed) :]] if question["steps"] else arguments
         answer["overwritten"] = any(
@@ -128,6 +130,14 @@ def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
     except BaseException as error:
         answer["error"] = story(error)
     return answer
+
+
+def _fits(value: Any, argument: Any) -> bool:
+    """Whether what was returned can be what the next step is given: of the same shape, no whole numbers for others."""
+    before = np.asarray(argument)
+    return value.shape in (before.shape, (1,) * (not before.ndim)) and (value.dtype.kind == "f") >= (
+        before.dtype.kind == "f"
+    )
 
 
 def _tuple(value: Any) -> tuple[Any, ...]:

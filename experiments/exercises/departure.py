@@ -60,7 +60,7 @@ def first_departure(
 ) -> tuple[Departure | None, Lines | None]:
     """Where the answers first depart from the right ones, and both along what is counted there."""
     for question, answer, right, scales in zip(known.questions, given, known.right, known.scales, strict=True):
-        for s, (step, expected) in enumerate(zip(answer, right, strict=True)):
+        for s, (step, expected) in enumerate(zip(answer, right, strict=False)):
             for p, (part, want) in enumerate(zip(step, expected, strict=True)):
                 if part.shape != want.shape or part_distance(part, want, scales[p]) <= tolerance:
                     continue

@@ -57,19 +57,18 @@ def fault_of_error(error: Mapping[str, Any] | None, missing: str | None) -> Find
 
 
 def fault_of_values(questions: Sequence[Question], given: Sequence[Answer], right: Sequence[Answer]) -> Finding | None:
-    """Wrong shapes, what is no number, whole numbers where there are none."""
+    """Whole numbers where there are none, wrong shapes, what is no number."""
+    firsts = [pair for answer, want in zip(given, right, strict=True) for pair in zip(answer[0], want[0], strict=True)]
+    whole = [_whole(part) and not _whole(want) for part, want in firsts if want.dtype.kind == "f"]
+    if whole and all(whole) and any(part.any() for part, _ in firsts):
+        words = "All your results are whole numbers: what comes after the point is cut off."
+        return Finding("whole_numbers", words, "Of which type is the array that you write into?")
     for question, answer, expected in zip(questions, given, right, strict=True):
-        for step, want in zip(answer, expected, strict=True):
+        for step, want in zip(answer, expected, strict=False):
             for name, part, other in zip(question.parts, step, want, strict=True):
                 fault = _fault(name, part, other)
                 if fault:
                     return fault
-    parts = [(g, r) for a, b in zip(given, right, strict=True) for s, t in zip(a, b, strict=True)
-             for g, r in zip(s, t, strict=True)]  # fmt: skip
-    whole = [_whole(g) and not _whole(r) for g, r in parts if r.dtype.kind == "f"]
-    if whole and all(whole) and any(g.any() for g, _ in parts):
-        words = "All your results are whole numbers: what comes after the point is cut off."
-        return Finding("whole_numbers", words, "Of which type is the array that you write into?")
     return None
 
 

@@ -95,6 +95,13 @@ OF_A_STRING = (
         direction="degrees",
     ),
     mistake(
+        "degrees",
+        "You take cos and sin of an angle in degrees.",
+        "In which unit do cos and sin expect an angle?",
+        direction="degrees",
+        below="own side",
+    ),
+    mistake(
         "anchor_missing",
         "Nothing holds your first mass: its spring to the anchor gives no force.",
         "What is above mass 0?",
@@ -110,10 +117,22 @@ OF_A_STRING = (
         anchor="second",
     ),
     mistake(
+        "anchor_off_by_one",
+        "Your second mass hangs on the anchor too, in place of on the first.",
+        "At which number does your loop turn from the anchor to its neighbours?",
+        anchor="second, from above",
+    ),
+    mistake(
         "last_link_wraps",
         "Your last mass has a spring to the first: there is none below it.",
         "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
         last="wraps",
+    ),
+    mistake(
+        "last_link_wraps",
+        "Your last mass has a spring to the first: there is none below it.",
+        "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
+        last="rolls",
     ),
     mistake(
         "last_link_skipped",

@@ -72,7 +72,7 @@ def judge(
         key: for the hidden check, the teacher's secret; the public check without.
     """
     known = catalogue(exercise, seed, key)
-    if source.split() == exercise.starter.split():
+    if _text(source) == _text(exercise.starter):
         words = Finding("not_written_yet", "This is the starter as it was handed out.", "The text says what to write.")
         return _failed(known, "error", words)
     asked = [question.asked() for question in known.questions]
@@ -83,6 +83,11 @@ def judge(
         same = len(again.answers) == len(reply.answers) and _equal(reply, again)
         verdict = replace(verdict, findings=(not_repeated(same),))
     return replace(verdict, walls=tuple(reply.walls))
+
+
+def _text(source: str) -> list[str]:
+    """The words of a text, without the lines that say whose it is."""
+    return [word for line in source.splitlines() if not line.startswith(("SEED", "KEYED")) for word in line.split()]
 
 
 def _failed(known: Catalogue, outcome: Outcome, finding: Finding, **found: Any) -> Verdict:
@@ -173,13 +178,13 @@ def _values(known: Catalogue, reply: sandbox.Reply) -> list[Answer] | None:
     given: list[Answer] = []
     for question, told in zip(known.questions, reply.answers, strict=True):
         steps = told["values"]
-        if len(steps) != max(1, question.steps) or any(len(step) != len(question.parts) for step in steps):
+        if not 1 <= len(steps) <= max(1, question.steps) or any(len(step) != len(question.parts) for step in steps):
             return None
         if not all(isinstance(part, np.ndarray) for step in steps for part in step):
             return None
         given.append(known.exercise.plain(question, [list(step) for step in steps]))
     for answer, right in zip(given, known.right, strict=True):
-        for step, want in zip(answer, right, strict=True):
+        for step, want in zip(answer, right, strict=False):
             # a number, and an array of one number, are one as good as the other
             step[:] = [p.reshape(()) if w.shape == () and p.size == 1 else p for p, w in zip(step, want, strict=True)]
     return given

@@ -38,12 +38,18 @@ def forces(
         string: masses [kg], stiffness [N/m], rest_lengths [m], each (n,); drag [N s/m], gravity [m/s^2], anchor (d,).
     """
     upper = np.vstack([string.anchor if anchor != "origin" else np.zeros_like(string.anchor), x[:-1]])
-    if anchor == "second":
+    if anchor.startswith("second"):
         upper[1:2] = string.anchor
     k, rest_lengths = string.stiffness, rest * string.rest_lengths
     pull = pulls * _pull(x, upper, k, rest_lengths, length, direction)
     # the spring below mass i is the spring above mass i + 1, or what a mistake takes it for
-    under = pull[1:] if below == "own" else pulls * _pull(x[1:], x[:-1], k[:-1], rest_lengths[:-1], length, direction)
+    under = pull[1:]
+    if below == "above":
+        under = pulls * _pull(x[1:], x[:-1], k[:-1], rest_lengths[:-1], length, direction)
+    if anchor == "second, from above":
+        under = pulls * _pull(x[1:], x[:-1], k[1:], rest_lengths[1:], length, direction)
+    if below == "own side":
+        under = -pulls * _pull(x[:-1], x[1:], k[1:], rest_lengths[1:], length, direction)
     if anchor == "missing":
         pull[0] = 0.0
     total = pull if sides != "below" else np.zeros_like(pull)
@@ -52,6 +58,8 @@ def forces(
         total[:-1] += under if sides == "same" else -under
     if last == "wraps" and len(x) > 1:
         total[-1] += pulls * _pull(x[-1:], x[:1], k[:1], rest_lengths[:1], length, direction)[0]
+    if last == "rolls":
+        total[-1] -= pull[0]
     mass = {"m g": string.masses, "g": np.ones_like(string.masses), "none": 0 * string.masses}[weight]
     total = total.copy()
     total[:, -1] -= gravity * mass * string.gravity
@@ -72,7 +80,7 @@ def _pull(x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, di
     if direction == "degrees":
         angle = np.degrees(np.arctan2(gap[:, -1], gap[:, 0] if gap.shape[1] > 1 else 0.0))
         return np.asarray(force[:, None] * np.stack([np.cos(angle), np.sin(angle)][-gap.shape[1] :], axis=1))
-    unit = gap / np.sqrt(square)[:, None]
+    unit = gap / long[:, None]
     if direction == "swapped":
         unit = unit[:, ::-1]
     return np.asarray(force[:, None] * unit)

@@ -9,7 +9,6 @@ from experiments.exercises.force_mistakes import OF_A_SPRING
 from experiments.exercises.one_mass import questions_on_one, step_of_one
 from experiments.exercises.step_mistakes import OF_A_STEP, OF_INERTIA, OTHERS
 
-
 #: On one mass, whose motion is linear, these are the same as Heun's step.
 SAME = ("midpoint", "ralston")
 

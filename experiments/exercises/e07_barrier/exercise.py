@@ -59,10 +59,11 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
     asked = []
     for count in (1, 9, 12) if hidden else (8, 6):
         circle = {"centre": random.uniform(-1, 1, 2), "radius": float(random.uniform(0.3, 0.6))}
-        # two inside; one outside, but within the square about the circle; one farther away
-        kind = np.arange(count) % 4
-        angle = np.where(kind == 2, np.pi / 4 + random.integers(4, size=count) * np.pi / 2, random.uniform(0, 7, count))
-        far = circle["radius"] * np.choose(kind, [random.uniform(0.6, 0.8, count)] * 2 + [1.2, 4.0])
+        # two inside; one outside in a corner of the square about the circle, one outside of that; one farther away
+        kind, quarter = np.arange(count) % 5, np.pi / 2 * random.integers(4, size=count)
+        anywhere, within = random.uniform(0, 2 * np.pi, count), random.uniform(0.6, 0.8, count)
+        angle = np.choose(kind, [anywhere, anywhere, quarter + np.pi / 4, quarter, anywhere])
+        far = circle["radius"] * np.choose(kind, [within, within, 1.2, 1.2, 4.0])
         x = circle["centre"] + far[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
         v = random.uniform(-1, 1, (count, 2))
         asked.append(Question("push_out", (x, v, circle), ("x", "v"), f"{count} masses about a circle"))

@@ -1,5 +1,7 @@
 """Exercise 8: which engine is it? The trajectories are in A.csv to E.csv. Run me: python which_engine.py."""
 
+from pathlib import Path
+
 EXERCISE = 8
 SEED = "example"
 
@@ -10,6 +12,5 @@ def names():
 
 
 if __name__ == "__main__":
-    with open("A.csv") as file:
-        print("A:", file.read()[:200], "...", sep="\n")
+    print("A:", Path(__file__).with_name("A.csv").read_text()[:200], "...", sep="\n")
     print(names())

@@ -1,4 +1,3 @@
-# ruff: noqa: D
 from math import pi, sin, sqrt
 
 EXERCISE = 5

@@ -1,4 +1,3 @@
-# ruff: noqa: D
 import numpy as np
 
 EXERCISE = 7

@@ -1,4 +1,3 @@
-# ruff: noqa: D
 EXERCISE = 8
 SEED = "example"
 

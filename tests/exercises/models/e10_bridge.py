@@ -1,4 +1,3 @@
-# ruff: noqa: D
 import numpy as np
 
 EXERCISE = 10
@@ -27,7 +26,7 @@ def heaviest(bridge):
 def largest_dt(bridge):
     count = len(bridge.joints)
     stretch = np.zeros((len(bridge.members), 2 * count))
-    for j, ((a, b), u) in enumerate(zip(bridge.members, directions(bridge))):
+    for j, ((a, b), u) in enumerate(zip(bridge.members, directions(bridge), strict=True)):
         stretch[j, [2 * a, 2 * a + 1]] = -u
         stretch[j, [2 * b, 2 * b + 1]] = u
     held = {2 * bridge.pinned, 2 * bridge.pinned + 1, 2 * bridge.roller + 1}
