@@ -90,11 +90,18 @@ def changed(value: Any, before: Any) -> bool:
     return False
 
 
+def split(value: Any, parts: Sequence[str]) -> list[Any]:
+    """What was returned, thing by thing."""
+    if len(parts) == 1:
+        return [value]
+    return list(value) if isinstance(value, tuple | list | np.ndarray) else [value]
+
+
 def parts_of(value: Any, parts: Sequence[str]) -> list[Any]:
-    """What was returned, as arrays; ValueError in plain words where it is something else."""
+    """What was returned, as arrays of its own; ValueError in plain words where it is something else."""
     if value is None:
         raise ValueError("it returns nothing: a return is missing")
-    values = [value] if len(parts) == 1 else list(value) if isinstance(value, tuple | list | np.ndarray) else [value]
+    values = split(value, parts)
     if len(values) != len(parts):
         raise ValueError(f"it returns {len(values)} thing{'s'[: len(values) != 1]}: expected {', '.join(parts)}")
     arrays = [np.asarray(v) for v in values]
@@ -118,13 +125,15 @@ def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
             values.append(parts_of(returned, names))
             if any(changed(g, a) for g, a in zip(given, arguments, strict=True)):
                 answer["modified"] = True
-            kept.append((returned, values[-1]))
+            kept.append((split(returned, names), values[-1]))
             if question["steps"] and not all(map(_fits, values[-1], arguments)):
                 break
-            fed = [v.item() if v.ndim == 0 else v for v in values[-1]]
+            fed = [v if np.ndim(a) else v.item() for v, a in zip(values[-1], arguments, strict=False)]
             arguments = [*fed, *first[len(fed) :]] if question["steps"] else arguments
         answer["overwritten"] = any(
-            changed(part, was) for r, was_all in kept[:-1] for part, was in zip(_tuple(r), was_all, strict=False)
+            isinstance(part, np.ndarray) and changed(part, was)
+            for returned, before in kept[:-1]
+            for part, was in zip(returned, before, strict=True)
         )
         answer["again"] = parts_of(function(*[fresh(a) for a in first]), names)
     except BaseException as error:
@@ -138,11 +147,6 @@ def _fits(value: Any, argument: Any) -> bool:
     return value.shape in (before.shape, (1,) * (not before.ndim)) and (value.dtype.kind == "f") >= (
         before.dtype.kind == "f"
     )
-
-
-def _tuple(value: Any) -> tuple[Any, ...]:
-    arrays = value if isinstance(value, tuple | list) else (value,)
-    return tuple(a if isinstance(a, np.ndarray) else np.asarray(a) for a in arrays)
 
 
 def story(error: BaseException) -> dict[str, Any]:

@@ -60,7 +60,7 @@ def fault_of_values(questions: Sequence[Question], given: Sequence[Answer], righ
     """Whole numbers where there are none, wrong shapes, what is no number."""
     firsts = [pair for answer, want in zip(given, right, strict=True) for pair in zip(answer[0], want[0], strict=True)]
     whole = [_whole(part) and not _whole(want) for part, want in firsts if want.dtype.kind == "f"]
-    if whole and all(whole) and any(part.any() for part, _ in firsts):
+    if whole and all(whole) and any(part.any() or part.dtype.kind in "iu" for part, _ in firsts):
         words = "All your results are whole numbers: what comes after the point is cut off."
         return Finding("whole_numbers", words, "Of which type is the array that you write into?")
     for question, answer, expected in zip(questions, given, right, strict=True):
