@@ -128,8 +128,9 @@ def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
             kept.append((split(returned, names), values[-1]))
             if question["steps"] and not all(map(_fits, values[-1], arguments)):
                 break
-            fed = [v if np.ndim(a) else v.item() for v, a in zip(values[-1], arguments, strict=False)]
-            arguments = [*fed, *first[len(fed) :]] if question["steps"] else arguments
+            if question["steps"]:
+                fed = [v if np.ndim(a) else v.item() for v, a in zip(values[-1], arguments, strict=False)]
+                arguments = [*fed, *first[len(fed) :]]
         answer["overwritten"] = any(
             isinstance(part, np.ndarray) and changed(part, was)
             for returned, before in kept[:-1]

@@ -135,9 +135,9 @@ def _check_class(
     from experiments.exercises import sandbox
     from experiments.exercises.grading import grade_class
 
-    missing = {"limits", "landlock", "seccomp"} - set(sandbox.walls())
+    missing = [name for name in ("limits", "landlock", "seccomp") if name not in sandbox.walls()]
     if missing:
-        words = f"on this machine submissions run without {', '.join(sorted(missing))}: see the docs on exercises"
+        words = f"on this machine submissions run without {', '.join(missing)}: see report/docs/exercises.md"
         click.echo(f"springlab: {words}", err=True)
     with tempfile.TemporaryDirectory() as folder, progress("check") as tell:
         rows = grade_class(files, table or Path(folder) / "grades.csv", exercise, key, jobs, tell)

@@ -1,8 +1,9 @@
 """Walls around the process that runs a submission, built from inside before the submission is read. Python's own only.
 
-Three, each of them the kernel's: limits on time, memory, file size (setrlimit); no file but those that are named
-(Landlock, Linux 5.13); no other process, no network, no change of what a file may do (a seccomp filter). Once up, none
-comes down again before the process ends. Which of them stand is told: on other systems some are missing.
+Each of them is the kernel's: limits on time, memory, file size (setrlimit); no file but those that are named (Landlock,
+Linux 5.13), or where that is missing and we are root, another user, who may read only what everybody may; no other
+process, no network, no change of what a file may do (a seccomp filter). Once up, none comes down again before the
+process ends. Which of them stand is told: on other systems some are missing.
 """
 
 from __future__ import annotations
@@ -44,12 +45,15 @@ REFUSED = {
 }
 KILL, SIGNAL_THREAD, CLONE, CLONE3 = 62, 234, 56, 435
 
+#: The user without rights, by custom.
+NOBODY = 65534
+
 #: A new thread is a clone with this flag; a new process one without.
 THREAD = 0x10000
 
 
 def confine(readable: Iterable[str], scratch: str, seconds: int, memory: int) -> list[str]:
-    """Build the walls. Returns which of "limits", "landlock", "seccomp" stand.
+    """Build the walls. Returns which of "limits", "landlock", "user", "seccomp" stand.
 
     Args:
         readable: files and folders that may be read; all others may not, nor be written.
@@ -64,7 +68,10 @@ def confine(readable: Iterable[str], scratch: str, seconds: int, memory: int) ->
     libc = ctypes.CDLL(None, use_errno=True)
     libc.prctl(1, signal.SIGKILL, 0, 0, 0)  # PR_SET_PDEATHSIG: end when the checker does
     libc.prctl(38, 1, 0, 0, 0)  # PR_SET_NO_NEW_PRIVS: asked for by both of the following
-    walls = {"limits": True, "landlock": landlock(libc, readable, scratch), "seccomp": seccomp(libc)}
+    walls = {"limits": True, "landlock": landlock(libc, readable, scratch)}
+    if not walls["landlock"]:
+        walls["user"] = become_nobody(scratch)
+    walls["seccomp"] = seccomp(libc)
     if not walls["seccomp"]:
         resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
     return [name for name, stands in walls.items() if stands]
@@ -110,6 +117,17 @@ def landlock(libc: ctypes.CDLL, readable: Iterable[str], scratch: str) -> bool:
     stands = libc.syscall(RESTRICT_SELF, rules, 0) == 0
     os.close(rules)
     return bool(stands)
+
+
+def become_nobody(scratch: str) -> bool:
+    """From root to a user who owns nothing but the folder. False for who is not root."""
+    if sys.platform == "win32" or os.geteuid() != 0:
+        return False
+    os.chown(scratch, NOBODY, NOBODY)
+    os.setgroups([])
+    os.setresgid(NOBODY, NOBODY, NOBODY)
+    os.setresuid(NOBODY, NOBODY, NOBODY)
+    return True
 
 
 def seccomp(libc: ctypes.CDLL) -> bool:

@@ -18,7 +18,7 @@ from typing import Any
 from experiments.exercises.exercise import Exercise, find
 from experiments.exercises.grading import Grade, grade
 from experiments.exercises.submission import Submission, files_of, read
-from experiments.exercises.words import paragraphs
+from experiments.exercises.words import UNSEEN, paragraphs
 from reference.errors import InputError
 
 #: The checker's own packages; a submission's process has NumPy alone.
@@ -39,8 +39,8 @@ if ! $python -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
     python=python3.11
 fi
 $python -m venv --help >/dev/null || {{ apt-get update -q && apt-get install -yq python3-venv; }}
-$python -m venv venv
-venv/bin/python -m pip install --quiet --disable-pip-version-check {packages}
+$python -m venv ../springlab-venv
+../springlab-venv/bin/python -m pip install --quiet --disable-pip-version-check {packages}
 """
 
 #: Grades one submission: run in the folder that has source, submission and results.
@@ -50,7 +50,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 mkdir -p results
 chmod -R go-rwx source
-python="${SPRINGLAB_PYTHON:-$PWD/source/venv/bin/python}"
+python="${SPRINGLAB_PYTHON:-$PWD/springlab-venv/bin/python}"
 PYTHONPATH="$PWD/source" exec "$python" -m experiments.exercises.gradescope submission results/results.json \
 source/exercise.json
 """
@@ -59,7 +59,8 @@ source/exercise.json
 def results(submission: Submission, given: Grade) -> dict[str, Any]:
     """A grade in Gradescope's format: the public check is seen at once, the hidden one when grades are published."""
     tests = [_test("Public check", "1", given.public.right, given.public.passed, "visible")]
-    tests[0]["output"] = "\n".join(paragraphs(submission, Grade(given.public, None, given.seconds)))
+    alone = "\n".join(paragraphs(submission, Grade(given.public, None, given.seconds)))
+    tests[0]["output"] = alone if given.hidden is None else alone.replace(UNSEEN, "The hidden one is told later.")
     if given.hidden is not None:
         tests.append(_test("Hidden check", "2", given.hidden.right, given.hidden.passed, "after_published"))
         tests[1]["output"] = "\n".join(paragraphs(submission, given))

@@ -114,6 +114,7 @@ def grade_class(
     key: str | None = None,
     jobs: int | None = None,
     tell: Callable[[str], None] = lambda _: None,
+    limits: Limits | None = None,
 ) -> list[dict[str, str]]:
     """Grade many files, each row in the table as soon as it is there; rows that are there already are not done again.
 
@@ -131,7 +132,7 @@ def grade_class(
     _write(table, kept.values())
 
     def one(path: Path, name: str) -> dict[str, str]:
-        row = _graded(path, name, exercise, key, kept)
+        row = _graded(path, name, exercise, key, kept, limits)
         with lock, table.open("a", newline="", encoding="utf-8") as file:
             if row is not kept.get(_cell(name)):
                 csv.DictWriter(file, COLUMNS).writerow(row)
@@ -151,7 +152,12 @@ def grade_class(
 
 
 def _graded(
-    path: Path, name: str, exercise: Exercise | None, key: str | None, kept: dict[str, dict[str, str]]
+    path: Path,
+    name: str,
+    exercise: Exercise | None,
+    key: str | None,
+    kept: dict[str, dict[str, str]],
+    limits: Limits | None,
 ) -> dict[str, str]:
     """A file's row; whatever goes wrong with it is in the row, and nobody else's."""
     try:
@@ -162,7 +168,7 @@ def _graded(
     if done is not None and done["digest"] == submission.digest(key):
         return done
     try:
-        return row_of(submission, grade(submission, key), key)
+        return row_of(submission, grade(submission, key, limits), key)
     except Exception as error:  # the checker's own fault: the class goes on
         return _row(name, outcome="error", finding="not_graded", words=f"{type(error).__name__}: {error}")
 

@@ -99,10 +99,12 @@ def _verdict(known: Catalogue, reply: sandbox.Reply) -> Verdict:
         word: Outcome = "timed out" if reply.ended == "timed out" else "crashed"
         return _failed(known, word, Finding(word.replace(" ", "_"), f"It was stopped: {reply.reason}."))
     try:
-        error = reply.error or next((a["error"] for a in reply.answers if a.get("error")), None)
         missing = [q.function for q in known.questions if q.function not in reply.names]
-        if error or missing:
-            return _failed(known, "error", fault_of_error(error, missing[0] if missing else None))
+        if missing and not reply.error:
+            return _failed(known, "error", fault_of_error(None, missing[0]))
+        error = reply.error or next((a["error"] for a in reply.answers if a.get("error")), None)
+        if error:
+            return _failed(known, "error", fault_of_error(error, None))
         given = _values(known, reply)
     except (TypeError, AttributeError, ValueError, IndexError, KeyError):
         given = None  # the submission wrote what it was not asked for

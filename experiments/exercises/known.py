@@ -16,14 +16,17 @@ from reference.state import Array
 #: A motion that blows up is compared while it is no larger than so many times the right one: beyond, rounding is too.
 LARGEST = 100.0
 
+#: So often random numbers are drawn, until no two mistakes give the same answers.
+DRAWS = 50
+
 
 class Catalogue:
     """The questions of an exercise, and what the solution and every known mistake answer to them."""
 
-    def __init__(self, exercise: Exercise, seed: str, key: str | None) -> None:
+    def __init__(self, exercise: Exercise, seed: str, key: str | None, draw: int = 0) -> None:
         self.exercise = exercise
-        number = int.from_bytes(hashlib.sha256(f"{exercise.name}\0{seed}\0{key or ''}".encode()).digest()[:8], "big")
-        random = np.random.default_rng(number)
+        words = f"{exercise.name}\0{seed}\0{key or ''}\0{draw}"
+        random = np.random.default_rng(list(hashlib.sha256(words.encode()).digest()))
         self.questions = list(exercise.questions(random, key is not None, seed))
         self._answers: dict[tuple[tuple[str, Any], ...], list[Answer]] = {}
         self._beginnings: dict[tuple[tuple[str, Any], ...], list[Answer]] = {}
@@ -56,6 +59,12 @@ class Catalogue:
             for question, answer in zip(self.questions, self.right, strict=True)
         ]
 
+    @property
+    def apart(self) -> bool:
+        """Whether no mistake gives the answers of another, or the right ones."""
+        answers = [("", self.right), *((m.name, self.answers(m.knobs)) for m in self.exercise.mistakes)]
+        return all(a == b or self.distance(x, y) > 1e-4 for (a, x), (b, y) in combinations(answers, 2))
+
     @cached_property
     def pairs(self) -> list[tuple[Mistake, Mistake]]:
         """Every two mistakes that can be made at once."""
@@ -73,8 +82,15 @@ class Catalogue:
 
 @lru_cache(maxsize=64)
 def catalogue(exercise: Exercise, seed: str, key: str | None) -> Catalogue:
-    """The catalogue of an exercise; made once for all submissions that are asked the same."""
-    return Catalogue(exercise, seed if exercise.seeded else "", key)
+    """The catalogue of an exercise; made once for all submissions that are asked the same.
+
+    By chance two mistakes may be one, when the longest member of a bridge is also the stiffest: numbers are drawn anew.
+    """
+    for draw in range(DRAWS):
+        known = Catalogue(exercise, seed if exercise.seeded else "", key, draw)
+        if exercise.seeded or any(question.steps for question in known.questions) or known.apart:
+            break
+    return known
 
 
 def answer_distance(answer: Answer, known: Answer, scales: Sequence[float]) -> float:

@@ -28,8 +28,10 @@ OF_INERTIA = (
 
 #: In any step.
 OF_A_STEP = (
-    mistake("dt_twice", "dt is in your step twice.", "What is the unit of velocity times dt times dt?", clock="twice"),
-    mistake("dt_missing", "dt is not in your step.", "What must happen to the step if dt is halved?", clock="none"),
+    mistake(
+        "dt_twice", "Your step has dt in it twice.", "What is the unit of velocity times dt times dt?", clock="twice"
+    ),
+    mistake("dt_missing", "Your step has no dt in it.", "What must happen to the step if dt is halved?", clock="none"),
     mistake("half_a_step", "Your step advances by half of dt only.", "Count the factors 1/2.", clock="half"),
     mistake(
         "positions_stay",

@@ -6,13 +6,16 @@ from experiments.exercises.grading import Grade
 from experiments.exercises.judge import Verdict
 from experiments.exercises.submission import Submission
 
+#: What is said of the hidden check as long as nobody has run it.
+UNSEEN = "The hidden one has not run."
+
 
 def headline(given: Grade) -> str:
     """One line: how it went."""
     if given.public.name == "not_written_yet":
         return "There is nothing to check yet."
     if given.public.right and given.hidden is None:
-        return "Public check passed. The hidden one has not run."
+        return f"Public check passed. {UNSEEN}"
     if given.public.right and given.hidden is not None and given.hidden.right:
         return "Public and hidden check passed."
     if given.public.right:

@@ -43,7 +43,6 @@ if __name__ == "__main__":
         others = sorted({said for case, said in wrongly.items() if (case[1] or "right") == name})
         print(f"{name:32} named right {right} of {many}" + (f"; else {', '.join(others)}" if others else ""))
     three = sum(1 for name, many in count.items() if many == 3 and name != "right")
-    print(
-        f"{len(count) - 1} mistakes, {three} of them in three styles; {len(found) - len(wrongly)} of {len(found)} named right"
-    )
+    print(f"{len(count) - 1} mistakes, {three} of them in three styles")
+    print(f"{len(found) - len(wrongly)} of {len(found)} named right")
     sys.exit(bool(wrongly))

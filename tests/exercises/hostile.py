@@ -104,14 +104,12 @@ HOSTILE = {
     "segmentation_fault": Hostile("import ctypes\nctypes.string_at(0)\n", "crashed", "crashed"),
     "kills_its_parent": Hostile("import os\nos.kill(os.getppid(), 9)\n", "error", "reaches_out"),
     "kills_everybody": Hostile("import os\nos.kill(-1, 9)\n", "error", "reaches_out"),
-    "calls_home": Hostile(
-        "import socket\nsocket.create_connection(('127.0.0.1', 80), timeout=1)\n", "error", "reaches_out"
-    ),
+    "calls_home": Hostile("import socket\nsocket.socket()\n", "error", "reaches_out"),
     "lifts_its_limits": Hostile(
         "import resource\nresource.setrlimit(resource.RLIMIT_CPU, (10**6, 10**6))\n", "error", "raises_an_error"
     ),
     "sends_a_pickle": Hostile(
-        "import os, pickle\nclass P:\n    def __reduce__(self):\n        return (os.system, ('touch {outside}/pwned',))\n"
+        "import os, pickle\nclass P:\n    def __reduce__(self):\n        return (os.system, ('touch {outside}/x',))\n"
         "def step(y, v, dt, spring):\n    return P(), pickle.dumps(P())\n",
         "error",
         "not_numbers",
