@@ -39,10 +39,10 @@ class Departure:
             place = f"between mass {self.index[0]} and mass {self.index[1]}"
             return f"{self.about}, {place}: {self.given} springs, expected {self.right}"
         place = f"{self.item} {self.index[0]}" if self.index else ""
-        axis = f", {'xyz'[self.index[1]]}" if len(self.index) == 2 and self.index[1] < 3 else ""
+        at = f"[{', '.join(map(str, self.index))}]" if self.index else ""
         where = ", ".join(filter(None, [self.about, f"step {self.step}" if self.step else "", place]))
         expected = f"expected {_plain(self.right)}" if self.told else "which is not right"
-        return f"{where}: {self.part}{axis} is {_plain(self.given)}, {expected}"
+        return f"{where}: {self.part}{at} is {_plain(self.given)}, {expected}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,14 +86,14 @@ def _lines(question: Question, answer: Answer, right: Answer, p: int, index: tup
     want = right[0][p]
     if want.dtype.kind == "U" or (not question.steps and want.ndim == 0) or question.item == "between mass":
         return None
-    axis = index[1:]
-    name = question.parts[p] + (f", {'xyz'[axis[0]]}" if axis and axis[0] < 3 else "")
+    name, axis = question.parts[p], index[1:]
+    unit = f" [{question.units[p]}]" if question.units else ""
     if question.steps:
-        place = f" of {question.item} {index[0]}" if index else ""
+        place = f"[{', '.join(map(str, index))}]" if index else ""
         both = [[float(step[p][index]) for step in steps] for steps in (right, answer)]
-        return Lines("step", name + place, np.array(both[0]), np.array(both[1]))
+        return Lines("step", name + place + unit, np.array(both[0]), np.array(both[1]))
     rows = [np.array([row[axis] for row in steps[0][p]], dtype=float) for steps in (right, answer)]
-    return Lines(question.item, name, *rows)
+    return Lines(question.item, name + (f"[:, {axis[0]}]" if axis else "") + unit, *rows)
 
 
 def _plain(value: Any) -> str:

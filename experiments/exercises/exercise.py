@@ -49,6 +49,7 @@ class Question:
         steps: 0 for one call; else so many, each with what the last returned in place of its first arguments.
         own: what the solution is told beside that, and the student's function is not.
         item: what the first axis of an answer counts.
+        units: of the parts.
     """
 
     function: str
@@ -58,6 +59,7 @@ class Question:
     steps: int = 0
     own: Mapping[str, Any] = field(default_factory=dict)
     item: str = "mass"
+    units: tuple[str, ...] = ()
 
     def asked(self) -> dict[str, Any]:
         """What the submission's process is told."""

@@ -8,7 +8,7 @@ import numpy as np
 
 from experiments.exercises.exercise import Question
 from experiments.exercises.links import namespace
-from experiments.exercises.stepping import DT, step
+from experiments.exercises.stepping import DT, M_AND_SPEED, step
 
 
 def step_of_one(y: float, v: float, dt: float, spring: Any, scheme: str, **knobs: Any) -> tuple[float, float]:
@@ -40,5 +40,5 @@ def questions_on_one(random: np.random.Generator, hidden: bool, seed: str) -> li
         }
         y, v = -spring["rest_length"] * float(random.uniform(1.1, 1.4)), float(random.uniform(0.3, 1.0))
         dt = DT * float(random.uniform(0.5, 1.0))
-        questions.append(Question("step", (y, v, dt, spring), ("y", "v"), f"spring {i + 1}", steps=20))
+        questions.append(Question("step", (y, v, dt, spring), ("y", "v"), f"spring {i + 1}", 20, units=M_AND_SPEED))
     return questions

@@ -21,6 +21,9 @@ Step = Callable[[Any, State, float], State]
 #: A step [s] that the strings and springs of the exercises take well, and that is long enough to show what differs.
 DT = 0.004
 
+#: Units of positions and velocities.
+M_AND_SPEED = ("m", "m/s")
+
 
 def step(x: Array, v: Array, dt: float, string: Any, scheme: str, clock: str = "dt", **law: Any) -> tuple[Array, Array]:
     """One step of a string by a scheme, of the catalogue or of those below.

@@ -66,7 +66,9 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
         far = circle["radius"] * np.choose(kind, [within, within, 1.2, 1.2, 4.0])
         x = circle["centre"] + far[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
         v = random.uniform(-1, 1, (count, 2))
-        asked.append(Question("push_out", (x, v, circle), ("x", "v"), f"{count} masses about a circle"))
+        asked.append(
+            Question("push_out", (x, v, circle), ("x", "v"), f"{count} masses about a circle", units=("m", "m/s"))
+        )
     return asked
 
 
