@@ -32,6 +32,7 @@ COMMANDS = {
         "Say what versions of an engine do, and what each changed.",
     ),
     "run": ("report.commands:run_command", "Run experiments, and write their figures and tables."),
+    "exercise": ("experiments.exercises.commands:exercise_command", "Exercises, and a checker that names the mistake."),
     "report": ("report.commands:report_command", "Write the report: every experiment on one page."),
 }
 

@@ -89,6 +89,27 @@ def test_the_experiment_of_the_recipe_answers_its_question(follow: Any) -> None:
     assert result.tables[0].rows[-1][1] > result.tables[0].rows[0][1]
 
 
+def test_the_exercise_of_the_recipe_names_its_mistakes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In one folder: it is listed, a right solution passes, a mistake is named, and so are two at once."""
+    from experiments.exercises import exercise
+    from experiments.exercises.judge import judge
+
+    blocks = re.findall(r"```python\n(.*?)```", CONTRIBUTING.read_text(encoding="utf-8"), flags=re.S)
+    (code,) = (block for block in blocks if block.startswith("# exercise\n"))
+    folder = tmp_path / "e11_momentum"
+    folder.mkdir()
+    (folder / "exercise.py").write_text(code)
+    (folder / "text.md").write_text("# 11 Momentum\n")
+    (folder / "starter.py").write_text("EXERCISE = 11\n")
+    monkeypatch.setattr(exercise, "FOLDERS", [*exercise.FOLDERS, tmp_path])
+    found = exercise.find("11")
+    right = "def momentum(v, masses):\n    return sum(m * u for m, u in zip(masses, v))\n"
+    assert judge(found, right).name == "right"
+    assert judge(found, right, key="k").name == "right"
+    assert judge(found, right.replace("sum(", "-sum(")).name == "sign"
+    assert judge(found, right.replace("sum(", "-1 / len(v) * sum(")).name == "sign + mean"
+
+
 def test_readme_has_the_table_of_engines_as_they_are() -> None:
     """`python -m report.readme` would change nothing."""
     text = README.read_text(encoding="utf-8")

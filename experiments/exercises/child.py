@@ -1,0 +1,192 @@
+"""What the process of a submission does: build its walls, read the submission, call its functions, hand back arrays.
+
+Run as a script by an isolated interpreter that finds NumPy and nothing else; `sandbox` starts it. What it tells is
+hearsay, as the submission shares the process: only numbers that the checker can compare make a pass.
+"""
+
+from __future__ import annotations
+
+import importlib
+import json
+import os
+import struct
+import sys
+import traceback
+from collections.abc import Mapping, Sequence
+from types import ModuleType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+#: Kinds of arrays that are handed over: truths, whole numbers, numbers, words. No objects.
+KINDS = "biufU"
+
+#: What a submission is called where its own lines are named.
+NAME = "<submission>"
+
+
+def pack(value: Any) -> bytes:
+    """Lists, dicts, numbers, words and arrays as bytes: a length, JSON, then the arrays one after another."""
+    arrays: list[bytes] = []
+
+    def plain(part: Any) -> Any:
+        if isinstance(part, np.ndarray):
+            if part.dtype.kind not in KINDS:
+                raise ValueError(f"cannot hand over {part.dtype}")
+            arrays.append(np.ascontiguousarray(part).tobytes())
+            return {"dtype": part.dtype.str, "shape": list(part.shape)}
+        if isinstance(part, Mapping):
+            return {"fields": {name: plain(p) for name, p in part.items()}}
+        return [plain(p) for p in part] if isinstance(part, list | tuple) else part
+
+    head = json.dumps(plain(value)).encode()
+    return struct.pack("<Q", len(head)) + head + b"".join(arrays)
+
+
+def unpack(data: bytes) -> Any:
+    """What was packed. Raises ValueError where the bytes are nothing of that kind, whoever wrote them."""
+    try:
+        (length,) = struct.unpack_from("<Q", data)
+        rest = memoryview(data)[8 + length :]
+
+        def full(part: Any) -> Any:
+            nonlocal rest
+            if isinstance(part, list):
+                return [full(p) for p in part]
+            if not isinstance(part, dict):
+                return part
+            if "fields" in part:
+                return {name: full(p) for name, p in part["fields"].items()}
+            dtype, shape = np.dtype(str(part["dtype"])), tuple(int(n) for n in part["shape"])
+            if dtype.kind not in KINDS or any(n < 0 for n in shape) or len(shape) > 8:
+                raise ValueError("an array of a kind that is not handed over")
+            size = int(np.prod([dtype.itemsize, *shape], dtype=object))
+            if size > len(rest):
+                raise ValueError("an array that is cut short")
+            array = np.frombuffer(rest[:size], dtype).reshape(shape).copy()
+            rest = rest[size:]
+            return array
+
+        return full(json.loads(data[8 : 8 + length]))
+    except (struct.error, KeyError, TypeError, AttributeError, RecursionError, OverflowError) as error:
+        raise ValueError(f"not an answer: {error}") from None
+
+
+def fresh(value: Any) -> Any:
+    """The same arguments anew: arrays of their own, a namespace for a dict."""
+    if isinstance(value, np.ndarray):
+        return value.copy()
+    if isinstance(value, Mapping):
+        return SimpleNamespace(**{name: fresh(v) for name, v in value.items()})
+    return value
+
+
+def changed(value: Any, before: Any) -> bool:
+    """Whether an argument is no longer what it was."""
+    if isinstance(before, np.ndarray):
+        return not np.array_equal(value, before, equal_nan=True)
+    if isinstance(before, Mapping):
+        return any(changed(getattr(value, name, None), before[name]) for name in before)
+    return False
+
+
+def split(value: Any, parts: Sequence[str]) -> list[Any]:
+    """What was returned, thing by thing."""
+    if len(parts) == 1:
+        return [value]
+    return list(value) if isinstance(value, tuple | list | np.ndarray) else [value]
+
+
+def parts_of(value: Any, parts: Sequence[str]) -> list[Any]:
+    """What was returned, as arrays of its own; ValueError in plain words where it is something else."""
+    if value is None:
+        raise ValueError("it returns nothing: a return is missing")
+    values = split(value, parts)
+    if len(values) != len(parts):
+        raise ValueError(f"it returns {len(values)} thing{'s'[: len(values) != 1]}: expected {', '.join(parts)}")
+    arrays = [np.asarray(v) for v in values]
+    for array, name in zip(arrays, parts, strict=True):
+        if array.dtype.kind not in KINDS:
+            raise ValueError(f"{name} is not made of real numbers, but of {array.dtype}")
+    return [array.copy() for array in arrays]
+
+
+def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
+    """A question's answers: of one call, or of as many as there are steps, each fed with what the last returned."""
+    values: list[list[Any]] = []
+    answer: dict[str, Any] = {"values": values}
+    first, names = question["arguments"], question["parts"]
+    arguments, kept = list(first), []
+    try:
+        function = getattr(module, question["function"])
+        for _ in range(max(1, question["steps"])):
+            given = [fresh(a) for a in arguments]
+            returned = function(*given)
+            values.append(parts_of(returned, names))
+            if any(changed(g, a) for g, a in zip(given, arguments, strict=True)):
+                answer["modified"] = True
+            kept.append((split(returned, names), values[-1]))
+            if question["steps"] and not all(map(_fits, values[-1], arguments)):
+                break
+            if question["steps"]:
+                fed = [v if np.ndim(a) else v.item() for v, a in zip(values[-1], arguments, strict=False)]
+                arguments = [*fed, *first[len(fed) :]]
+        answer["overwritten"] = any(
+            isinstance(part, np.ndarray) and changed(part, was)
+            for returned, before in kept[:-1]
+            for part, was in zip(returned, before, strict=True)
+        )
+        answer["again"] = parts_of(function(*[fresh(a) for a in first]), names)
+    except BaseException as error:
+        answer["error"] = story(error)
+    return answer
+
+
+def _fits(value: Any, argument: Any) -> bool:
+    """Whether what was returned can be what the next step is given: of the same shape, no whole numbers for others."""
+    before = np.asarray(argument)
+    return value.shape in (before.shape, (1,) * (not before.ndim)) and (value.dtype.kind == "f") >= (
+        before.dtype.kind == "f"
+    )
+
+
+def story(error: BaseException) -> dict[str, Any]:
+    """An exception, with the line of the submission it came from."""
+    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == NAME]
+    line = error.lineno if isinstance(error, SyntaxError) and error.filename == NAME else lines[-1] if lines else None
+    words = error.msg if isinstance(error, SyntaxError) else str(error)
+    return {"type": type(error).__name__, "words": str(words)[:300], "line": line}
+
+
+def read_all(handle: int) -> bytes:
+    """A file from its beginning."""
+    os.lseek(handle, 0, os.SEEK_SET)
+    return b"".join(iter(lambda: os.read(handle, 2**20), b""))
+
+
+def main() -> None:
+    """Standard input has the task, standard output takes the answer; what the submission prints goes elsewhere."""
+    task = unpack(read_all(0))
+    out = os.dup(1)
+    os.dup2(2, 1)
+    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+    walls = importlib.import_module("confine").confine(
+        task["readable"], task["scratch"], task["seconds"], task["memory"]
+    )
+    sys.path[:] = [path for path in sys.path if path not in task["hidden"]][1:]
+    np.seterr(all="ignore")
+    reply: dict[str, Any] = {"walls": walls, "answers": []}
+    module = ModuleType("submission")
+    sys.modules["submission"] = module
+    try:
+        exec(compile(task["source"], NAME, "exec"), module.__dict__)
+        reply["names"] = [name for name in module.__dict__ if not name.startswith("_")]
+        reply["answers"] = [ask(module, question) for question in task["questions"]]
+    except BaseException as error:
+        reply["error"] = story(error)
+    os.write(out, pack(reply))
+    os._exit(0)  # at once: threads and exit functions of the submission have nothing more to say
+
+
+if __name__ == "__main__":
+    main()

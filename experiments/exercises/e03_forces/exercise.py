@@ -1,0 +1,17 @@
+"""The forces on a string in two dimensions (slides 5 and 9-10)."""
+
+from __future__ import annotations
+
+from experiments.exercises.exercise import Exercise
+from experiments.exercises.force_mistakes import OF_A_SPRING, OF_A_STRING
+from experiments.exercises.links import forces
+from experiments.exercises.on_strings import questions_on_forces
+
+EXERCISE = Exercise(
+    title="The forces on a string",
+    minutes=45,
+    goals="Vectors along springs, action and reaction, the first and the last link.",
+    solutions={"forces": forces},
+    questions=questions_on_forces,
+    mistakes=(*OF_A_SPRING, *OF_A_STRING),
+)

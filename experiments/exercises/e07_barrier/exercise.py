@@ -1,0 +1,175 @@
+"""Masses that run into a circle (slides 16-17)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises.exercise import Exercise, Mistake, Question
+from experiments.exercises.force_mistakes import mistake
+from reference.state import Array
+
+
+def push_out(
+    x: Array,
+    v: Array,
+    circle: Any,
+    *,
+    velocity: str = "inwards off",
+    place: str = "surface",
+    where: str = "inside",
+    normal: str = "unit",
+) -> tuple[Array, Array]:
+    """Masses inside go straight out to the surface, and lose the velocity that leads inwards."""
+    gap = x - circle.centre
+    far = np.linalg.norm(gap, axis=1)
+    n = gap if normal == "gap" else gap / far[:, None]
+    at = (v * n).sum(axis=1)[:, None]
+    inside = {
+        "inside": far < circle.radius,
+        "everywhere": np.full(len(x), True),
+        "outside": far > circle.radius,
+        "square": far**2 < circle.radius,
+        "box": (np.abs(gap) < circle.radius).all(axis=1),
+    }[where][:, None]
+    new = {
+        "inwards off": v - np.minimum(at, 0) * n,
+        "tangential": v - at * n,
+        "printed": v * np.stack([n[:, 1], -n[:, 0]], axis=1),
+        "stopped": 0 * v,
+        "mirrored": v - 2 * np.minimum(at, 0) * n,
+        "kept": v,
+        "normal": at * n,
+        "turned": at * n - v,
+        "outwards off": v - np.maximum(at, 0) * n,
+    }[velocity]
+    out = {
+        "surface": circle.centre + circle.radius * n,
+        "kept": x,
+        "origin": circle.radius * n,
+        "added": x + circle.radius * n,
+        "other side": circle.centre - circle.radius * n,
+    }[place]
+    return np.where(inside, out, x), np.where(inside, new, v)
+
+
+def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
+    """Masses inside and outside, on all sides, coming and going."""
+    asked = []
+    for count in (1, 9, 12) if hidden else (8, 6):
+        circle = {"centre": random.uniform(-1, 1, 2), "radius": float(random.uniform(0.3, 0.6))}
+        # two inside; one outside in a corner of the square about the circle, one outside of that; one farther away
+        kind, quarter = np.arange(count) % 5, np.pi / 2 * random.integers(4, size=count)
+        anywhere, within = random.uniform(0, 2 * np.pi, count), random.uniform(0.6, 0.8, count)
+        angle = np.choose(kind, [anywhere, anywhere, quarter + np.pi / 4, quarter, anywhere])
+        far = circle["radius"] * np.choose(kind, [within, within, 1.2, 1.2, 4.0])
+        x = circle["centre"] + far[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        v = random.uniform(-1, 1, (count, 2))
+        asked.append(
+            Question("push_out", (x, v, circle), ("x", "v"), f"{count} masses about a circle", units=("m", "m/s"))
+        )
+    return asked
+
+
+EXERCISE = Exercise(
+    title="The barrier",
+    minutes=45,
+    goals="Projections: what of a velocity an obstacle takes, and what it leaves.",
+    solutions={"push_out": push_out},
+    questions=questions,
+    mistakes=(
+        mistake(
+            "product_of_components",
+            "Your velocity is multiplied component by component: that is no projection.",
+            "What is the tangential part of a velocity that already is tangential?",
+            velocity="printed",
+        ),
+        Mistake(
+            "leaving_is_stopped",
+            "You also take the velocity that leads outwards: your circle holds on to masses. (So does slide 17.)",
+            "A mass that is leaving: should the obstacle pull it back?",
+            {"velocity": "tangential"},
+            True,
+        ),
+        mistake(
+            "stopped", "Your masses stop.", "What does a smooth surface do to a velocity along it?", velocity="stopped"
+        ),
+        mistake(
+            "bounces",
+            "Your masses bounce: the part that leads inwards is turned about, not taken.",
+            "How often do you subtract the part along the normal?",
+            velocity="mirrored",
+        ),
+        mistake(
+            "velocity_unchanged",
+            "Your velocities stay as they were.",
+            "What of a velocity is left at the surface?",
+            velocity="kept",
+        ),
+        mistake(
+            "normal_part_kept",
+            "You keep the part along the normal, and take the tangential one.",
+            "Which way does a mass go that slides?",
+            velocity="normal",
+        ),
+        mistake("tangential_turned", "Your masses slide the other way.", "What minus what?", velocity="turned"),
+        mistake(
+            "outwards_taken",
+            "You take the velocity that leads outwards, and leave what leads inwards.",
+            "What is the sign of v . n for a mass that comes in?",
+            velocity="outwards off",
+        ),
+        mistake(
+            "position_unchanged",
+            "Your masses stay inside.",
+            "Where is the nearest place that is allowed?",
+            place="kept",
+        ),
+        mistake(
+            "centre_forgotten",
+            "You put masses on a circle about the origin.",
+            "Where is the circle's centre?",
+            place="origin",
+        ),
+        mistake(
+            "radius_added",
+            "You move masses out by a whole radius.",
+            "How far from the centre is the surface?",
+            place="added",
+        ),
+        mistake(
+            "other_side",
+            "Your masses come out on the other side.",
+            "Which way does your normal point?",
+            place="other side",
+        ),
+        mistake(
+            "everywhere",
+            "You also move masses that are outside.",
+            "Which masses does the circle touch?",
+            where="everywhere",
+        ),
+        mistake(
+            "outside_in",
+            "You move the masses that are outside, not those inside.",
+            "Which way does your < point?",
+            where="outside",
+        ),
+        mistake(
+            "square_against_radius",
+            "You compare the square of a distance with the radius.",
+            "What are the two units?",
+            where="square",
+        ),
+        mistake(
+            "box", "You take the square about the circle for the circle.", "What does Pythagoras say?", where="box"
+        ),
+        mistake(
+            "not_normalised",
+            "Your normal is not of length 1.",
+            "How long is the vector from the centre to a mass?",
+            normal="gap",
+        ),
+    ),
+)

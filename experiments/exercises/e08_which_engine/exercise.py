@@ -1,0 +1,87 @@
+"""Which engine is it? Trajectories of steppers without a name, to be identified."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises.exercise import Exercise, Question
+from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.links import namespace, random_string
+from experiments.exercises.stepping import DT, step
+
+#: Whom it may be.
+KNOWN = ("euler", "heun", "kick_drift", "drift_kick", "velocity_verlet", "midpoint", "rk4", "heun_link_by_link")
+
+#: What the trajectories are called, and how long they are.
+LETTERS, STEPS = "ABCDE", 40
+
+
+def chosen(seed: str) -> tuple[list[str], np.random.Generator]:
+    """Who is behind the letters, for a student's seed with the teacher's key; and random numbers."""
+    digest = hashlib.sha256(f"which engine\0{seed}".encode()).digest()
+    random = np.random.default_rng(list(digest))
+    # these two are always among them: to tell them apart is what the exercise is about
+    others = random.permutation([name for name in KNOWN if name not in ("kick_drift", "drift_kick")])[:3]
+    return random.permutation(["kick_drift", "drift_kick", *others]).tolist(), random
+
+
+def names(seed: str, swap: tuple[str, str] = ("", ""), shifted: int = 0) -> Any:
+    """The right names, or with two of them taken for each other."""
+    right = chosen(seed)[0]
+    swapped = [{swap[0]: swap[1], swap[1]: swap[0]}.get(name, name) for name in right]
+    return np.array(swapped[shifted:] + swapped[:shifted])
+
+
+def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
+    """One question, hidden or not."""
+    return [Question("names", (), ("the names",), "the trajectories", own={"seed": seed}, item="trajectory")]
+
+
+def files(seed: str) -> dict[str, str]:
+    """The string, and what five steppers make of it, to all digits."""
+    chosen_names, random = chosen(seed)
+    x, v, string = random_string(random, 3)
+    plain = {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in string.items()}
+    made = {"string.json": json.dumps({"dt": DT, "x": x.tolist(), "v": v.tolist(), **plain}, indent=1) + "\n"}
+    for letter, name in zip(LETTERS, chosen_names, strict=True):
+        rows, state = ["step,x0,y0,x1,y1,x2,y2"], (x, v)
+        for i in range(STEPS + 1):
+            rows.append(",".join([str(i), *map(repr, state[0].ravel().tolist())]))
+            state = step(*state, DT, namespace(string), name)
+        made[f"{letter}.csv"] = "\n".join(rows) + "\n"
+    return made
+
+
+def _swapped(a: str, b: str, hint: str) -> Any:
+    return mistake(f"{a}_or_{b}", f"You take {a} for {b}, or {b} for {a}.", hint, swap=(a, b))
+
+
+EXERCISE = Exercise(
+    title="Which engine is it?",
+    minutes=60,
+    goals="Identify a program by what it does: run candidates beside it, and look at the size of what is left.",
+    solutions={"names": names},
+    questions=questions,
+    seeded=True,
+    keyed=True,
+    files=files,
+    mistakes=(
+        _swapped("kick_drift", "drift_kick", "Look at the very first step: whose velocity moved the masses?"),
+        _swapped("heun", "midpoint", "Where is their second slope taken? They part in the third order of dt."),
+        _swapped("heun", "heun_link_by_link", "Does the first mass tell them apart, or the second?"),
+        _swapped("heun", "velocity_verlet", "Which has dt^2 a / 2 in its first step, and nothing of higher order?"),
+        _swapped("midpoint", "velocity_verlet", "Which has dt^2 a / 2 in its first step, and nothing of higher order?"),
+        _swapped("heun", "rk4", "Halve dt in your own program: how far does each move?"),
+        _swapped("rk4", "velocity_verlet", "Halve dt in your own program: how far does each move?"),
+        _swapped("rk4", "midpoint", "Halve dt in your own program: how far does each move?"),
+        _swapped("euler", "kick_drift", "Look at the very first step: has gravity moved the masses yet?"),
+        _swapped("euler", "drift_kick", "Their first step is the same; look at the second."),
+        mistake(
+            "letters_off_by_one", "Your names are right, but one letter off.", "Which file is the first?", shifted=1
+        ),
+    ),
+)

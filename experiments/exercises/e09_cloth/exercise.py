@@ -1,0 +1,163 @@
+"""The springs of a cloth (slides 18-22)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises.exercise import Exercise, Question
+from experiments.exercises.force_mistakes import mistake
+from reference.system import IntArray
+
+
+def springs(
+    rows: int,
+    columns: int,
+    *,
+    along: str = "both",
+    shear: str = "both",
+    bend: str = "both",
+    far: int = 2,
+    numbering: str = "rows",
+    ends: str = "open",
+    double: bool = False,
+    less: int = 0,
+) -> IntArray:
+    """Pairs of masses: mass (r, c) has number r * columns + c."""
+    number = np.arange(rows * columns).reshape(rows, columns)
+    if numbering == "columns":
+        number = np.add.outer(np.arange(rows), rows * np.arange(columns))
+    grid = number[: rows - less, : columns - less]
+    pairs = []
+    for dr, dc, kind in ((0, 1, along != "columns"), (1, 0, along != "rows")):
+        pairs += _offset(grid, dr, dc) if kind else []
+    pairs += _offset(grid, 1, 1) if shear in ("both", "falling") else []
+    pairs += _offset(grid[:, ::-1], 1, 1) if shear in ("both", "rising") else []
+    for dr, dc, kind in ((0, far, bend in ("both", "rows")), (far, 0, bend in ("both", "columns"))):
+        pairs += _offset(grid, dr, dc) if kind else []
+    pairs += _offset(grid, 2, 2) + _offset(grid[:, ::-1], 2, 2) if bend == "aslant" else []
+    if ends == "next row":
+        pairs += [(int(grid[r, -1]), int(grid[r + 1, 0])) for r in range(len(grid) - 1)]
+    if ends == "closed":
+        pairs += [(int(row[-1]), int(row[0])) for row in grid]
+    return np.array(pairs + [(b, a) for a, b in pairs] if double else pairs)
+
+
+def _offset(grid: IntArray, dr: int, dc: int) -> list[tuple[int, int]]:
+    one, other = grid[: max(len(grid) - dr, 0), : max(grid.shape[1] - dc, 0)], grid[dr:, dc:]
+    return list(zip(one.ravel().tolist(), other.ravel().tolist(), strict=True))
+
+
+def counted(question: Question, pairs: Any) -> Any:
+    """How many springs there are between any two masses: no matter in which order they are named.
+
+    A number that no mass has counts as the one after the last.
+    """
+    if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iuf":
+        return pairs
+    n = question.arguments[0] * question.arguments[1]
+    valid = (pairs >= 0) & (pairs < n) & (pairs == np.round(pairs))
+    ends = np.sort(np.where(valid, pairs, n).astype(int), axis=1)
+    count = np.zeros((n + 1, n + 1), dtype=int)
+    np.add.at(count, (ends[:, 0], ends[:, 1]), 1)
+    return count
+
+
+def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
+    """Cloths of different numbers of rows and columns."""
+    sizes = ((2, 2), (3, 6), (7, 4), (1, 4)) if hidden else ((4, 5), (6, 3))
+    return [Question("springs", s, ("springs",), f"cloth of {s[0]} x {s[1]}", item="between mass") for s in sizes]
+
+
+EXERCISE = Exercise(
+    title="The springs of a cloth",
+    minutes=45,
+    goals="From a picture to indices: structural, shear and bend springs of a grid, edges and corners.",
+    solutions={"springs": springs},
+    questions=questions,
+    canonical=counted,
+    mistakes=(
+        mistake(
+            "no_shear", "There are no shear springs.", "What keeps a square from becoming a rhombus?", shear="none"
+        ),
+        mistake(
+            "one_diagonal",
+            "Your squares have one diagonal, the falling one.",
+            "How many diagonals has a square?",
+            shear="falling",
+        ),
+        mistake(
+            "other_diagonal",
+            "Your squares have one diagonal, the rising one.",
+            "How many diagonals has a square?",
+            shear="rising",
+        ),
+        mistake(
+            "no_bend", "There are no bend springs.", "What keeps the cloth from folding along a line?", bend="none"
+        ),
+        mistake(
+            "bend_along_rows_only",
+            "Your bend springs go along rows only.",
+            "The cloth can fold along both directions.",
+            bend="rows",
+        ),
+        mistake(
+            "bend_along_columns_only",
+            "Your bend springs go along columns only.",
+            "The cloth can fold along both directions.",
+            bend="columns",
+        ),
+        mistake(
+            "bend_aslant",
+            "Your bend springs go along the diagonals.",
+            "Which two masses does a bend spring join?",
+            bend="aslant",
+        ),
+        mistake(
+            "bend_too_far", "Your bend springs skip two masses.", "How many masses does a bend spring skip?", far=3
+        ),
+        mistake(
+            "rows_only",
+            "There are no structural springs along the columns.",
+            "Which neighbours has a mass?",
+            along="rows",
+        ),
+        mistake(
+            "columns_only",
+            "There are no structural springs along the rows.",
+            "Which neighbours has a mass?",
+            along="columns",
+        ),
+        mistake(
+            "numbered_by_columns",
+            "Your numbers run down the columns.",
+            "Which number has mass (0, 1)?",
+            numbering="columns",
+        ),
+        mistake(
+            "joined_to_the_next_row",
+            "The last mass of each row is joined to the first of the next.",
+            "Which masses have no neighbour on the right?",
+            ends="next row",
+        ),
+        mistake(
+            "rows_are_rings",
+            "The last mass of each row is joined to its first.",
+            "What does % do at the edge?",
+            ends="closed",
+        ),
+        mistake(
+            "every_spring_twice",
+            "Every spring is there twice, once from either end.",
+            "How many springs join two masses?",
+            double=True,
+        ),
+        mistake(
+            "last_row_and_column_missing",
+            "The last row and the last column have no springs.",
+            "Up to which number do your loops run, and for which springs?",
+            less=1,
+        ),
+    ),
+)

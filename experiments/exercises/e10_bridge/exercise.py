@@ -1,0 +1,169 @@
+"""A truss bridge: the member that carries most, and the step that stiffness costs (slides 27-28)."""
+
+from __future__ import annotations
+
+from math import pi, sqrt
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises.exercise import Exercise, Question
+from experiments.exercises.force_mistakes import mistake
+from reference.state import Array
+from reference.trusses import truss
+
+
+def heaviest(
+    bridge: Any, choice: str = "size", sign: float = 1.0, load: str = "m g", joints: str = "all"
+) -> tuple[int, float]:
+    """The member with the largest force, and that force [N], tension > 0: the method of joints."""
+    unit, count = _directions(bridge), len(bridge.joints)
+    matrix = np.zeros((2 * count, len(bridge.members) + 3))
+    for j, (a, b) in enumerate(bridge.members):
+        matrix[2 * a : 2 * a + 2, j] = unit[j]
+        matrix[2 * b : 2 * b + 2, j] = -unit[j]
+    for j, row in enumerate((2 * bridge.pinned, 2 * bridge.pinned + 1, 2 * bridge.roller + 1)):
+        matrix[row, len(bridge.members) + j] = 1.0
+    weights = np.zeros(2 * count)
+    mass = bridge.masses if joints == "all" else bridge.masses * (bridge.joints[:, 1] == 0)
+    weights[1::2] = mass * {"m g": bridge.gravity, "m": 1.0, "m g/2": bridge.gravity / 2}[load]
+    force = np.linalg.solve(matrix, weights)[:-3]
+    long = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
+    by = {"size": np.abs(force), "tension": force, "compression": -force, "length": long, "stiffness": bridge.stiffness}
+    index = int(np.argmax(by[choice]))
+    return index, float(sign * force[index])
+
+
+def largest_dt(bridge: Any, factor: str = "2", rate: str = "root", mode: str = "highest", held: str = "all") -> float:
+    """The largest stable dt [s] of kick-drift: 2 over the highest frequency of the bridge on its supports."""
+    unit, count = _directions(bridge), len(bridge.joints)
+    stiffness = np.zeros((2 * count, 2 * count))
+    for (a, b), u, k in zip(bridge.members, unit, bridge.stiffness, strict=True):
+        at = [2 * a, 2 * a + 1, 2 * b, 2 * b + 1]
+        way = np.concatenate([u, -u])
+        stiffness[np.ix_(at, at)] += k * np.outer(way, way)
+    supports = {"all": [0, 1, 3], "pin": [0, 1], "both pinned": [0, 1, 2, 3], "none": []}[held]
+    rows = [2 * bridge.pinned, 2 * bridge.pinned + 1, 2 * bridge.roller, 2 * bridge.roller + 1]
+    free = np.setdiff1d(np.arange(2 * count), [rows[i] for i in supports])
+    root = np.sqrt(np.repeat(bridge.masses, 2))[free]
+    squares = np.linalg.eigvalsh(stiffness[np.ix_(free, free)] / np.outer(root, root))
+    square = {
+        "highest": squares[-1],
+        "lowest": abs(squares[0]),
+        "one": bridge.stiffness.max() / bridge.masses.min(),
+        "four": 4 * bridge.stiffness.max() / bridge.masses.min(),
+    }[mode]
+    return {"2": 2.0, "1": 1.0, "period": 2 * pi}[factor] / (sqrt(square) if rate == "root" else float(square))
+
+
+def _directions(bridge: Any) -> Array:
+    """Of each member, from its first joint to its second, of length 1."""
+    a, b = np.asarray(bridge.members).T
+    gap = bridge.joints[b] - bridge.joints[a]
+    return np.asarray(gap / np.linalg.norm(gap, axis=1)[:, None])
+
+
+def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
+    """Warren bridges with a load of their own at every joint."""
+    asked = []
+    for panels in (3, 6, 4) if hidden else (4, 5):
+        built = truss("warren", panels, float(random.uniform(2, 4)), float(random.uniform(2, 4)))
+        bridge = {
+            "joints": built.joints,
+            "members": built.members,
+            "stiffness": random.uniform(1e7, 3e7, len(built.members)),
+            "masses": random.uniform(500, 4000, len(built.joints)),
+            "gravity": 9.81,
+            "pinned": 0,
+            "roller": panels,
+        }
+        about = f"bridge of {len(built.members)} members"
+        asked.append(Question("heaviest", (bridge,), ("member", "force"), about))
+        asked.append(Question("largest_dt", (bridge,), ("dt",), about))
+    return asked
+
+
+EXERCISE = Exercise(
+    title="The bridge",
+    minutes=90,
+    goals="The method of joints as a linear system; what stiffness costs: the step.",
+    solutions={"heaviest": heaviest, "largest_dt": largest_dt},
+    questions=questions,
+    mistakes=(
+        mistake(
+            "tension_only",
+            "You look for the largest tension: compression carries too.",
+            "Is -5 kN less of a load than 3 kN?",
+            choice="tension",
+        ),
+        mistake(
+            "compression_only",
+            "You look for the largest compression: tension carries too.",
+            "Is 5 kN less of a load than -3 kN?",
+            choice="compression",
+        ),
+        mistake(
+            "longest_member", "You name the longest member.", "Does length say what a member carries?", choice="length"
+        ),
+        mistake(
+            "stiffest_member",
+            "You name the stiffest member.",
+            "Do the forces of this bridge depend on stiffness at all?",
+            choice="stiffness",
+        ),
+        mistake(
+            "force_sign",
+            "Your tension is compression, and the other way round.",
+            "Which way does a member in tension pull its joints?",
+            sign=-1.0,
+        ),
+        mistake("weight_without_g", "Your loads are masses, not weights.", "What is the unit of a load?", load="m"),
+        mistake("half_the_weight", "Your loads are half of the weights.", "What hangs on a joint?", load="m g/2"),
+        mistake(
+            "top_unloaded", "The top joints carry nothing in your bridge.", "Which joints have a mass?", joints="bottom"
+        ),
+        mistake(
+            "root_forgotten", "You take the eigenvalue for the frequency.", "What is the unit of k/m?", rate="square"
+        ),
+        mistake(
+            "limit_of_one",
+            "Your limit is that of dt w = 1.",
+            "When does the step's matrix get an eigenvalue -1?",
+            factor="1",
+        ),
+        mistake("a_whole_period", "Your limit is a whole period.", "What happens in half a period?", factor="period"),
+        mistake(
+            "lowest_mode",
+            "You take the lowest frequency.",
+            "Which mode is the first to become unstable?",
+            mode="lowest",
+        ),
+        mistake(
+            "one_spring",
+            "You take the stiffest member and the lightest joint, as if alone.",
+            "Several members pull on a joint.",
+            mode="one",
+        ),
+        mistake(
+            "upper_bound",
+            "This is a bound, from the stiffest member and the lightest joint; not the limit.",
+            "The frequencies of the whole bridge are eigenvalues.",
+            mode="four",
+        ),
+        mistake(
+            "roller_pinned",
+            "Both ends of your bridge are pinned.",
+            "Which way is a roller free to move?",
+            held="both pinned",
+        ),
+        mistake(
+            "roller_free", "Nothing holds the roller of your bridge up.", "Which way does a roller hold?", held="pin"
+        ),
+        mistake(
+            "supports_free",
+            "Your bridge has no supports.",
+            "Which joints cannot move, and along which axis?",
+            held="none",
+        ),
+    ),
+)

@@ -1,0 +1,192 @@
+"""What an exercise is: texts and questions as data, one small function that solves it, and mistakes as its knobs.
+
+The solution of an exercise is a function with knobs (keyword parameters) that are right as they stand. A mistake is
+another setting of some of them; two mistakes that turn different knobs can be made at once. So one function gives the
+right answer and all the wrong ones that the checker knows by name.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import inspect
+import re
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises import child
+from reference.errors import InputError, unknown_name
+from reference.state import Array
+
+#: Where exercises stand: in each of these folders, one folder each.
+FOLDERS = [Path(__file__).parent]
+
+#: How such a folder is called: its number and its name.
+FOLDER_NAME = re.compile(r"e(\d\d)_([a-z_]+)")
+
+#: Numbers are the same up to this part of the largest of their kind, unless an exercise says otherwise.
+TOLERANCE = 1e-9
+
+#: What a question's answer is: for every step, every part of what was returned.
+Answer = list[list[Array]]
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """A call of a student's function, or many in a row.
+
+    Attributes:
+        function: its name.
+        arguments: arrays, numbers, and dicts of them, which become namespaces.
+        parts: what it returns, by name.
+        about: what is asked about, in words.
+        steps: 0 for one call; else so many, each with what the last returned in place of its first arguments.
+        own: what the solution is told beside that, and the student's function is not.
+        item: what the first axis of an answer counts.
+        units: of the parts.
+    """
+
+    function: str
+    arguments: tuple[Any, ...]
+    parts: tuple[str, ...]
+    about: str
+    steps: int = 0
+    own: Mapping[str, Any] = field(default_factory=dict)
+    item: str = "mass"
+    units: tuple[str, ...] = ()
+
+    def asked(self) -> dict[str, Any]:
+        """What the submission's process is told."""
+        asked = {name: getattr(self, name) for name in ("function", "arguments", "parts", "steps")}
+        return {**asked, "arguments": list(self.arguments), "parts": list(self.parts)}
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A mistake that students make, or another choice than the one that was asked for.
+
+    Attributes:
+        name: how it is called in tables.
+        words: what is wrong, to the student, in a sentence.
+        hint: what to look at, without the answer.
+        knobs: how the solution is turned to make it.
+        another: whether it is right in itself, and only not what was asked for.
+    """
+
+    name: str
+    words: str
+    hint: str
+    knobs: Mapping[str, Any]
+    another: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Exercise:
+    """One exercise. Its texts stand beside it: text.md, starter.py.
+
+    Attributes:
+        title: a few words.
+        minutes: how long students take.
+        goals: what they learn.
+        solutions: the functions that students write, solved, by name; keyword parameters are knobs.
+        questions: makes the questions: from random numbers, for the hidden check or not, for a student's seed.
+        mistakes: what the checker knows by name.
+        seeded: whether every student has numbers of their own. keyed: whether these hang on the teacher's key too.
+        files: makes more files for the student to work on, by name, from the student's seed and the teacher's key.
+        tolerance: up to which part of the largest number an answer is right, where students type it in.
+        canonical: makes answers that mean the same the same, before they are compared.
+    """
+
+    title: str
+    minutes: int
+    goals: str
+    solutions: Mapping[str, Callable[..., Any]]
+    questions: Callable[[np.random.Generator, bool, str], Sequence[Question]]
+    mistakes: Sequence[Mistake]
+    seeded: bool = False
+    keyed: bool = False
+    files: Callable[[str], Mapping[str, str]] | None = None
+    tolerance: float = TOLERANCE
+    canonical: Callable[[Question, Any], Any] | None = None
+    folder: Path = Path()
+
+    @property
+    def number(self) -> int:
+        """From its folder's name."""
+        return int(self.folder.name[1:3])
+
+    @property
+    def name(self) -> str:
+        """From its folder's name."""
+        return self.folder.name[4:]
+
+    @property
+    def text(self) -> str:
+        """What students read, in Markdown."""
+        return (self.folder / "text.md").read_text(encoding="utf-8")
+
+    @property
+    def starter(self) -> str:
+        """What students begin with."""
+        return (self.folder / "starter.py").read_text(encoding="utf-8")
+
+    def answer(self, question: Question, knobs: Mapping[str, Any] | None = None, steps: int | None = None) -> Answer:
+        """What the solution answers, its knobs turned or not; to the first steps only, if so many are given."""
+        solution = self.solutions[question.function]
+        turned = {name: value for name, value in (knobs or {}).items() if _takes(solution, name)}
+        arguments = list(question.arguments)
+        answer: Answer = []
+        with np.errstate(all="ignore"):
+            for _ in range(max(1, question.steps if steps is None else min(steps, question.steps))):
+                returned = solution(*map(child.fresh, arguments), **question.own, **turned)
+                parts = [np.asarray(part) for part in (returned if len(question.parts) > 1 else [returned])]
+                answer.append(parts)
+                arguments = [*parts, *question.arguments[len(parts) :]] if question.steps else arguments
+        return answer
+
+    def plain(self, question: Question, answer: Answer) -> Answer:
+        """An answer in the form in which answers are compared."""
+        if self.canonical is None:
+            return answer
+        return [[self.canonical(question, part) for part in step] for step in answer]
+
+
+def _takes(solution: Callable[..., Any], name: str) -> bool:
+    parameters = inspect.signature(solution).parameters
+    return name in parameters or any(p.kind is p.VAR_KEYWORD for p in parameters.values())
+
+
+@cache
+def _load(folder: Path) -> Exercise:
+    spec = importlib.util.spec_from_file_location(f"springlab_exercise_{folder.name}", folder / "exercise.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    exercise: Exercise = module.EXERCISE
+    object.__setattr__(exercise, "folder", folder)
+    return exercise
+
+
+def exercises() -> Mapping[int, Exercise]:
+    """All exercises by number."""
+    found = [p for where in FOLDERS for p in where.iterdir() if FOLDER_NAME.fullmatch(p.name) and p.is_dir()]
+    loaded = [_load(folder) for folder in found]
+    return MappingProxyType({e.number: e for e in sorted(loaded, key=lambda e: e.number)})
+
+
+def find(word: str) -> Exercise:
+    """An exercise by its number or name. Raises InputError, with a suggestion, where there is none."""
+    for exercise in exercises().values():
+        if word in (str(exercise.number), exercise.name):
+            return exercise
+    if word.isdigit():
+        raise InputError(f"exercise {word}: expected a number from 1 to {max(exercises())}")
+    raise unknown_name("exercise", word, [e.name for e in exercises().values()])

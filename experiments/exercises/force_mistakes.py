@@ -1,0 +1,167 @@
+"""Mistakes in the forces of links, with their words and hints; exercises pick theirs from here."""
+
+from __future__ import annotations
+
+from experiments.exercises.exercise import Mistake
+
+
+def mistake(name: str, words: str, hint: str, **knobs: object) -> Mistake:
+    """A mistake, with the knobs that make it."""
+    return Mistake(name, words, hint, knobs)
+
+
+#: In one dimension as in two.
+OF_A_SPRING = (
+    mistake(
+        "spring_sign",
+        "Your springs push where they should pull.",
+        "A spring that is too long: which way must its force point?",
+        pulls=-1.0,
+    ),
+    mistake(
+        "gravity_sign",
+        "Your gravity points upwards.",
+        "Let go of a mass without a spring: which way does its velocity change?",
+        gravity=-1.0,
+    ),
+    mistake(
+        "gravity_missing",
+        "There is no weight in your forces.",
+        "What pulls on a mass when all springs are cut?",
+        weight="none",
+    ),
+    mistake(
+        "weight_without_mass",
+        "Your weight is g, as if every mass were 1 kg.",
+        "What is the unit of g, and what that of a force?",
+        weight="g",
+    ),
+    mistake(
+        "damping_sign",
+        "Your damping drives the motion in place of slowing it.",
+        "Which way must the force of damping point, seen from the velocity?",
+        drag=-1.0,
+    ),
+    mistake(
+        "damping_missing",
+        "There is no damping in your forces.",
+        "Which of the given numbers have you not used?",
+        drag=0.0,
+    ),
+    mistake(
+        "rest_length_added",
+        "You add the rest length where it is to be taken off.",
+        "How large is the force of a spring at its rest length?",
+        rest=-1.0,
+    ),
+    mistake(
+        "rest_length_missing",
+        "Your springs have no rest length: they pull until they are 0 m long.",
+        "How large is the force of a spring at its rest length?",
+        rest=0.0,
+    ),
+    mistake(
+        "not_normalised",
+        "Your direction is not of length 1: long springs pull too much.",
+        "How long is the vector that gives the direction?",
+        direction="sloppy",
+    ),
+)
+
+#: Only in two.
+OF_A_STRING = (
+    mistake(
+        "length_without_root",
+        "Your lengths of springs are squares of lengths.",
+        "What is the unit of dx*dx + dy*dy?",
+        length="square",
+    ),
+    mistake(
+        "length_as_sum",
+        "Your lengths are |dx| + |dy|.",
+        "What does Pythagoras say of a spring that hangs aslant?",
+        length="sum",
+    ),
+    mistake(
+        "x_and_y_swapped",
+        "The x and the y of your directions are swapped.",
+        "Let a spring hang straight down: which part of its force is not zero?",
+        direction="swapped",
+    ),
+    mistake(
+        "degrees",
+        "You take cos and sin of an angle in degrees.",
+        "In which unit do cos and sin expect an angle?",
+        direction="degrees",
+    ),
+    mistake(
+        "degrees",
+        "You take cos and sin of an angle in degrees.",
+        "In which unit do cos and sin expect an angle?",
+        direction="degrees",
+        below="own side",
+    ),
+    mistake(
+        "anchor_missing",
+        "Nothing holds your first mass: its spring to the anchor gives no force.",
+        "What is above mass 0?",
+        anchor="missing",
+    ),
+    mistake(
+        "anchor_at_origin", "You take the anchor for the origin.", "Where is the anchor? It is given.", anchor="origin"
+    ),
+    mistake(
+        "anchor_off_by_one",
+        "Your second mass hangs on the anchor too, in place of on the first.",
+        "At which number does your loop turn from the anchor to its neighbours?",
+        anchor="second",
+    ),
+    mistake(
+        "anchor_off_by_one",
+        "Your second mass hangs on the anchor too, in place of on the first.",
+        "At which number does your loop turn from the anchor to its neighbours?",
+        anchor="second, from above",
+    ),
+    mistake(
+        "last_link_wraps",
+        "Your last mass has a spring to the first: there is none below it.",
+        "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
+        last="wraps",
+    ),
+    mistake(
+        "last_link_wraps",
+        "Your last mass has a spring to the first: there is none below it.",
+        "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
+        last="rolls",
+    ),
+    mistake(
+        "last_link_skipped",
+        "Your last mass gets no force at all.",
+        "Up to which number does your loop run?",
+        last="skipped",
+    ),
+    mistake(
+        "spring_above_only",
+        "Your masses feel the spring above them, not the one below.",
+        "How many springs hold a mass in the middle?",
+        sides="above",
+    ),
+    mistake(
+        "spring_below_only",
+        "Your masses feel the spring below them, not the one above.",
+        "How many springs hold a mass in the middle?",
+        sides="below",
+    ),
+    mistake(
+        "same_side",
+        "The spring below pushes your mass the way it should pull the next one.",
+        "Action and reaction: what does one spring do to its two masses?",
+        sides="same",
+    ),
+    mistake(
+        "neighbours_spring",
+        "For the spring below mass i you take the stiffness and rest length of the spring above it.",
+        "Which number has the spring between mass i and mass i + 1?",
+        below="above",
+    ),
+)

@@ -1,0 +1,200 @@
+"""Grades: the public check, and the hidden one where the teacher's key is given; one submission, or a whole class."""
+
+from __future__ import annotations
+
+import csv
+import os
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter
+
+from experiments.exercises.exercise import Exercise
+from experiments.exercises.faults import clean
+from experiments.exercises.judge import Verdict, judge
+from experiments.exercises.sandbox import Limits
+from experiments.exercises.submission import Submission, read
+from reference.errors import InputError
+
+#: The columns of a table of grades.
+COLUMNS = (
+    "file",
+    "exercise",
+    "seed",
+    "public",
+    "hidden",
+    "score",
+    "outcome",
+    "finding",
+    "words",
+    "departs",
+    "seconds",
+    "digest",
+)
+
+
+@dataclass(frozen=True)
+class Grade:
+    """A submission's verdicts.
+
+    Attributes:
+        public: of the check that students can run.
+        hidden: of the other, None where it has not run.
+    """
+
+    public: Verdict
+    hidden: Verdict | None
+    seconds: float
+
+    @property
+    def verdict(self) -> Verdict:
+        """The one that says most: what is wrong, if something is."""
+        return self.hidden if self.hidden is not None and self.public.right else self.public
+
+    @property
+    def score(self) -> float:
+        """Of 100: half for public questions, half for hidden ones; for the public alone where no others were asked."""
+        parts = [v.passed for v in (self.public, self.hidden) if v is not None]
+        return sum(100 * sum(passed) / max(1, len(passed)) for passed in parts) / len(parts)
+
+
+def grade(submission: Submission, key: str | None = None, limits: Limits | None = None) -> Grade:
+    """Run the public check, and with a key the hidden one.
+
+    Where all answers hang on the student's seed the two are the same, and run once.
+    """
+    begin = perf_counter()
+    exercise, seed = submission.exercise, submission.seed_with(key)
+    public = judge(exercise, submission.source, seed, None, limits)
+    hidden = None
+    if key is not None:
+        hopeless = public.outcome in ("error", "timed out", "crashed")
+        same = exercise.seeded or hopeless
+        hidden = public if same else judge(exercise, submission.source, seed, key, limits)
+    return Grade(public, hidden, perf_counter() - begin)
+
+
+def row_of(submission: Submission, given: Grade, key: str | None) -> dict[str, str]:
+    """A grade as a row of the table."""
+    verdict = given.verdict
+    passed = [("" if v is None else "passed" if v.right else "failed") for v in (given.public, given.hidden)]
+    return _row(
+        submission.name,
+        exercise=str(submission.exercise.number),
+        seed=submission.seed,
+        public=passed[0],
+        hidden=passed[1],
+        score=f"{given.score:.1f}",
+        outcome=verdict.outcome,
+        finding=verdict.name,
+        words=" ".join(f.words for f in verdict.findings),
+        departs=str(verdict.departure or ""),
+        seconds=f"{given.seconds:.2f}",
+        digest=submission.digest(key),
+    )
+
+
+def _row(name: str, **values: str) -> dict[str, str]:
+    return {column: _cell({"file": name, **values}.get(column, "")) for column in COLUMNS}
+
+
+def _cell(words: str) -> str:
+    """Words for a table: one line, and nothing that a spreadsheet would take for a formula."""
+    plain = clean(words) if len(words) < 200 else f"{clean(words)} ..."
+    number = plain.replace(".", "", 1).isdigit()
+    return plain if number or not plain.startswith(("=", "+", "-", "@")) else f"'{plain}"
+
+
+def grade_class(
+    files: Iterable[tuple[Path, str]],
+    table: Path,
+    exercise: Exercise | None = None,
+    key: str | None = None,
+    jobs: int | None = None,
+    tell: Callable[[str], None] = lambda _: None,
+    limits: Limits | None = None,
+) -> list[dict[str, str]]:
+    """Grade many files, each row in the table as soon as it is there; rows that are there already are not done again.
+
+    Args:
+        files: each with its name.
+        table: a CSV file. A row counts as done if its file, its exercise and the key are what they were.
+        jobs: how many at once; left out, as many as there are cores.
+
+    Raises:
+        InputError: if the table is something else.
+    """
+    kept, wanted = _kept(table), list(files)
+    lock, rows = threading.Lock(), []
+    table.parent.mkdir(parents=True, exist_ok=True)
+    _write(table, kept.values())
+
+    def one(path: Path, name: str) -> dict[str, str]:
+        row = _graded(path, name, exercise, key, kept, limits)
+        with lock, table.open("a", newline="", encoding="utf-8") as file:
+            if row is not kept.get(_cell(name)):
+                csv.DictWriter(file, COLUMNS).writerow(row)
+        return row
+
+    pool = ThreadPoolExecutor(jobs or os.cpu_count() or 1)
+    try:
+        for future in as_completed([pool.submit(one, path, name) for path, name in wanted]):
+            rows.append(future.result())
+            tell(f"{len(rows)} of {len(wanted)}")
+    finally:
+        pool.shutdown(cancel_futures=True)
+    rows.sort(key=lambda row: row["file"])
+    names = {row["file"] for row in rows}
+    _write(table, sorted([*rows, *(r for n, r in kept.items() if n not in names)], key=lambda row: row["file"]))
+    return rows
+
+
+def _graded(
+    path: Path,
+    name: str,
+    exercise: Exercise | None,
+    key: str | None,
+    kept: dict[str, dict[str, str]],
+    limits: Limits | None,
+) -> dict[str, str]:
+    """A file's row; whatever goes wrong with it is in the row, and nobody else's."""
+    try:
+        submission = read(path, name, exercise)
+    except (InputError, OSError) as error:
+        return _row(name, score="0.0", outcome="error", finding="not_a_submission", words=str(error))
+    done = kept.get(_cell(name))
+    if done is not None and done["digest"] == submission.digest(key):
+        return done
+    try:
+        return row_of(submission, grade(submission, key, limits), key)
+    except Exception as error:  # the checker's own fault: the class goes on
+        return _row(name, outcome="error", finding="not_graded", words=f"{type(error).__name__}: {error}")
+
+
+def _kept(table: Path) -> dict[str, dict[str, str]]:
+    """The whole rows of a table, by file; a last line that was cut off is left out."""
+    if not table.exists():
+        return {}
+    with table.open(newline="", encoding="utf-8") as file:
+        reader = csv.DictReader(file)
+        if tuple(reader.fieldnames or ()) != COLUMNS:
+            raise InputError(f"{table} is no table of grades: expected the columns {', '.join(COLUMNS)}")
+        return {row["file"]: row for row in _whole(reader)}
+
+
+def _whole(rows: Iterable[dict[str, str]]) -> Iterator[dict[str, str]]:
+    for row in rows:
+        if None not in row and all(isinstance(value, str) for value in row.values()) and row["digest"]:
+            yield row
+
+
+def _write(table: Path, rows: Iterable[dict[str, str]]) -> None:
+    """The table anew, in one go."""
+    new = table.with_name(table.name + ".new")
+    with new.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+    new.replace(table)

@@ -1,0 +1,132 @@
+"""Links on a string, each mass hanging on the one before, as students see them: the forces, with knobs for mistakes.
+
+The physics is that of slides 4-5 and 9-10, in one dimension or two: mass i hangs by spring i below mass i - 1, the
+first below the anchor. Written for small strings, in NumPy; `tests/exercises` holds it against `reference.forces`.
+"""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from reference.state import Array, Slope, State
+
+
+def forces(
+    x: Array,
+    v: Array,
+    string: Any,
+    *,
+    pulls: float = 1.0,
+    gravity: float = 1.0,
+    weight: str = "m g",
+    drag: float = 1.0,
+    rest: float = 1.0,
+    length: str = "root",
+    direction: str = "unit",
+    anchor: str = "own",
+    last: str = "free",
+    sides: str = "both",
+    below: str = "own",
+) -> Array:
+    """The force on every mass [N], shape (n, d): its springs, its weight, its drag.
+
+    Args:
+        x: positions [m], shape (n, d). v: velocities [m/s].
+        string: masses [kg], stiffness [N/m], rest_lengths [m], each (n,); drag [N s/m], gravity [m/s^2], anchor (d,).
+    """
+    upper = np.vstack([string.anchor if anchor != "origin" else np.zeros_like(string.anchor), x[:-1]])
+    if anchor.startswith("second"):
+        upper[1:2] = string.anchor
+    k, rest_lengths = string.stiffness, rest * string.rest_lengths
+    pull = pulls * _pull(x, upper, k, rest_lengths, length, direction)
+    # the spring below mass i is the spring above mass i + 1, or what a mistake takes it for
+    under = pull[1:]
+    if below == "above":
+        under = pulls * _pull(x[1:], x[:-1], k[:-1], rest_lengths[:-1], length, direction)
+    if anchor == "second, from above":
+        under = pulls * _pull(x[1:], x[:-1], k[1:], rest_lengths[1:], length, direction)
+    if below == "own side":
+        under = -pulls * _pull(x[:-1], x[1:], k[1:], rest_lengths[1:], length, direction)
+    if anchor == "missing":
+        pull[0] = 0.0
+    total = pull if sides != "below" else np.zeros_like(pull)
+    if sides != "above":
+        total = total.copy()
+        total[:-1] += under if sides == "same" else -under
+    if last == "wraps" and len(x) > 1:
+        total[-1] += pulls * _pull(x[-1:], x[:1], k[:1], rest_lengths[:1], length, direction)[0]
+    if last == "rolls":
+        total[-1] -= pull[0]
+    mass = {"m g": string.masses, "g": np.ones_like(string.masses), "none": 0 * string.masses}[weight]
+    total = total.copy()
+    total[:, -1] -= gravity * mass * string.gravity
+    total = total - drag * string.drag * v
+    if last == "skipped":
+        total[-1] = 0.0
+    return np.asarray(total)
+
+
+def _pull(x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, direction: str) -> Array:
+    """The force of each spring on its lower mass, shape (n, d)."""
+    gap = upper - x
+    square = (gap**2).sum(axis=1)
+    long = {"root": np.sqrt(square), "square": square, "sum": np.abs(gap).sum(axis=1)}[length]
+    force = k * (long - rest_lengths)
+    if direction == "sloppy":
+        return np.asarray(force[:, None] * gap)
+    if direction == "degrees":
+        angle = np.degrees(np.arctan2(gap[:, -1], gap[:, 0] if gap.shape[1] > 1 else 0.0))
+        return np.asarray(force[:, None] * np.stack([np.cos(angle), np.sin(angle)][-gap.shape[1] :], axis=1))
+    unit = gap / long[:, None]
+    if direction == "swapped":
+        unit = unit[:, ::-1]
+    return np.asarray(force[:, None] * unit)
+
+
+class LinkMotion:
+    """The equations of motion of links, for the schemes of the catalogue, with all knobs of `forces`."""
+
+    def __init__(self, string: Any, inertia: str = "divided", **knobs: Any) -> None:
+        self._string, self._inertia, self._knobs = string, inertia, knobs
+
+    def acceleration(self, state: State) -> Array:
+        """Of all masses [m/s^2]."""
+        total = forces(state.positions, state.velocities, self._string, **self._knobs)
+        power = {"divided": -1, "forgotten": 0, "multiplied": 1}[self._inertia]
+        return np.asarray(total * self._string.masses[:, None] ** power)
+
+    def acceleration_of(self, i: int, state: State) -> Array:
+        """Of one."""
+        return np.asarray(self.acceleration(state)[i])
+
+    def slope(self, state: State) -> Slope:
+        """Of the whole state."""
+        return Slope(1.0, state.velocities, self.acceleration(state))
+
+
+def random_string(random: np.random.Generator, count: int, dimension: int = 2) -> tuple[Array, Array, dict[str, Any]]:
+    """A string in motion: positions, velocities, and what it is made of. No two numbers of it are alike.
+
+    Springs are some tenths longer or shorter than at rest, and everything moves, so that no term of a force vanishes.
+    """
+    rest_lengths = random.uniform(0.1, 0.2, count)
+    string = {
+        "masses": random.uniform(0.02, 0.06, count),
+        "stiffness": random.uniform(40.0, 80.0, count),
+        "rest_lengths": rest_lengths,
+        "drag": float(random.uniform(0.02, 0.05)),
+        "gravity": 9.81,
+        "anchor": random.uniform(0.1, 0.3, dimension),
+    }
+    long = rest_lengths * random.uniform(1.1, 1.4, count) * random.choice([1.0, 0.7], count)
+    turn = random.uniform(-2.6, -0.5, count)
+    steps = long[:, None] * (np.stack([np.cos(turn), np.sin(turn)], axis=1) if dimension == 2 else -1.0)
+    return string["anchor"] + np.cumsum(steps, axis=0), random.uniform(-1.0, 1.0, (count, dimension)), string
+
+
+def namespace(fields: dict[str, Any]) -> SimpleNamespace:
+    """A string as students see it."""
+    return SimpleNamespace(**fields)

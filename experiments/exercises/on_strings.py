@@ -1,0 +1,32 @@
+"""Exercises on strings in two dimensions: their questions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from experiments.exercises.exercise import Question
+from experiments.exercises.links import random_string
+from experiments.exercises.stepping import DT, M_AND_SPEED
+
+#: How many masses the strings of the public and of the hidden check have. One is a string too.
+PUBLIC, HIDDEN = (5, 4, 3), (1, 2, 6, 4)
+
+
+def questions_on_steps(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
+    """A few strings, 12 steps of each."""
+    questions = []
+    for count in HIDDEN if hidden else PUBLIC:
+        x, v, string = random_string(random, count)
+        dt = DT * float(random.uniform(0.5, 1.0))
+        questions.append(Question("step", (x, v, dt, string), ("x", "v"), _about(count), 12, units=M_AND_SPEED))
+    return questions
+
+
+def questions_on_forces(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
+    """A few strings, in motion."""
+    strings = [random_string(random, count) for count in (HIDDEN if hidden else PUBLIC)]
+    return [Question("forces", string, ("the force",), _about(len(string[0])), units=("N",)) for string in strings]
+
+
+def _about(count: int) -> str:
+    return f"string of {count} mass{'es'[: 2 * (count != 1)]}"

@@ -1,0 +1,123 @@
+"""Students' programs, named: right ones pass in whatever style, and mistakes are called what they are."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+
+from experiments.exercises.exercise import exercises, find
+from experiments.exercises.grading import Grade, grade
+from experiments.exercises.handout import hand_out
+from experiments.exercises.judge import judge
+from experiments.exercises.submission import read
+from tests.exercises.confusion import CASES, confusion
+from tests.exercises.corpus import MISTAKES, STYLES, solution, wrong
+
+FOLDER = Path(__file__).parent
+RIGHT = [*sorted(STYLES.glob("*.py")), *sorted((FOLDER / "right").glob("*.py"))]
+MODELS = sorted((FOLDER / "models").glob("*.py"))
+
+
+def graded(files: list[Path]) -> dict[str, Grade]:
+    """Public and hidden check of many files."""
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        return dict(
+            zip([f.stem for f in files], pool.map(lambda f: grade(read(f, f.name), "sesame"), files), strict=True)
+        )
+
+
+def test_twenty_right_solutions_in_other_styles_pass() -> None:
+    """Loops, arrays, classes, complex numbers, lists, matrices, single precision, in place on copies ...: all pass."""
+    assert len(RIGHT) >= 20
+    found = graded(RIGHT)
+    assert {name: g.verdict.name for name, g in found.items() if not g.verdict.right} == {}
+
+
+def test_every_exercise_has_a_model_solution_that_passes() -> None:
+    """Public and hidden, with full score."""
+    assert [m.stem for m in MODELS] == [e.folder.name for e in exercises().values()]
+    found = graded(MODELS)
+    assert {name: (g.verdict.name, g.score) for name, g in found.items()} == {m.stem: ("right", 100.0) for m in MODELS}
+
+
+def test_mistakes_are_called_by_their_name(request: pytest.FixtureRequest) -> None:
+    """Each mistake in one style, in turn; with --full in all three: `python -m tests.exercises.confusion`."""
+    cases = [case for case in CASES if case[1] is not None]
+    assert sum(all(name in names for names in MISTAKES.values()) for name in MISTAKES["loops"]) >= 30
+    if not request.config.getoption("--full"):
+        names = sorted({name for _, name in cases if name})
+        styles = list(MISTAKES)
+        cases = [case for case in cases if case[0] == styles[names.index(case[1] or "") % 3]]
+    assert {case: said for case, said in confusion(cases).items() if said != case[1]} == {}
+
+
+def test_two_mistakes_at_once_are_both_found() -> None:
+    """In the forces, and in the step: each is turned by another knob."""
+    text = wrong("arrays", "gravity_sign").replace("(v + v1) / 2", "(v + v1)").replace("(a + b) / 2", "(a + b)")
+    verdict = judge(find("4"), text)
+    assert verdict.outcome == "mistakes"
+    assert {f.name for f in verdict.findings} == {"gravity_sign", "half_missing"}
+    both = judge(find("4"), wrong("arrays", "modifies_its_input").replace("- pull[1:]", "+ pull[1:]"))
+    assert {f.name for f in both.findings} == {"same_side", "modifies_its_input"}
+
+
+def test_what_nobody_knows_is_not_given_a_name() -> None:
+    """A force that is a third too large: no name, but the step, the mass and the numbers where it departs."""
+    verdict = judge(find("4"), solution("loops").replace("force = k *", "force = 1.333 * k *"))
+    assert (verdict.outcome, verdict.findings, verdict.error) == ("not in the catalogue", (), None)
+    assert verdict.departure is not None
+    assert (verdict.departure.step, verdict.departure.index) == (1, (0, 0))
+
+
+def test_link_by_link_departs_at_the_second_mass() -> None:
+    """The first mass's predictor still sees everything as it was: x of mass 0 departs later than that of mass 1.
+
+    In the first step, positions of mass 0 are x + dt/2 (v + v + dt a): as they should be.
+    """
+    verdict = judge(find("4"), wrong("loops", "heun_link_by_link"))
+    assert verdict.departure is not None
+    assert (verdict.departure.step, verdict.departure.part, verdict.departure.index[0]) == (1, "x", 1)
+    assert verdict.error is not None
+    assert verdict.error < 1e-12
+
+
+def test_another_scheme_is_said_to_be_right_in_itself() -> None:
+    """Positions with the new velocities, where Euler was asked for."""
+    text = (FOLDER / "models" / "e01_euler.py").read_text(encoding="utf-8")
+    old = "    return y + dt * v, v + dt * force / spring.mass\n"
+    assert old in text
+    verdict = judge(find("1"), text.replace(old, "    v += dt * force / spring.mass\n    return y + dt * v, v\n"))
+    assert (verdict.outcome, verdict.name) == ("another scheme", "kick_drift")
+
+
+@pytest.mark.parametrize("exercise", exercises().values(), ids=lambda e: e.name)
+def test_every_starter_runs_and_fails_politely(exercise, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
+    """As it was handed out: it runs by itself, and the checker says that nothing is written yet."""
+    own, *others = hand_out(exercise, tmp_path / "work", "somebody", None)
+    assert {"text.md", "text.html"} <= {f.name for f in others}
+    done = subprocess.run([sys.executable, own], capture_output=True, text=True)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert done.stdout
+    verdict = grade(read(own, own.name)).verdict
+    assert (verdict.outcome, verdict.name) == ("error", "not_written_yet")
+    changed = own.read_text(encoding="utf-8").replace('"""', '"""My own: ', 1)
+    assert judge(exercise, changed, "somebody").outcome in ("mistake", "mistakes", "not in the catalogue", "error")
+
+
+def test_errors_name_the_students_own_line() -> None:
+    """Syntax, an exception, a missing function, a missing module."""
+    for text, name, words in (
+        ("EXERCISE = 1\ndef step(:\n", "syntax", "line 2"),
+        ("def step(y, v, dt, s):\n    return y / 0, v\n", "division_by_zero", "line 2"),
+        ("def steps(y, v, dt, s):\n    return y, v\n", "missing_function", "step"),
+        ("import scipy\n", "missing_module", "scipy"),
+    ):
+        verdict = judge(find("1"), text)
+        assert verdict.outcome == "error"
+        assert verdict.name == name
+        assert words in verdict.findings[0].words
