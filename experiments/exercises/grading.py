@@ -13,7 +13,7 @@ from time import perf_counter
 
 from experiments.exercises.exercise import Exercise
 from experiments.exercises.faults import clean
-from experiments.exercises.judge import Verdict, judge
+from experiments.exercises.judge import Verdict, judge_all
 from experiments.exercises.sandbox import Limits
 from experiments.exercises.submission import Submission, read
 from reference.errors import InputError
@@ -67,12 +67,9 @@ def grade(submission: Submission, key: str | None = None, limits: Limits | None 
     """
     begin = perf_counter()
     exercise, seed = submission.exercise, submission.seed_with(key)
-    public = judge(exercise, submission.source, seed, None, limits)
-    hidden = None
-    if key is not None:
-        hopeless = public.outcome in ("error", "timed out", "crashed")
-        same = exercise.seeded or hopeless
-        hidden = public if same else judge(exercise, submission.source, seed, key, limits)
+    keys = [None] if key is None or exercise.seeded else [None, key]
+    public, *others = judge_all(exercise, submission.source, seed, keys, limits)
+    hidden = None if key is None else others[0] if others else public
     return Grade(public, hidden, perf_counter() - begin)
 
 

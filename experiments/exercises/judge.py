@@ -71,18 +71,35 @@ def judge(
         seed: the student's.
         key: for the hidden check, the teacher's secret; the public check without.
     """
-    known = catalogue(exercise, seed, key)
+    return judge_all(exercise, source, seed, [key], limits)[0]
+
+
+def judge_all(
+    exercise: Exercise, source: str, seed: str, keys: Sequence[str | None], limits: sandbox.Limits | None = None
+) -> list[Verdict]:
+    """The verdicts of several checks, of one run: starting a process is most of what a check takes.
+
+    Where the run comes to a bad end, each check gets a run of its own, so that none pays for another.
+    """
+    checks = [catalogue(exercise, seed, key) for key in keys]
     if _text(source) == _text(exercise.starter):
         words = Finding("not_written_yet", "This is the starter as it was handed out.", "The text says what to write.")
-        return _failed(known, "error", words)
-    asked = [question.asked() for question in known.questions]
+        return [_failed(known, "error", words) for known in checks]
+    asked = [question.asked() for known in checks for question in known.questions]
     reply = sandbox.run(source, asked, limits)
-    verdict = _verdict(known, reply)
-    if verdict.name == "not_repeatable":
-        again = sandbox.run(source, asked, limits)
-        same = len(again.answers) == len(reply.answers) and _equal(reply, again)
-        verdict = replace(verdict, findings=(not_repeated(same),))
-    return replace(verdict, walls=tuple(reply.walls))
+    if len(reply.answers) != len(asked) and reply.error is None and len(checks) > 1:
+        return [judge(exercise, source, seed, key, limits) for key in keys]
+    verdicts, first = [], 0
+    for known in checks:
+        part = slice(first, first + len(known.questions))
+        verdict = _verdict(known, replace(reply, answers=reply.answers[part]))
+        if verdict.name == "not_repeatable":
+            again = sandbox.run(source, asked, limits)
+            same = len(again.answers) == len(reply.answers) and _equal(reply, again)
+            verdict = replace(verdict, findings=(not_repeated(same),))
+        verdicts.append(replace(verdict, walls=tuple(reply.walls)))
+        first = part.stop
+    return verdicts
 
 
 def _text(source: str) -> list[str]:

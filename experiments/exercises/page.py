@@ -18,6 +18,10 @@ body {{ font: 17px/1.5 system-ui, sans-serif; max-width: 42rem; margin: 2rem aut
 code {{ font: 0.9em ui-monospace, monospace; }}
 table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
 th, td {{ border-bottom: 1px solid #8888; padding: 0.25rem 0.75rem 0.25rem 0; text-align: left; }}
+@media (max-width: 30rem) {{
+  table {{ font-size: 0.8em; }}
+  th, td {{ padding-right: 0.4rem; overflow-wrap: anywhere; }}
+}}
 @media print {{
   body {{ font-size: 11pt; max-width: none; margin: 0; color: #000; background: #fff; }}
   h2, table {{ break-inside: avoid; break-after: avoid; }}
