@@ -187,7 +187,7 @@ class Controls:
         if blown:
             self._banner.content = banner(lab.notice, "#a32a00", "alert")
         self._banner.visible = blown
-        self._suggested = rounded_down(0.9 * min(limits)[0]) if blown and limits else None
+        self._suggested = suggestion(lab)
         self._again.visible = self._suggested is not None
         if self._suggested is not None:
             self._again.label = f"Start again with dt = {self._suggested / MS:.3g} ms, a stable one"
@@ -243,6 +243,16 @@ class Controls:
         note = f"{found.note} Files to be run beside: {', '.join(found.files)}." if found.files else found.note
         self._command_text.content = copyable("\n".join(found.commands), note)
         self._command_text.visible = True
+
+
+def suggestion(lab: Lab) -> float | None:
+    """A dt [s] that is stable for all worlds; None where nothing blew up, or a shorter step would not help."""
+    blown = {world.name for world in lab.worlds if world.blown_up}
+    limits = {name: p.limit for name, p in lab.predictions.items()}
+    if not blown or any(limits.get(name) is None for name in blown):
+        return None
+    dt = rounded_down(0.9 * min(limit for limit in limits.values() if limit is not None))
+    return dt if dt < lab.dt else None
 
 
 def status(lab: Lab, company: str) -> str:

@@ -85,7 +85,7 @@ class Stage:
         straight[1] *= system.dimension == 3
         camera = self._client.camera
         camera.up_direction = (0.0, 1.0, 0.0)
-        camera.position = middle + np.array([across, 0, 0]) + straight * (size + across)
+        camera.position = middle + np.array([across, 0, 0]) + straight * (size + 2 * across)
         camera.look_at = middle + np.array([across, 0, 0])
 
     def _build(self, lab: Lab) -> None:
@@ -148,7 +148,11 @@ class Stage:
         points = places[lab.own.springs]
         if self._true is None:
             self._true = self._client.scene.add_line_segments(
-                "/true", points=points, colors=TRUE_COLOUR, thickness=5.0, thickness_units="screen"
+                "/true",
+                points=points,
+                colors=TRUE_COLOUR,
+                thickness=5.0 if lab.own.dimension == 2 else 1.5,
+                thickness_units="screen",
             )
             self._others.append(self._true)
         self._true.visible, self._true.points = True, points

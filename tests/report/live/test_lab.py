@@ -18,6 +18,7 @@ from reference.errors import InputError
 from reference.scenes import find as find_scene
 from reference.simulate import simulate
 from reference.state import Array, State
+from report.live.controls import suggestion
 from report.live.lab import Lab
 from report.live.parameters import PRESETS
 from report.live.reproduction import Stretch, reproduction
@@ -248,6 +249,17 @@ def test_past_the_predicted_limit_it_blows_up_and_below_it_stays(labs: list[Lab]
     go_on(lab, 600)
     assert lab.playing
     assert lab.notice == ""
+
+
+def test_a_stable_step_is_offered_only_where_there_is_one(labs: list[Lab]) -> None:
+    """Not for Euler without damping, which grows at any dt; for kick-drift a tenth below 10.11 ms, in two figures."""
+    for name, dt, wanted in (("euler", 9e-3, None), ("kick_drift", 10.8e-3, 9.1e-3)):
+        lab = open_lab(labs, "string", [name])
+        lab.set_dt(dt)
+        lab.wait_for_predictions()
+        go_on(lab, 3000)
+        assert lab.worlds[0].blown_up
+        assert suggestion(lab) == wanted
 
 
 def test_after_a_blow_up_what_is_changed_is_tried(labs: list[Lab]) -> None:
