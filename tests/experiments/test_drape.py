@@ -7,11 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from engines.engine import find as find_engine
 from experiments import drape
 from experiments.drape import DIRECTIONS, able, cloth, covered, folds, hung, hung_in, shadow
 from reference.drape import disc
-from reference.scenes import find
 from reference.state import Array
 from reference.system import IntArray
 
@@ -78,11 +76,11 @@ def test_stiffer_cloth_drapes_less_and_has_folds(monkeypatch: pytest.MonkeyPatch
 
 def test_an_engine_hangs_the_same_cloth() -> None:
     """The first that can; the same drape coefficient to 1e-3: both are at rest, at 1 mm/s and below for a second."""
-    names = able(cloth(0.017, 0.02, 0)[0])
-    if not names:
+    engines = able(cloth(0.017, 0.02, 0)[0])
+    if not engines:
         pytest.skip("no engine is installed that can take it")
-    assert len({find("drape").name, *names}) == len(names) + 1
-    found = hung_in(find_engine(names[-1]), 0.017, 0.02, 0)
+    assert len({engine.package for engine in engines}) == len(engines)
+    found = hung_in(engines[-1], 0.017, 0.02, 0)
     assert found["coefficient"] == pytest.approx(hung(0.017, 0.02, 0)["coefficient"], abs=1e-3)
 
 
