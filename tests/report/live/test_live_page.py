@@ -1,4 +1,7 @@
-"""The live page in headless Chromium: what people do with it, and what they see. All scenes with `--full`."""
+"""The live page in headless Chromium: what people do with it, and what they see. With `--full`.
+
+Chromium draws WebGL by the processor alone here: that takes minutes.
+"""
 
 from __future__ import annotations
 
@@ -23,15 +26,22 @@ THEIRS = ("Unable to preventDefault inside passive event listener invocation.",)
 FEW = ("cloth", "barrier")
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _in_full(request: pytest.FixtureRequest) -> None:
+    """Not in the ordinary tests."""
+    if not request.config.getoption("--full"):
+        pytest.skip("--full drives the live page in a browser")
+
+
 @pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
+def chromium(_in_full: None) -> Iterator[Any]:
     """One browser for all."""
     with browser() as found:
         yield found
 
 
 @pytest.fixture(scope="module")
-def address() -> Iterator[str]:
+def address(_in_full: None) -> Iterator[str]:
     """One server for all: every viewer has a simulation of their own."""
     with server() as (found, _):
         yield found
