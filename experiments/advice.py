@@ -16,8 +16,7 @@ from engines.limits import limit_of_engine_near
 from experiments.comparison import too_slow
 from experiments.runner import current
 from experiments.runs import Progress
-from experiments.stability import at_rest_and_pushed, rest_of_engine
-from experiments.steppers import all_steppers
+from experiments.stability import at_rest_and_pushed, rest_of_engine, rest_of_scheme
 from reference.catalogue import find
 from reference.changes import whole_steps
 from reference.errors import InputError, SolverError
@@ -25,7 +24,7 @@ from reference.identify import Identification, candidates_for, identify_run
 from reference.outcome import Outcome
 from reference.pendulum import why_no_pendulum
 from reference.scenes import Setup
-from reference.stability import Equilibrium, Limit, equilibrium, fastest_rate, find_limit, growth, spring_equilibrium
+from reference.stability import Equilibrium, Limit, fastest_rate, find_limit, growth, spring_equilibrium
 from reference.stepper import SchemeStepper, catalogued
 from reference.system import MassSpringSystem
 
@@ -77,11 +76,6 @@ class Advice:
     def on_rods(self) -> bool:
         """Whether the engine puts rods for the springs: what it steps is not quite the scene."""
         return self.scheme is not None and catalogued()[self.scheme].on_rods
-
-
-def installed() -> list[EngineStepper]:
-    """The engines there are on this machine."""
-    return [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
 
 
 def advise(setup: Setup, engines: Sequence[EngineStepper], progress: Progress) -> list[Advice]:
@@ -160,10 +154,9 @@ def _predicted(
 def predict(named: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Limit:
     """A scheme's limit about a rest, or why it is not known."""
     scheme = find(SOLVED[named.name]) if named.name in SOLVED else named.scheme
-    try:
-        about = equilibrium(named.equations, system) if named.on_rods else rest
-    except (InputError, SolverError) as error:
-        return Limit(None, f"{named.name} has no rest to be predicted about: {error}")
+    about = rest_of_scheme(named, system, rest)
+    if isinstance(about, Limit):
+        return about
     unit = 1 / fastest_rate(about)
     return find_limit(lambda dt: growth(scheme, about, dt) - 1, unit, precision=PREDICTION)
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from experiments.advice import ADVISED, Advice, advise, installed
+from experiments.advice import ADVISED, Advice, advise
 from experiments.experiment import Result, Table
 from experiments.runs import Progress
+from experiments.steppers import installed_engines
 from reference.scenes import Setup
 
 COLUMNS = ["engine", "identified as", "at the scene's dt", "margin", "predicted limit [s]", "measured limit [s]"]
@@ -15,7 +16,7 @@ COLUMNS += ["advised dt [s]", "the scene with it", "pushes at 1.1 of the limit",
 
 def answer(setup: Setup, progress: Progress) -> Result:
     """The advice for a scene in all installed engines, as findings and a table. Raises as `advise` does."""
-    return result_of(setup, advise(setup, installed(), progress))
+    return result_of(setup, advise(setup, installed_engines(), progress))
 
 
 def result_of(setup: Setup, found: Sequence[Advice]) -> Result:

@@ -23,7 +23,7 @@ import numpy as np
 from engines.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs import Progress, side_by_side
-from experiments.steppers import all_steppers
+from experiments.steppers import all_steppers, installed_engines
 from reference.conserved import energy
 from reference.obstacles import Circle
 from reference.outcome import Outcome
@@ -150,8 +150,7 @@ def _slides(system: MassSpringSystem, progress: Progress) -> Iterator[tuple[tupl
 
 def able() -> list[EngineStepper]:
     """The engines that take a circle."""
-    engines = [s for s in all_steppers().values() if isinstance(s, EngineStepper)]
-    return [s for s in engines if "circle" in s.engine.capabilities and s.version is not None]
+    return [s for s in installed_engines() if "circle" in s.engine.capabilities]
 
 
 def _strings(system: MassSpringSystem, dt: float, steps: int, progress: Progress) -> Iterator[tuple[str, Outcome]]:

@@ -15,13 +15,13 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any, Literal
 
-from engines.isolation import EngineStepper, isolated
+from engines.isolation import isolated
 from engines.supervisor import supervisor
 from experiments.cluster import PORTION
 from experiments.experiment import Experiment, Result, Table
 from experiments.job import Job
 from experiments.runs import Progress
-from experiments.steppers import all_steppers
+from experiments.steppers import all_steppers, installed_engines
 from experiments.store import Store
 from experiments.sweeps import Sweep
 from reference.stepper import Stepper
@@ -93,10 +93,8 @@ def _kinds() -> Iterator[Kind]:
 
 
 def _one_of_each() -> list[Stepper]:
-    steppers = all_steppers()
-    engines = [s for s in steppers.values() if isinstance(s, EngineStepper) and s.version is not None]
-    by_package = {s.engine.package: s for s in reversed(engines)}
-    return [steppers["heun"], *reversed(by_package.values())]
+    by_package = {s.engine.package: s for s in reversed(installed_engines())}
+    return [all_steppers()["heun"], *reversed(by_package.values())]
 
 
 def _seconds_of_run(stepper: Stepper, identify: bool = False, afresh: bool = False, runs: int = TIMED) -> float:

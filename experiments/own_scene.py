@@ -8,18 +8,20 @@ from functools import cache
 import numpy as np
 
 from experiments import advice_words
-from experiments.advice import Advice, installed
+from experiments.advice import Advice
 from experiments.comparison import compare
 from experiments.divergence import result_of
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs import Progress
+from experiments.scenes import thinned
+from experiments.steppers import installed_engines
 from reference.changes import whole_steps
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
 from reference.stepper import catalogued
 
-#: The scheme that shows how the scene moves, and how many of its states are kept.
-SHOWN_BY, STATES = "rk4", 60
+#: The scheme that shows how the scene moves.
+SHOWN_BY = "rk4"
 
 #: Where it blows up with the scene's own dt, these parts of that are tried.
 SHORTER = (1, 4, 16, 64)
@@ -61,7 +63,7 @@ def moved(setup: Setup, advised: Result, progress: Progress) -> Result:
     steps = [advice.advised for advice in found if advice.advised]
     dt = setup.dt if survive or not steps else min(steps)
     at = Setup(setup.name, setup.system, dt, setup.duration, setup.changes)
-    result = result_of(compare(at, [engine for engine in installed() if engine.name in able], progress))
+    result = result_of(compare(at, [engine for engine in installed_engines() if engine.name in able], progress))
     start = f"With dt = {dt:g} s, {'its own' if survive or not steps else 'as none comes to its end with its own'}. "
     first, *others = result.findings
     return Result([start + first, *others], result.tables, result.data, result.failures)
@@ -109,16 +111,10 @@ def _changes(setup: Setup) -> list[list[object]]:
 
 
 def _motion(setup: Setup) -> tuple[Trajectory, float]:
-    """By the reference, at about STATES times; and the step [s], as much shorter than its own as it takes to live."""
+    """By the reference; and the step [s], as much shorter than its own as it takes to live."""
     for shorter in SHORTER:
         dt = setup.dt / shorter
         outcome = catalogued()[SHOWN_BY].run(setup.system, dt, whole_steps(dt, setup.duration), setup.changes)
         if outcome.ending == "done" and outcome.trajectory is not None:
-            return _thinned(outcome.trajectory), dt
+            return thinned(outcome.trajectory), dt
     return Trajectory.of([setup.system.start]), dt
-
-
-def _thinned(whole: Trajectory) -> Trajectory:
-    last = len(whole) - 1
-    kept = [round(i * last / STATES) for i in range(STATES + 1)] if last > STATES else list(range(last + 1))
-    return Trajectory(whole.times[kept], whole.positions[kept], whole.velocities[kept])

@@ -9,11 +9,10 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from engines.isolation import EngineStepper
 from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs import Progress, side_by_side
-from experiments.steppers import all_steppers
+from experiments.steppers import installed_engines
 from reference.catalogue import find as find_scheme
 from reference.identify import LARGE, Identification, candidates_for, identify_run
 from reference.outcome import Outcome
@@ -78,7 +77,7 @@ def run(progress: Progress) -> Result:
 def _runs(scene: Scene, progress: Progress) -> Iterator[Run]:
     setup = scene.setup({})
     system, changes = setup.system, setup.changes
-    engines = [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
+    engines = installed_engines()
     outcomes = list(side_by_side(engines, lambda s: s.run(system, scene.dt, STEPS, changes), progress))
     claimed = {name for stepper in engines for name in stepper.engine.identified_as.values()}
     large = len(system.masses) > LARGE
@@ -119,8 +118,12 @@ def _beginning(outcome: Outcome) -> Outcome:
 
 
 def motion(setup: Setup) -> Trajectory:
-    """A scene's motion by the reference, at about STATES times from its start to its end."""
-    whole = simulate(setup.system, find_scheme(SHOWN_BY), setup.dt, setup.duration, setup.changes)
+    """A scene's motion by the reference, from its start to its end, `thinned`."""
+    return thinned(simulate(setup.system, find_scheme(SHOWN_BY), setup.dt, setup.duration, setup.changes))
+
+
+def thinned(whole: Trajectory) -> Trajectory:
+    """About STATES states of a trajectory, the first and the last of them too."""
     last = len(whole) - 1
     kept = [round(i * last / STATES) for i in range(STATES + 1)] if last > STATES else list(range(last + 1))
     return Trajectory(whole.times[kept], whole.positions[kept], whole.velocities[kept])

@@ -188,9 +188,15 @@ def _predict(identification: Identification, system: MassSpringSystem, rest: Equ
     if identification.identified_as is None:
         return Limit(None, identification.reason or str(identification).partition(": ")[2])
     named = catalogued()[identification.identified_as]
+    about = rest_of_scheme(named, system, rest)
+    return about if isinstance(about, Limit) else stability_limit(named.scheme, about)
+
+
+def rest_of_scheme(named: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Equilibrium | Limit:
+    """Where a scheme's system is at rest, with rods if it steps rods; where there is none, no limit and why."""
     try:
-        return stability_limit(named.scheme, equilibrium(named.equations, system) if named.on_rods else rest)
-    except InputError as error:
+        return equilibrium(named.equations, system) if named.on_rods else rest
+    except (InputError, SolverError) as error:
         return Limit(None, f"{named.name} has no rest to be predicted about: {error}")
 
 

@@ -18,6 +18,11 @@ def all_steppers() -> dict[str, Stepper]:
     return {**catalogued(), **listings(), **engines}
 
 
+def installed_engines() -> list[EngineStepper]:
+    """The engines there are on this machine."""
+    return [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
+
+
 def default_steppers() -> list[Stepper]:
     """What `compare` runs if nothing is named: all but the pendulum schemes, which are another system's."""
     return [stepper for stepper in all_steppers().values() if stepper.kind != "pendulum"]

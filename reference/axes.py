@@ -47,5 +47,5 @@ def axes_of(vectors: Array) -> Axes:
 
 
 def vectors_of(axes: Axes, like: Array) -> Array:
-    """The reverse of _axes, in the shape of an array."""
+    """The reverse of `axes_of`, in the shape of an array."""
     return np.stack(np.broadcast_arrays(*axes, like[..., 0])[:-1], axis=-1)

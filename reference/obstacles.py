@@ -30,7 +30,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Obstacle:
-    """What circle, sphere, cylinder and plane have in common. Their fields are numbers, or tuples of numbers."""
+    """What all kinds have in common. Their fields are numbers, or tuples of numbers."""
 
     @property
     def kind(self) -> str:

@@ -59,7 +59,6 @@ def stability_command(
 
 
 def _rows(scene: str, settings: Mapping[str, str], steppers: Sequence[Stepper]) -> list[Row]:
-    from experiments.arguments import setup_for
     from experiments.stability import CASES, stability_rows
 
     named = not Path(scene).suffix and not {"damping", "drag"} & settings.keys()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-import hashlib
 import importlib
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -87,12 +86,8 @@ def sources() -> str:
     folders = [PROJECT / room for room in ROOMS]
     files = [file for folder in folders for file in sorted(folder.rglob("*")) if file.is_file()]
     files += [PROJECT / "report" / f"{name}.py" for name in DRAWING]
-    found = hashlib.sha256()
-    for file in files:
-        if "__pycache__" not in file.parts:
-            found.update(f"{file.relative_to(PROJECT)} {file.stat().st_size}:".encode())
-            found.update(file.read_bytes())
-    return found.hexdigest()
+    written = [file for file in files if "__pycache__" not in file.parts]
+    return digest([(str(file.relative_to(PROJECT)), file.read_bytes()) for file in written])
 
 
 @cache

@@ -11,7 +11,7 @@ import numpy as np
 from reference.changes import Change
 from reference.errors import InputError
 from reference.state import Array, State
-from reference.system import Value
+from reference.system import FIELDS, Value
 from report.live.cursor import at_rest_where_fixed, hook, on_hook, pinned, with_cursor, without_last
 from report.live.history import History, Moment
 from report.live.measures import Measures
@@ -154,7 +154,7 @@ class Lab:
             self._tell(world)
 
     def _for_all_but_the_cursor(self, name: str) -> Value:
-        field = {"mass": "masses", "rest_length": "rest_lengths"}.get(name, name)
+        field = FIELDS.get(name, name)
         return (*getattr(self.own, field).tolist(), float(getattr(self.system, field)[-1]))
 
     def set_steppers(self, names: Sequence[str]) -> None:
