@@ -24,7 +24,7 @@ from reference.errors import InputError, SolverError
 from reference.identify import Identification, candidates_for, identify_run
 from reference.outcome import Outcome
 from reference.pendulum import why_no_pendulum
-from reference.probe import PUSH, mode_growth
+from reference.probe import GROWN, PUSH, mode_growth
 from reference.scenes import find
 from reference.stability import (
     Equilibrium,
@@ -157,10 +157,12 @@ def _growth_of_mode(scheme: Scheme, rest: Equilibrium, dt: float) -> float:
         x[rest.free] += push[:count].reshape(shape)
         v[rest.free] += push[count:].reshape(shape) / dt
         state, offsets = State(0.0, x, v), []
-        for _ in range(MODE_STEPS):
-            state = scheme.step(rest.motion, state, dt)
+        while len(offsets) <= MODE_STEPS:
             moved = (state.positions - rest.state.positions)[rest.free]
             offsets.append(np.concatenate([moved, dt * state.velocities[rest.free]], axis=None))
+            if not np.abs(moved).max() <= GROWN * PUSH * rest.scale:  # the rest would say no more
+                break
+            state = scheme.step(rest.motion, state, dt)
     except (SolverError, np.linalg.LinAlgError):
         return np.inf
     return mode_growth(np.array(offsets), left)

@@ -36,7 +36,7 @@ class Scheme:
         kind: see Kind.
         springs_only: whether it needs springs (damped ones apart, or one mass at a time) and so cannot step a pendulum.
         quick_up_to: how many masses it steps some hundred times within half a minute; None for as many as any.
-        solves: whether it solves linear equations for the damping, and is linear in everything else.
+        solves: whether it solves equations, which are linear about an equilibrium, as is everything else it does.
     """
 
     step: Step

@@ -26,6 +26,9 @@ GROWN = 100.0
 #: Growth in a step that is seen for sure in that time: a doubling between its first and its last quarter.
 SEEN = float(np.log(2) / (0.75 * STEPS))
 
+#: So many times as long is looked below a limit, where growth is seen that is so much less.
+LONGER = 6
+
 #: How near to where it is expected a limit is looked for first, in parts as large as the precision.
 NEAR = 4
 
@@ -84,8 +87,8 @@ def measured_limit(growth: Callable[[float, int], float], dt: float, precision: 
     while high - low > precision * low:
         middle = (low + high) / 2
         low, high = (low, middle) if unstable(middle) else (middle, high)
-    # Growth that goes as a power of dt is seen late. Below a true limit there is none, in a much longer run either.
-    if growth(0.7 * low, 20 * STEPS) > SEEN / 20:
+    # Growth that goes as a power of dt, up to the fourth, is seen late. Below a true limit a longer run has none either.
+    if growth(0.7 * low, LONGER * STEPS) > SEEN / LONGER:
         return None, f"unstable at any dt that was tried: in longer runs at {0.7 * low:.3g} s too"
     return low, ""
 

@@ -67,7 +67,7 @@ def rk4(motion: Motion, state: State, dt: float) -> State:
     return state + dt / 6 * (first + 2 * second + 2 * third + fourth)
 
 
-@scheme(order=1, springs_only=True, quick_up_to=2000)
+@scheme(order=1, springs_only=True, quick_up_to=2000, solves=True)
 def backward_euler(motion: SpringMotion, state: State, dt: float) -> State:
     """Implicit Euler: the slope at the end, wherever that is; Newton's method finds it.
 
@@ -91,7 +91,7 @@ def backward_euler(motion: SpringMotion, state: State, dt: float) -> State:
     raise SolverError(f"backward Euler found no solution at t = {state.time:.6g} s with dt = {dt:g} s")
 
 
-@scheme(order=2, springs_only=True, quick_up_to=2000)
+@scheme(order=2, springs_only=True, quick_up_to=2000, solves=True)
 def implicit_midpoint(motion: SpringMotion, state: State, dt: float) -> State:
     """Implicit midpoint rule: the slope half-way, by half a step of backward Euler (HLW I.1.1).
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reference import catalogue, exact
-from reference.assembly import assemble, spring_blocks
+from reference.assembly import Blocks, assemble, spring_blocks
 from reference.catalogue import Scheme
 from reference.errors import SolverError
 from reference.forces import SpringMotion
@@ -87,7 +87,7 @@ def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     """J over the free positions and dt x velocities: exactly where the scheme allows, else by differences.
 
     A scheme that asks for accelerations only, of all masses or of one at a time, is linear in them; so is one that
-    solves for the damping of springs, whose directions a push changes by little, and whose rates at rest are zero.
+    solves equations whose coefficients a push changes by little, where rates at rest are zero.
     Given the linearised equations and the identity matrix in place of a state, its own function returns J.
     """
     allowed = not scheme.springs_only or scheme.kind == "in_place" or scheme.solves
@@ -121,6 +121,10 @@ class LinearMotion:
     def placed(self, state: State) -> State:
         """Where springs have their directions: at rest, whatever the pushes."""
         return self._equilibrium
+
+    def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
+        """The derivatives of the forces by positions [N/m] and velocities [N s/m]: those at rest, whatever the pushes."""
+        return spring_blocks(self.system, self._equilibrium)
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Of mass i alone."""
