@@ -31,14 +31,20 @@ def experiments_of(setup: Setup) -> list[Experiment]:
     """The questions to a scene, the one about dt first."""
 
     @cache
-    def advised() -> Result:
-        return advice_words.answer(setup, told[-1])
+    def advised() -> Result | Exception:
+        try:
+            return advice_words.answer(setup, told[-1])
+        except Exception as error:  # which is raised below: whoever asks again does not wait for it again
+            return error
 
     told: list[Progress] = [lambda _: None]
 
     def ask(progress: Progress) -> Result:
         told.append(progress)
-        return advised()
+        answer = advised()
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
 
     questions = [
         ("advice", "Which dt", f"With which dt is {setup.name} stable, in each engine?", ask),

@@ -18,6 +18,9 @@ COLUMNS = ("task", "stepper", "version", "dt", "steps", "outcome", "reason")
 #: And where one asks for everything.
 MORE_COLUMNS = ("settings", "system", "seconds", "finished", "key", "arrays", "environment")
 
+#: What `report` keeps beside the runs it is made of: its sections as they are shown, which are no runs.
+SECTIONS = "report_section"
+
 
 def rows(store: Path, filters: Mapping[str, str], retired: bool = False) -> list[dict[str, Any]]:
     """The runs in a store, oldest first, parameters and numbers of the answer as columns of their own.
@@ -75,7 +78,8 @@ def _read(store: Path) -> list[sqlite3.Row]:
         sql.row_factory = sqlite3.Row
         try:
             begun = check_format(store, sql)
-            return sql.execute("SELECT * FROM runs ORDER BY finished, rowid").fetchall() if begun else []
+            every = sql.execute("SELECT * FROM runs ORDER BY finished, rowid").fetchall() if begun else []
+            return [row for row in every if row["task"] != SECTIONS]
         except sqlite3.OperationalError as error:
             problem = error
         except sqlite3.DatabaseError as error:

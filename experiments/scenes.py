@@ -23,10 +23,10 @@ from reference.stepper import Stepper, catalogued
 from reference.system import MassSpringSystem
 
 #: Every engine takes so many steps of a scene, and is identified where a scheme is as near as this [m].
-STEPS, NEAR = 200, 1e-9
+STEPS, NEAR = 100, 1e-9
 
 #: What no scheme that engines are known for is near to is compared with the whole catalogue, for so many steps: on a
-#: mesh of rods 200 would take minutes.
+#: mesh of rods STEPS would take minutes.
 FIRST = 20
 
 #: A mass this near to an obstacle, as a part of the system's size, touches it.

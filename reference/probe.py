@@ -87,9 +87,9 @@ def measured_limit(growth: Callable[[float, int], float], dt: float, precision: 
     while high - low > precision * low:
         middle = (low + high) / 2
         low, high = (low, middle) if unstable(middle) else (middle, high)
-    # Growth that goes as a power of dt, up to the fourth, is seen late. Below a true limit a longer run has none either.
-    if growth(0.7 * low, LONGER * STEPS) > SEEN / LONGER:
-        return None, f"unstable at any dt that was tried: in longer runs at {0.7 * low:.3g} s too"
+    # Growth that goes as a power of dt is seen late. Below a true limit a longer run has none either.
+    if growth(0.9 * low, LONGER * STEPS) > SEEN / LONGER:
+        return None, f"unstable at any dt that was tried: in longer runs at {0.9 * low:.3g} s too"
     return low, ""
 
 

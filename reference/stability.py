@@ -123,7 +123,7 @@ class LinearMotion:
         return self._equilibrium
 
     def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
-        """The derivatives of the forces by positions [N/m] and velocities [N s/m]: those at rest, whatever the pushes."""
+        """The derivatives of the forces by positions [N/m] and velocities [N s/m], at rest whatever the pushes."""
         return spring_blocks(self.system, self._equilibrium)
 
     def acceleration_of(self, i: int, state: State) -> Array:

@@ -38,7 +38,7 @@ class Undone:
 
 @dataclass(frozen=True)
 class First:
-    """The first screen: a title, what the page is about, sentences, a figure and its table."""
+    """The first screen: a title, what the page is about, sentences, a figure and its table, to be downloaded too."""
 
     title: str
     lead: str
@@ -48,6 +48,8 @@ class First:
     columns: Sequence[str]
     rows: Sequence[Sequence[object]]
     above: int = 3  # sentences, before the figure
+    made_by: str = ""
+    downloads: Sequence[tuple[str, str]] = ()
 
 
 def page(sections: Sequence[Section]) -> str:
@@ -79,8 +81,11 @@ def scene_page(name: str, sections: Sequence[Section]) -> str:
         [] if result is None else result.tables[0].columns,
         [] if result is None else result.tables[0].rows,
         above=1,
+        made_by=advice.command,
+        downloads=advice.downloads,
     )
-    return _rendered(first, others, sections, [])
+    known = {row["engine"]: row["identified as"] for row in overview.records(advice, "advice") if row["identified as"]}
+    return _rendered(first, others, sections, packages(known))
 
 
 def _rendered(first: First, shown: Sequence[Section], sections: Sequence[Section], cards: Sequence[Package]) -> str:

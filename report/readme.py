@@ -1,13 +1,21 @@
-"""The parts of README.md that are made from the project: `python -m report.readme` writes them."""
+"""The parts of README.md that are made from the project: `python -m report.readme` writes table and pictures."""
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 
 from engines.engine import registry
+from experiments.console import progress
+from experiments.experiment import find
+from experiments.runner_options import STORE, chosen_runner
+from report.overview import explained
+from report.sections import all_sections
 
 README = Path(__file__).parents[1] / "README.md"
 BEGIN, END = "<!-- engines: written by `python -m report.readme` -->\n", "<!-- end of engines -->"
+
+PICTURES = Path(__file__).parent / "pictures"
 
 
 def engine_table() -> str:
@@ -27,5 +35,17 @@ def with_engine_table(text: str) -> str:
     return f"{before}{BEGIN}\n{engine_table()}\n{END}{after}"
 
 
+def write_pictures() -> None:
+    """The report's first figure, and its maps: what is kept of them from the last report, else made now."""
+    from report.figures.overview import draw
+
+    asked = [find("divergence"), find("maps")]
+    with tempfile.TemporaryDirectory() as folder, chosen_runner(True, STORE), progress("pictures") as tell:
+        divergence, maps = all_sections(asked, Path(folder), tell, STORE)
+    (PICTURES / "found.svg").write_text(draw(explained(divergence)).svg(), encoding="utf-8")
+    (PICTURES / "maps.svg").write_text(maps.svg, encoding="utf-8")
+
+
 if __name__ == "__main__":
     README.write_text(with_engine_table(README.read_text(encoding="utf-8")), encoding="utf-8")
+    write_pictures()

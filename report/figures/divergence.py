@@ -44,7 +44,7 @@ def draw(result: Result) -> Picture:
             _line(axes, times, deviation, i, len(groups), "--", IDENTIFIED)
     note = {"transform": axes.get_yaxis_transform(), "fontsize": 11, "fontweight": "bold", "color": "#333333"}
     axes.text(0.01, 2.0, "measured: from the true motion (dots)", **note)
-    axes.text(0.01, 1e-12, "identified: from the scheme named on the right (rings)", **note)
+    axes.text(0.05, 1e-12, "identified: from the scheme named on the right (rings)", **note)
     label_ends(axes, [end for end in ends if np.isfinite(end.y)], LINE / figure.get_figheight() * 1.15, fontsize=8.5)
     return Picture(figure, _alt(runs))
 

@@ -37,10 +37,13 @@ def of(*runs: scenes.Run) -> Result:
 def test_the_findings_are_made_from_the_numbers() -> None:
     """Two identified, one a nanometre and more away; one unsupported, with its reason counted."""
     run = ran("string", "heun")
-    cannot = replace(run, outcome=Outcome("unsupported", "heun cannot do flying"), compared=200)
+    cannot = replace(run, outcome=Outcome("unsupported", "heun cannot do flying"), compared=scenes.STEPS)
     away = ran("string", "kick_drift", shift=3e-9)
     found = " ".join(of(run, ran("spring", "kick_drift"), away, cannot).findings)
-    assert "Of 3 engine runs of 200 steps that meet no obstacle, 2 are a scheme of the catalogue to 1e-09 m" in found
+    assert (
+        f"Of 3 engine runs of {scenes.STEPS} steps that meet no obstacle, 2 are a scheme of the catalogue to 1e-09 m"
+        in found
+    )
     assert "Not identified: kick_drift on string, " in found
     assert "1 of 4 runs are unsupported, for flying (1)." in found
 

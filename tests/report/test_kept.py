@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from experiments.experiment import Result, find
+from experiments.results import rows
 from experiments.runs import Progress
 from report import kept
 from tests.experiments.terminal import springlab
@@ -58,6 +59,7 @@ def test_an_experiment_is_run_once_and_the_page_is_the_same(monkeypatch: pytest.
     assert len(COUNT) == 2
     assert report(tmp_path / "last", tmp_path / "store.sqlite") == first
     assert len(COUNT) == 2
+    assert rows(tmp_path / "store.sqlite", {}) == []  # a section is no run
 
 
 @pytest.mark.parametrize("what", ["sources", "versions"])
