@@ -156,7 +156,7 @@ def _growth_of_mode(scheme: Scheme, rest: Equilibrium, dt: float) -> float:
         x, v = rest.state.positions.copy(), rest.state.velocities.copy()
         x[rest.free] += push[:count].reshape(shape)
         v[rest.free] += push[count:].reshape(shape) / dt
-        state, offsets = State(0.0, x, v), []
+        state, offsets = State(0.0, x, v), list[Array]()
         while len(offsets) <= MODE_STEPS:
             moved = (state.positions - rest.state.positions)[rest.free]
             offsets.append(np.concatenate([moved, dt * state.velocities[rest.free]], axis=None))

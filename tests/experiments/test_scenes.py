@@ -1,4 +1,4 @@
-"""The experiment `scenes`: every engine on a scene, identified over 200 steps or said why not."""
+"""The experiment `scenes`: every engine on a scene, identified over some steps or said why not."""
 
 from __future__ import annotations
 
