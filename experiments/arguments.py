@@ -50,7 +50,7 @@ def setup_for(
     """
     path = Path(scene)
     if path.suffix == ".toml" or path.is_file():
-        from reference.scene_file import load
+        from reference.scenes.scene_file import load
 
         setup = load(path, settings or {}, dt, duration)
     else:

@@ -8,7 +8,7 @@ that the shadow still covers,
 
     DC = (shadow - disc) / (cloth - disc),
 
-areas all. Stiffness is the bending length c, whose third power is rigidity over weight (`reference.drape`).
+areas all. Stiffness is the bending length c, whose third power is rigidity over weight (`reference.scenes.drape`).
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from engines.engine import Engine, demands, registry, version
 from experiments.experiment import Experiment, Result, Table
 from experiments.runner import answer, current
 from experiments.runs import Progress
-from reference.drape import STANDARD_GRAVITY, disc
 from reference.outcome import Outcome
 from reference.scenes import find
+from reference.scenes.drape import STANDARD_GRAVITY, disc
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 

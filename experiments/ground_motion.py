@@ -21,10 +21,10 @@ from experiments.experiment import Experiment, Result, Table
 from experiments.runs import Progress, side_by_side
 from experiments.steppers import all_steppers
 from reference.changes import Driven, whole_steps
-from reference.crossing import Crossing
-from reference.ground_motion import GroundMotion, Sweep
 from reference.outcome import Outcome
 from reference.scenes import find
+from reference.scenes.crossing import Crossing
+from reference.scenes.ground_motion import GroundMotion, Sweep
 from reference.state import Array, Trajectory
 from reference.stepper import Stepper, catalogued
 from reference.system import MassSpringSystem

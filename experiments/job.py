@@ -163,7 +163,7 @@ def _signature(task: Callable[..., Any]) -> inspect.Signature:
 def _sources(task: Callable[..., Any]) -> str:
     """The digest of all that is written in the rooms that compute, and in the task's own file."""
     rooms: Sequence[ModuleType] = (reference, engines)
-    files = [file for room in rooms for folder in room.__path__ for file in sorted(Path(folder).glob("*.py"))]
+    files = [file for room in rooms for folder in room.__path__ for file in sorted(Path(folder).rglob("*.py"))]
     own = inspect.getsourcefile(task)
     texts = [file.read_bytes() for file in [*files, *([Path(own)] if own else [])]]
     return digest(_name(task), texts)

@@ -27,20 +27,16 @@ ROOMS = ("reference", "engines", "experiments", "report")
 #: Of the reference, the files that must work in a bare environment.
 BARE_REFERENCE = (
     "axes",
-    "barrier",
     "cache",
     "changes",
-    "cloths",
-    "drape",
     "errors",
-    "lattices",
     "obstacles",
     "outcome",
     "probe",
+    *(f"scenes.{name}" for name in ("barrier", "cloths", "drape", "lattices", "parameters", "strings", "trusses")),
     "scenes",
     "state",
     "system",
-    "trusses",
 )
 
 #: What may be imported at the top of the files that must work in a bare environment, beside the standard library.
@@ -48,7 +44,8 @@ LIGHT = ["numpy", "engines"]
 LIGHT += [f"reference.{name}" for name in BARE_REFERENCE]
 
 #: Those files.
-BARE = [ROOT / "reference" / f"{name}.py" for name in BARE_REFERENCE]
+BARE = [ROOT / "reference" / f"{name.replace('.', '/')}.py" for name in BARE_REFERENCE if name != "scenes"]
+BARE.append(ROOT / "reference" / "scenes" / "__init__.py")
 BARE += sorted((ROOT / "engines").glob("*.py"))
 
 

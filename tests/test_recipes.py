@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from engines.isolation import run_engine
-from reference import catalogue
+from reference import catalogue, scenes
 from reference.catalogue import Scheme, schemes
 from reference.exact import exact
 from reference.identify import identify
@@ -28,7 +28,7 @@ CONTRIBUTING = Path(__file__).parents[1] / "CONTRIBUTING.md"
 @pytest.fixture
 def follow() -> Iterator[Any]:
     """The module that a recipe's code makes; what it enters into the catalogue is taken out again."""
-    before = dict(schemes())
+    before, before_scenes = dict(schemes()), dict(scenes.scenes())
     made: list[str] = []
 
     def recipe(name: str) -> ModuleType:
@@ -45,6 +45,8 @@ def follow() -> Iterator[Any]:
         del sys.modules[name]
     catalogue._SCHEMES.clear()
     catalogue._SCHEMES.update(before)
+    scenes._SCENES.clear()
+    scenes._SCENES.update(before_scenes)
 
 
 def measured_order(scheme: Scheme) -> float:
@@ -61,6 +63,17 @@ def test_the_scheme_of_the_recipe_is_catalogued_of_its_order_and_identified(foll
     scheme = catalogue.find("midpoint")
     assert measured_order(scheme) == pytest.approx(scheme.order, abs=0.05)
     assert identify(SchemeStepper(scheme), find("string").system({}), 1e-3, 100).identified_as == "midpoint"
+
+
+def test_the_scene_of_the_recipe_swings_as_theory_says(follow: Any) -> None:
+    """Its stretch is s cos(w t) with w^2 = 2 k / m: velocity Verlet is within s (w t) (w dt)^2 / 24 of that."""
+    follow("scene")
+    setup = find("dumbbell").setup({"mass": 0.2})
+    rate, stretch = np.sqrt(2 * 40.0 / 0.2), 0.05
+    x = simulate(setup.system, catalogue.find("velocity_verlet"), setup.dt, setup.duration).positions
+    found = x[-1, 1, 0] - x[-1, 0, 0] - 0.5
+    allowed = stretch * rate * setup.duration * (rate * setup.dt) ** 2 / 24
+    assert found == pytest.approx(stretch * np.cos(rate * setup.duration), abs=2 * allowed)
 
 
 def test_the_engine_of_the_recipe_is_what_it_claims(follow: Any) -> None:

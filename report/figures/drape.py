@@ -10,7 +10,7 @@ import numpy as np
 
 from experiments.drape import DIRECTIONS, LENGTHS, RADIUS, SPACING, SUPPORT, folds, rows_of
 from experiments.experiment import Result
-from reference.drape import disc
+from reference.scenes.drape import disc
 from report.figures import COLOURS, Picture, few_ticks, look, new_figure
 
 #: The bending lengths [m] of the cloths that are shown.

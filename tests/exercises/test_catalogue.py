@@ -16,10 +16,10 @@ from experiments.exercises.stepping import step
 from reference.catalogue import schemes
 from reference.errors import InputError
 from reference.forces import SpringMotion
+from reference.scenes.trusses import bridge as bridge_scene
 from reference.state import State
 from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
-from reference.trusses import bridge as bridge_scene
 
 ALL = pytest.mark.parametrize("exercise", exercises().values(), ids=lambda e: e.name)
 

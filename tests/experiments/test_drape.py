@@ -9,7 +9,7 @@ import pytest
 
 from experiments import drape
 from experiments.drape import DIRECTIONS, able, cloth, covered, folds, hung, hung_in, shadow
-from reference.drape import disc
+from reference.scenes.drape import disc
 from reference.state import Array
 from reference.system import IntArray
 

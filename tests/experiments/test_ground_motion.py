@@ -20,8 +20,8 @@ from experiments.ground_motion import (
 )
 from reference.catalogue import find
 from reference.changes import Driven
-from reference.ground_motion import GroundMotion, Sweep
 from reference.scenes import find as find_scene
+from reference.scenes.ground_motion import GroundMotion, Sweep
 from reference.simulate import simulate
 from reference.state import Array
 from report.figures import draw

@@ -12,16 +12,16 @@ from hypothesis import strategies as st
 
 from reference.catalogue import find
 from reference.changes import Change, Driven
-from reference.crossing import Crossing, cambered
 from reference.errors import InputError
 from reference.exact import squared_frequencies
 from reference.forces import SpringMotion
-from reference.ground_motion import GroundMotion, Sweep
 from reference.scenes import find as find_scene
+from reference.scenes.crossing import Crossing, cambered
+from reference.scenes.ground_motion import GroundMotion, Sweep
+from reference.scenes.trusses import truss
 from reference.simulate import simulate
 from reference.state import Array
 from reference.system import MassSpringSystem
-from reference.trusses import truss
 from tests.reference.direct_stiffness import deflection
 from tests.reference.systems import property_test
 

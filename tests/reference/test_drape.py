@@ -13,11 +13,11 @@ from scipy.sparse.linalg import spsolve
 
 from reference.assembly import assemble, spring_blocks
 from reference.conserved import energy
-from reference.drape import LONG, STANDARD_GRAVITY, disc
 from reference.errors import InputError
 from reference.forces import SpringMotion
 from reference.least_energy import least_energy
 from reference.scenes import find
+from reference.scenes.drape import LONG, STANDARD_GRAVITY, disc
 from reference.system import MassSpringSystem
 
 Doctored = Callable[[MassSpringSystem], MassSpringSystem]

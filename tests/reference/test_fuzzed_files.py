@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 
 from reference.errors import InputError
-from reference.scene_file import load
 from reference.scenes import Setup
+from reference.scenes.scene_file import load
 from tests.reference.mesh_files import BINARY_BLOCK, BLANKET, BLOCK, NEXT_BLOCK
 from tests.reference.test_mesh_file import SCENE
 from tests.reference.test_scene_file import NAMED, WRITTEN_OUT

@@ -14,8 +14,8 @@ from reference.catalogue import find
 from reference.changes import Change
 from reference.errors import InputError
 from reference.exact import equilibrium, squared_frequencies
-from reference.ground_motion import GroundMotion, Sweep, read_record
 from reference.scenes import find as find_scene
+from reference.scenes.ground_motion import GroundMotion, Sweep, read_record
 from reference.simulate import simulate
 from reference.state import Array
 from reference.system import MassSpringSystem

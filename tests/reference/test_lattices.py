@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from reference.catalogue import Scheme, find
 from reference.conserved import energy
 from reference.exact import equilibrium, squared_frequencies
-from reference.lattices import NEIGHBOURS, TETRAHEDRA, lattice, springs_between
 from reference.outcome import outcome_of
 from reference.scenes import find as find_scene
+from reference.scenes.lattices import NEIGHBOURS, TETRAHEDRA, lattice, springs_between
 from reference.simulate import simulate
 from reference.system import MassSpringSystem
 from tests import wrong

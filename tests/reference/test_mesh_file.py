@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from reference.errors import InputError
-from reference.mesh_file import Mesh, read_mesh
-from reference.scene_file import load
+from reference.scenes.mesh_file import Mesh, read_mesh
+from reference.scenes.scene_file import load
 from tests.reference.mesh_files import BINARY_BLOCK, BLANKET, BLOCK, BLOCK_EDGES, NEXT_BLOCK, block
 
 

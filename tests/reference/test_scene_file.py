@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from reference.changes import Change
 from reference.errors import InputError
-from reference.scene_file import load
 from reference.scenes import Setup, find
+from reference.scenes.scene_file import load
 from tests.reference.systems import property_test
 
 NAMED = """\

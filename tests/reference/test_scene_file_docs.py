@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from reference.errors import InputError
-from reference.mesh_file import EDGES
-from reference.scene_file import GroundMotionTable, MeshTable, SystemTable, load
 from reference.scenes import Setup
+from reference.scenes.mesh_file import EDGES
+from reference.scenes.scene_file import GroundMotionTable, MeshTable, SystemTable, load
 
 DOCS = Path(__file__).parents[2] / "report" / "docs" / "scene-files.md"
 TEXT = DOCS.read_text(encoding="utf-8")

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from reference.errors import InputError
-from reference.scene_file import load
 from reference.scenes import Setup
+from reference.scenes.scene_file import load
 
 STRING = 'scene = "string"\ndt = 1e-2\nduration = 0.1\n'
 SWEEP = "[ground_motion]\nfrom_frequency = 2\nto_frequency = 4\namplitude = 1\nduration = 0.05\n"

@@ -8,7 +8,7 @@ import pytest
 
 from reference.errors import InputError
 from reference.obstacles import Circle, Plane, Sphere
-from reference.scene_file import load
+from reference.scenes.scene_file import load
 
 CIRCLE = '[[obstacles]]\nkind = "circle"\ncentre = [0.5, -0.6]\nradius = 0.3\n'
 FLOOR = '[[obstacles]]\nkind = "plane"\npoint = [0, -2]\nnormal = [0, 2]\n'

@@ -16,9 +16,9 @@ from reference.conserved import energy
 from reference.exact import equilibrium, squared_frequencies
 from reference.outcome import outcome_of
 from reference.scenes import find as find_scene
+from reference.scenes.trusses import truss
 from reference.simulate import simulate
 from reference.system import MassSpringSystem
-from reference.trusses import truss
 from tests import wrong
 from tests.reference.direct_stiffness import bar_forces, deflection, forces_by_joints, measured_period, modes
 from tests.reference.systems import label, property_test, with_fields

@@ -11,10 +11,10 @@ from engines.isolation import EngineStepper
 from experiments import divergence, drape, scenes
 from experiments.comparison import compare
 from experiments.experiment import Result, Table
-from reference.drape import disc
 from reference.identify import Identification
 from reference.outcome import Outcome
 from reference.scenes import Setup, find
+from reference.scenes.drape import disc
 from reference.stepper import Stepper, catalogued
 from tests.conformance.doctored import Doctored, StifferByAMillionth
 from tests.engines.misbehaving import Misbehaving, Segfaults, Still

@@ -9,8 +9,8 @@ import numpy as np
 
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.force_mistakes import mistake
+from reference.scenes.trusses import truss
 from reference.state import Array
-from reference.trusses import truss
 
 
 def heaviest(

@@ -18,8 +18,9 @@ from typing import Literal
 import numpy as np
 
 from reference.errors import InputError
-from reference.lattices import DIAGONALS, THREADS, lattice, places, springs_between
-from reference.scenes import PerItem, counted, each, not_below_zero, scene
+from reference.scenes import scene
+from reference.scenes.lattices import DIAGONALS, THREADS, lattice, places, springs_between
+from reference.scenes.parameters import PerItem, counted, each, not_below_zero
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 

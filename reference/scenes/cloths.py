@@ -13,9 +13,10 @@ from typing import Literal
 import numpy as np
 
 from reference.errors import InputError
-from reference.lattices import DIAGONALS, OVER_ONE, THREADS, lattice, of_lattice
 from reference.obstacles import Box, Sphere
-from reference.scenes import not_below_zero, scene
+from reference.scenes import scene
+from reference.scenes.lattices import DIAGONALS, OVER_ONE, THREADS, lattice, of_lattice
+from reference.scenes.parameters import not_below_zero
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 

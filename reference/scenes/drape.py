@@ -26,8 +26,9 @@ from math import pi, sqrt
 import numpy as np
 
 from reference.errors import InputError
-from reference.lattices import MOST_MASSES, Offset, springs_between
-from reference.scenes import counted, scene
+from reference.scenes import scene
+from reference.scenes.lattices import MOST_MASSES, Offset, springs_between
+from reference.scenes.parameters import counted
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 

@@ -7,11 +7,12 @@ from typing import Literal
 import numpy as np
 
 from reference.changes import Driven
-from reference.crossing import Crossing, cambered
-from reference.ground_motion import GroundMotion, Law, Sweep
-from reference.scenes import PerItem, counted, scene
+from reference.scenes import scene
+from reference.scenes.crossing import Crossing, cambered
+from reference.scenes.ground_motion import GroundMotion, Law, Sweep
+from reference.scenes.parameters import PerItem, counted
+from reference.scenes.trusses import Kind, bridge, soil
 from reference.state import Array
-from reference.trusses import Kind, bridge, soil
 
 #: Of a bridge that a truck crosses: each step's masses are kept.
 MOST_PANELS = 100

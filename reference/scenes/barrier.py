@@ -5,7 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from reference.obstacles import Circle
-from reference.scenes import PerItem, scene, string
+from reference.scenes import scene
+from reference.scenes.parameters import PerItem
+from reference.scenes.strings import string
 from reference.system import MassSpringSystem
 
 

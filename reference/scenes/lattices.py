@@ -16,7 +16,8 @@ import numpy as np
 
 from reference.errors import InputError
 from reference.obstacles import Plane
-from reference.scenes import PerItem, counted, each, not_below_zero, scene
+from reference.scenes import scene
+from reference.scenes.parameters import PerItem, counted, each, not_below_zero
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 

@@ -13,7 +13,7 @@
     parameter = "stiffness"
     value = 100.0
 
-    [ground_motion]             # the ground moves, and all supports with it (`reference.ground_motion`)
+    [ground_motion]             # the ground moves, and all supports with it (`reference.scenes.ground_motion`)
     from_frequency = 0.5        # Hz; or, in place of the numbers of a sweep, file = "record.csv" and its scale
     to_frequency = 5.0          # Hz
     amplitude = 1.0             # m/s^2
@@ -28,8 +28,9 @@ In place of `scene` and [parameters], a table [system] has the fields of `MassSp
 rest_lengths (left out: as long as the springs are at the start), stiffness, damping, drag, gravity, velocities, fixed
 (the indices of the fixed masses).
 
-Or a table [mesh] takes masses and springs from a mesh file, an OBJ or a VTK file (`reference.mesh_file`). Vertices are
-masses, in the file's order and counted from 0; edges of elements are springs, each once, unstretched at the start.
+Or a table [mesh] takes masses and springs from a mesh file, an OBJ or a VTK file (`reference.scenes.mesh_file`).
+Vertices are masses, in the file's order and counted from 0; edges of elements are springs, each once, unstretched at
+the start.
 
     [mesh]
     file = "blanket.obj"        # beside the scene file, or a path from there
@@ -55,10 +56,10 @@ import numpy as np
 
 from reference.changes import Change, Drive, Driven
 from reference.errors import InputError
-from reference.ground_motion import GroundMotion, Law, Sweep, read_record
-from reference.mesh_file import read_mesh
 from reference.obstacles import KINDS, Obstacle, obstacle
 from reference.scenes import Setup, find
+from reference.scenes.ground_motion import GroundMotion, Law, Sweep, read_record
+from reference.scenes.mesh_file import read_mesh
 from reference.system import MassSpringSystem
 
 Numbers = float | list[float]

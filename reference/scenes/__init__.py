@@ -1,0 +1,166 @@
+"""The scenes: systems with a name and parameters, after the lecture's pictures.
+
+A scene is one function from keyword parameters to a system, or to a system with what drives it (`changes.Driven`); its
+signature says which parameters there are, their types and defaults; the decorator `scene` enters it. All quantities in
+SI units, angles in degrees. They stand in files by subject.
+"""
+
+from __future__ import annotations
+
+import importlib
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, Literal, get_args, get_origin, get_type_hints
+
+import numpy as np
+
+from reference.changes import Change, Driven, changes_by_step, whole_steps
+from reference.errors import unknown_name
+from reference.scenes.parameters import PerItem, chosen, converted
+from reference.system import MassSpringSystem
+
+#: Where the scenes stand, in the order they are shown.
+_FILES = (
+    "reference.scenes.strings",
+    "reference.scenes.barrier",
+    "reference.scenes.lattices",
+    "reference.scenes.cloths",
+    "reference.scenes.drape",
+    "reference.scenes.trusses",
+    "reference.scenes.driven",
+)
+_SCENES: dict[str, Scene] = {}
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A named system with parameters.
+
+    Attributes:
+        build: makes the system, driven or not; keyword parameters only.
+        dt: the step it is shown with [s].
+        duration: how long [s].
+        slides: of the lecture.
+    """
+
+    build: Callable[..., MassSpringSystem | Driven]
+    dt: float
+    duration: float
+    slides: str
+
+    @property
+    def name(self) -> str:
+        """The function's name."""
+        return self.build.__name__
+
+    @property
+    def summary(self) -> str:
+        """The first line of the function's docstring."""
+        return (self.build.__doc__ or "").splitlines()[0]
+
+    @property
+    def parameters(self) -> Mapping[str, Any]:
+        """Parameter names and their defaults."""
+        return {name: p.default for name, p in inspect.signature(self.build).parameters.items()}
+
+    @property
+    def choices(self) -> Mapping[str, tuple[str, ...]]:
+        """The parameters that are a word, with the words there are."""
+        hints = get_type_hints(self.build)
+        return {name: get_args(hints[name]) for name in self.parameters if get_origin(hints[name]) is Literal}
+
+    def system(self, settings: Mapping[str, Any]) -> MassSpringSystem:
+        """The system alone, with some parameters set. Raises InputError as `driven` does."""
+        return self.driven(settings).system
+
+    def setup(self, settings: Mapping[str, Any], dt: float | None = None, duration: float | None = None) -> Setup:
+        """The system with what changes while it moves, for a dt and a duration [s] or the scene's own.
+
+        Raises:
+            InputError: as `driven` does; for times that make no sense.
+        """
+        driven = self.driven(settings)
+        dt = self.dt if dt is None else dt
+        duration = self.duration if duration is None else duration
+        return Setup(self.name, driven.system, dt, duration, driven.changes(dt, duration))
+
+    def driven(self, settings: Mapping[str, Any]) -> Driven:
+        """The system, and what drives it, if anything does, with some parameters set.
+
+        They are given as words, numbers, lists of numbers, or text of either.
+
+        Raises:
+            InputError: for an unknown parameter or a value of the wrong type or range.
+        """
+        values = {}
+        for name, value in settings.items():
+            if name not in self.parameters:
+                raise unknown_name(f"parameter of scene {self.name!r}", name, self.parameters)
+            if name in self.choices:
+                values[name] = chosen(name, value, self.choices[name])
+                continue
+            several = self.build.__annotations__[name] in (PerItem, "PerItem")
+            values[name] = converted(name, value, self.parameters[name], several)
+        # of numbers that are too large the system itself says so
+        with np.errstate(all="ignore"):
+            built = self.build(**values)
+        return built if isinstance(built, Driven) else Driven(built)
+
+
+@dataclass(frozen=True)
+class Setup:
+    """Everything a run needs but the stepper: what `compare` and `identify` are given as SCENE.
+
+    Attributes:
+        name: of the scene, or of its file.
+        system: what moves.
+        dt: the step [s].
+        duration: how long [s].
+        changes: parameters that change on the fly, those by what drives the system included.
+    """
+
+    name: str
+    system: MassSpringSystem
+    dt: float
+    duration: float
+    changes: tuple[Change, ...] = ()
+
+    def check(self) -> None:
+        """Refuse now what would only be met midway in a run. Raises InputError."""
+        whole_steps(self.dt, self.duration)
+        changes_by_step(self.changes, self.dt)
+        for change in self.changes:
+            self.system.with_parameter(change.parameter, change.value)
+
+
+def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., MassSpringSystem | Driven]], Any]:
+    """Enter the decorated function into the scenes."""
+
+    def enter(build: Callable[..., MassSpringSystem | Driven]) -> Callable[..., MassSpringSystem | Driven]:
+        entry = Scene(build, dt, duration, slides)
+        _SCENES[entry.name] = entry
+        return build
+
+    return enter
+
+
+def scenes() -> Mapping[str, Scene]:
+    """All scenes by name."""
+    for file in _FILES:
+        importlib.import_module(file)
+    # By file, whichever was imported first: sorting is stable, and keeps the order within each.
+    return MappingProxyType(dict(sorted(_SCENES.items(), key=lambda entry: _place(entry[1]))))
+
+
+def _place(entry: Scene) -> int:
+    module = entry.build.__module__
+    return _FILES.index(module) if module in _FILES else len(_FILES)
+
+
+def find(name: str) -> Scene:
+    """The scene of that name. Raises InputError, with a suggestion, where there is none."""
+    if name not in scenes():
+        raise unknown_name("scene", name, scenes())
+    return scenes()[name]
