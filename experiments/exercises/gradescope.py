@@ -25,7 +25,7 @@ from reference.errors import InputError
 PACKAGES = ("numpy", "numba", "scipy")
 
 #: What of springlab the zip carries.
-CARRIED = ("reference/*.py", "experiments/__init__.py", "experiments/exercises/*.py", "experiments/exercises/e*/*")
+CARRIED = ("reference/**/*.py", "experiments/__init__.py", "experiments/exercises/*.py", "experiments/exercises/e*/*")
 
 #: Makes the environment, once, when the image is built.
 SETUP = """#!/usr/bin/env bash
