@@ -9,8 +9,11 @@ from typing import Any
 
 import numpy as np
 
+from engines.engine import demands
+from engines.isolation import EngineStepper
 from experiments.runs import Progress, side_by_side
 from reference.changes import whole_steps
+from reference.errors import InputError
 from reference.exact import WHY_NOT_EXACT, exact
 from reference.identify import Identification, candidates_for, identify_by_rounding
 from reference.outcome import Outcome
@@ -90,9 +93,10 @@ def compare(
         patient: also run those that take long on so many masses.
 
     Raises:
-        InputError: for a dt or duration that makes no sense.
+        InputError: for a dt or duration that makes no sense; where the trajectories would not fit into the memory.
     """
     steps = whole_steps(setup.dt, setup.duration)
+    _check_room([s for s in steppers if patient or not too_slow(s, setup.system)], setup.system, steps)
     progress("true motion")
     true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
 
@@ -114,6 +118,21 @@ def compare(
         deviation = None if trajectory is None or named is None else trajectory.distance(known[named])
         runs.append(Run(stepper, outcome, identification, error, deviation))
     return Comparison(setup, true, tuple(runs))
+
+
+def _check_room(steppers: Sequence[Stepper], system: MassSpringSystem, steps: int) -> None:
+    """Refuse what could not be kept: a trajectory of every stepper that can take the system, and the true one."""
+    import psutil
+
+    asked = demands(system)
+    able = [s for s in steppers if not isinstance(s, EngineStepper) or s.engine.capabilities.issuperset(asked)]
+    needed = (len(able) + 1) * (steps + 1) * (system.positions.nbytes + system.velocities.nbytes)
+    free = psutil.virtual_memory().available
+    if needed > free:
+        raise InputError(
+            f"{len(able)} steppers, {len(system.masses)} masses and {steps} steps take {needed / 2**30:.3g} GiB of "
+            f"memory, where {free / 2**30:.3g} are free: expected fewer of them; see --stepper and --duration"
+        )
 
 
 def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:

@@ -7,6 +7,7 @@ import json
 import math
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -294,3 +295,18 @@ def test_after_a_run_has_ended_early_it_has_no_distance() -> None:
     rows = result_of(comparison).tables[1].rows
     assert len(rows) == len(comparison.times)
     assert rows[-1][3] is None
+
+
+def test_what_would_fill_the_memory_is_refused_before_it_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One line with what was asked and what there is. With room for just what is kept, it runs."""
+    asked = ("compare", "spring", "--stepper", "heun", "--duration", "0.1")
+    needed = 2 * 101 * 2 * 2 * 2 * 8  # trajectories, states, arrays, masses, axes, bytes
+    for free, code in ((needed - 1, 2), (needed, 0)):
+        monkeypatch.setattr("psutil.virtual_memory", lambda free=free: SimpleNamespace(available=free))
+        said = springlab(*asked)
+        assert said.code == code, said.err
+    monkeypatch.setattr("psutil.virtual_memory", lambda: SimpleNamespace(available=1000))
+    assert springlab(*asked).err == (
+        "springlab: 1 steppers, 2 masses and 100 steps take 1.2e-05 GiB of memory, where 9.31e-07 are free: "
+        "expected fewer of them; see --stepper and --duration\n"
+    )
