@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import permutations
 from typing import Any, Literal
 
 import numpy as np
@@ -86,7 +87,8 @@ def judge_all(
         words = Finding("not_written_yet", "This is the starter as it was handed out.", "The text says what to write.")
         return [_failed(known, "error", words) for known in checks]
     asked = [question.asked() for known in checks for question in known.questions]
-    reply = sandbox.run(source, asked, limits)
+    files = exercise.files(seed) if exercise.files else {}
+    reply = sandbox.run(source, asked, limits, files)
     if len(reply.answers) != len(asked) and reply.error is None and len(checks) > 1:
         return [judge(exercise, source, seed, key, limits) for key in keys]
     verdicts, first = [], 0
@@ -94,7 +96,7 @@ def judge_all(
         part = slice(first, first + len(known.questions))
         verdict = _verdict(known, replace(reply, answers=reply.answers[part]))
         if verdict.name == "not_repeatable":
-            again = sandbox.run(source, asked, limits)
+            again = sandbox.run(source, asked, limits, files)
             same = len(again.answers) == len(reply.answers) and _equal(reply, again)
             verdict = replace(verdict, findings=(not_repeated(same),))
         verdicts.append(replace(verdict, walls=tuple(reply.walls)))
@@ -136,7 +138,7 @@ def _verdict(known: Catalogue, reply: sandbox.Reply) -> Verdict:
         answer_distance(answer, right, scales) <= max(SINGLE, _tolerance(known))
         for answer, right, scales in zip(given, known.right, known.scales, strict=True)
     )
-    fault = fault_of_values(known.questions, given, known.right)
+    fault = fault_of_values(known.questions, given, known.right) or told_by_the_exercise(known, given)
     if fault is not None:
         return Verdict("mistake", (fault,), passed, **found)
     return _named(known, given, reply, passed, found)
@@ -148,6 +150,8 @@ def _named(
     """The verdict on numbers of the right shapes."""
     also = beside(reply.answers)
     mistakes, error = identify(known, given)
+    if mistakes is None and (plain := fault_of_form(known, given)) is not None:
+        return Verdict("mistake", (plain, *also), passed, **found)
     if mistakes is None:
         return Verdict("not in the catalogue", also, passed, **found)
     findings = (*(Finding(m.name, m.words, m.hint) for m in mistakes), *also)
@@ -158,6 +162,34 @@ def _named(
     another = len(findings) == 1 and bool(mistakes) and mistakes[0].another
     outcome: Outcome = "another scheme" if another else "mistakes" if len(findings) > 1 else "mistake"
     return Verdict(outcome, findings, passed, error, **found)
+
+
+def told_by_the_exercise(known: Catalogue, given: Sequence[Answer]) -> Finding | None:
+    """What an exercise itself says of answers that no solution with a mistake gives."""
+    if known.exercise.fault is None:
+        return None
+    faults = (known.exercise.fault(q, answer[0][0]) for q, answer in zip(known.questions, given, strict=True))
+    return next((Finding(*words) for words in faults if words), None)
+
+
+def fault_of_form(known: Catalogue, given: Sequence[Answer]) -> Finding | None:
+    """Right numbers, in another order than was asked for: v before x."""
+    rows = list(zip(known.questions, given, known.right, known.scales, strict=True))
+    several = [row for row in rows if len(row[0].parts) > 1]
+    alone = max((answer_distance(a, r, s) for q, a, r, s in rows if len(q.parts) == 1), default=0.0)
+    if not several or alone > _tolerance(known):
+        return None
+    question = several[0][0]
+    for order in permutations(range(len(question.parts))):
+        # the first step only: what is asked next is made of what was answered
+        apart = [answer_distance([[a[0][i] for i in order]], r[:1], s) for q, a, r, s in several]
+        if max(apart) <= _tolerance(known):
+            return Finding(
+                "results_in_another_order",
+                "Your results are right, but not in the order that was asked for.",
+                f"What is to be returned are {', '.join(question.parts)}. Which comes first?",
+            )
+    return None
 
 
 def identify(known: Catalogue, given: Sequence[Answer]) -> tuple[tuple[Mistake, ...] | None, float]:

@@ -2,29 +2,70 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Question
+from experiments.exercises.exercise import Mistake, Question
 from experiments.exercises.links import namespace
 from experiments.exercises.stepping import DT, M_AND_SPEED, step
 
+#: The numbers at the end of the starter.
+EXAMPLE = {"mass": 0.05, "stiffness": 50.0, "rest_length": 0.15, "damping": 0.0, "gravity": 9.81}
 
-def step_of_one(y: float, v: float, dt: float, spring: Any, scheme: str, **knobs: Any) -> tuple[float, float]:
-    """A step of a mass at height y [m], below an anchor at height 0: a string of one link, in one dimension."""
+
+def step_of_one(
+    y: float, v: float, dt: float, spring: Any, scheme: str, own: Sequence[str] = (), **knobs: Any
+) -> tuple[float, float]:
+    """A step of a mass at height y [m], below an anchor at height 0: a string of one link, in one dimension.
+
+    Args:
+        own: which numbers are those of the starter's example.
+    """
+    given = {name: EXAMPLE[name] if name in own else getattr(spring, name) for name in EXAMPLE}
     string = namespace(
         {
-            "masses": np.array([spring.mass]),
-            "stiffness": np.array([spring.stiffness]),
-            "rest_lengths": np.array([spring.rest_length]),
-            "drag": spring.damping,
-            "gravity": spring.gravity,
+            "masses": np.array([given["mass"]]),
+            "stiffness": np.array([given["stiffness"]]),
+            "rest_lengths": np.array([given["rest_length"]]),
+            "drag": given["damping"],
+            "gravity": given["gravity"],
             "anchor": np.zeros(1),
         }
     )
     x, u = step(np.array([[float(y)]]), np.array([[float(v)]]), dt, string, scheme, **knobs)
     return float(x[0, 0]), float(u[0, 0])
+
+
+def on_one_mass(mistakes: Iterable[Mistake]) -> tuple[Mistake, ...]:
+    """Mistakes in forces, and what comes with one mass.
+
+    Some let the mass fly above its anchor. There -y, and the distance to the anchor, are no longer the same length:
+    who takes the one makes the same mistake as who takes the other.
+    """
+    found = []
+    for made in mistakes:
+        found += [made, replace(made, knobs={**made.knobs, "length": "signed"})]
+    return (*found, *NUMBERS_OF_THE_EXAMPLE)
+
+
+#: Numbers are to be taken from what is given. The damping of the example is 0: none at all.
+NUMBERS_OF_THE_EXAMPLE = tuple(
+    Mistake(
+        "numbers_of_the_example",
+        "You take numbers of the example at the end of the file in place of those that you are given.",
+        "The same step is to work for other springs. From where do you have mass, stiffness, lengths, gravity?",
+        {"own": own},
+    )
+    for own in (
+        *((name,) for name in EXAMPLE if name != "damping"),
+        ("mass", "stiffness", "rest_length"),
+        ("mass", "stiffness", "rest_length", "gravity"),
+        tuple(EXAMPLE),
+    )
+)
 
 
 def questions_on_one(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
@@ -36,7 +77,7 @@ def questions_on_one(random: np.random.Generator, hidden: bool, seed: str) -> li
             "stiffness": float(random.uniform(40.0, 80.0)),
             "rest_length": float(random.uniform(0.1, 0.2)),
             "damping": 0.0 if i == 4 else float(random.uniform(0.02, 0.05)),
-            "gravity": 9.81 if i < 3 else 1.62,
+            "gravity": 1.62 if i == 2 else 9.81,
         }
         y, v = -spring["rest_length"] * float(random.uniform(1.1, 1.4)), float(random.uniform(0.3, 1.0))
         dt = DT * float(random.uniform(0.5, 1.0))

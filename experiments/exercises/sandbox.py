@@ -1,8 +1,9 @@
 """A submission run in a fresh process of its own, that can neither reach the checker nor its files.
 
-The process gets the submission's text and the arrays of the questions, works in an empty folder that is removed
-afterwards, and leaves bytes, in which there is nothing but numbers and words (no pickle). This process reads them and
-judges; it never imports a submission. What stands around the process is in `confine`.
+The process gets the submission's text and the arrays of the questions, works in a folder that has the files which the
+student was given and is removed afterwards, and leaves bytes, in which there is nothing but numbers and words (no
+pickle). This process reads them and judges; it never imports a submission. What stands around the process is in
+`confine`.
 """
 
 from __future__ import annotations
@@ -69,15 +70,24 @@ class Reply:
     names: Sequence[str] = field(default_factory=list)
 
 
-def run(source: str, questions: Sequence[Mapping[str, Any]], limits: Limits | None = None) -> Reply:
+def run(
+    source: str,
+    questions: Sequence[Mapping[str, Any]],
+    limits: Limits | None = None,
+    files: Mapping[str, str] | None = None,
+) -> Reply:
     """Put questions to a submission.
 
     Args:
         source: its text.
         questions: each with function, arguments, steps and parts.
+        files: what it finds in its folder, by name: what the student was given.
     """
     limits = limits or Limits()
     scratch = Path(tempfile.mkdtemp(prefix="springlab-submission-"))
+    for name, text in (files or {}).items():
+        (scratch / name).write_text(text, encoding="utf-8")
+        (scratch / name).chmod(0o644)
     task = {
         "source": source,
         "questions": list(questions),

@@ -129,6 +129,32 @@ def guess_of_velocities(motion: Motion, state: State, dt: float) -> State:
     return state + dt / 2 * (here + there)
 
 
+def guess_by_kick_drift(motion: Motion, state: State, dt: float) -> State:
+    """The guess moves its positions with its own new velocities."""
+    here = motion.slope(state)
+    new = state.velocities + dt * here.velocities
+    there = motion.slope(State(state.time, state.positions + dt * new, new))
+    return state + dt / 2 * (here + there)
+
+
+def old_velocity_in_force(motion: Motion, state: State, dt: float) -> State:
+    """The force at the guess takes the velocities that there were."""
+    here = motion.slope(state)
+    guess = state + dt * here
+    force = motion.acceleration(State(state.time, guess.positions, state.velocities))
+    return _moved(state, dt, dt / 2 * (state.velocities + guess.velocities), dt / 2 * (here.velocities + force))
+
+
+def velocities_without_dt(motion: Motion, state: State, dt: float) -> State:
+    """Euler's step, but the velocities take the whole acceleration."""
+    return _moved(state, dt, dt * state.velocities, motion.acceleration(state))
+
+
+def positions_without_dt(motion: Motion, state: State, dt: float) -> State:
+    """Euler's step, but the positions take the whole velocity."""
+    return _moved(state, dt, state.velocities, dt * motion.acceleration(state))
+
+
 def still_positions(motion: Motion, state: State, dt: float) -> State:
     """Positions stay."""
     return State(state.time + dt, state.positions, state.velocities + dt * motion.acceleration(state))
@@ -166,6 +192,10 @@ STEPS: dict[str, Step] = {
         new_velocity,
         guess_of_positions,
         guess_of_velocities,
+        guess_by_kick_drift,
+        old_velocity_in_force,
+        velocities_without_dt,
+        positions_without_dt,
         still_positions,
         still_velocities,
         velocity_replaced,

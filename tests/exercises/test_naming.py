@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
+from datetime import date
 from pathlib import Path
 
 import pytest
@@ -15,12 +16,22 @@ from experiments.exercises.grading import Grade, grade
 from experiments.exercises.handout import hand_out
 from experiments.exercises.judge import judge
 from experiments.exercises.submission import read
-from tests.exercises.confusion import CASES, confusion
-from tests.exercises.corpus import MISTAKES, STYLES, solution, wrong
+from tests.exercises.confusion import confusion, wrongly
+from tests.exercises.corpus import RIGHT, Program, programs, solution, wrong
 
 FOLDER = Path(__file__).parent
-RIGHT = [*sorted(STYLES.glob("*.py")), *sorted((FOLDER / "right").glob("*.py"))]
 MODELS = sorted((FOLDER / "models").glob("*.py"))
+
+
+#: One of so many parts of the programs is tried each day: not a multiple of the three styles.
+PARTS = 13
+
+
+def of_today(chosen: list[Program], request: pytest.FixtureRequest) -> list[Program]:
+    """Another part of them each day; with --full all."""
+    if request.config.getoption("--full"):
+        return chosen
+    return chosen[date.today().toordinal() % PARTS :: PARTS]
 
 
 def graded(files: list[Path]) -> dict[str, Grade]:
@@ -31,11 +42,12 @@ def graded(files: list[Path]) -> dict[str, Grade]:
         )
 
 
-def test_twenty_right_solutions_in_other_styles_pass() -> None:
-    """Loops, arrays, classes, complex numbers, lists, matrices, single precision, in place on copies ...: all pass."""
-    assert len(RIGHT) >= 20
-    found = graded(RIGHT)
-    assert {name: g.verdict.name for name, g in found.items() if not g.verdict.right} == {}
+def test_right_programs_pass_in_whatever_style(request: pytest.FixtureRequest) -> None:
+    """Loops, arrays, classes, complex numbers, lists, single precision, generators, in place on copies ...: all pass."""
+    right = [program for program in programs() if program.name == RIGHT]
+    assert len(right) >= 60
+    assert {program.exercise for program in right} == set(exercises())
+    assert wrongly(confusion(of_today(right, request))) == {}
 
 
 def test_every_exercise_has_a_model_solution_that_passes() -> None:
@@ -46,14 +58,11 @@ def test_every_exercise_has_a_model_solution_that_passes() -> None:
 
 
 def test_mistakes_are_called_by_their_name(request: pytest.FixtureRequest) -> None:
-    """Each mistake in one style, in turn; with --full in all three: `python -m tests.exercises.confusion`."""
-    cases = [case for case in CASES if case[1] is not None]
-    assert sum(all(name in names for names in MISTAKES.values()) for name in MISTAKES["loops"]) >= 30
-    if not request.config.getoption("--full"):
-        names = sorted({name for _, name in cases if name})
-        styles = list(MISTAKES)
-        cases = [case for case in cases if case[0] == styles[names.index(case[1] or "") % 3]]
-    assert {case: said for case, said in confusion(cases).items() if said != case[1]} == {}
+    """A part of them, another one each day; with --full all, as `python -m tests.exercises.confusion` does."""
+    mistakes = [program for program in programs() if program.name != RIGHT]
+    for exercise in exercises():
+        assert len({program.name for program in mistakes if program.exercise == exercise}) >= 10
+    assert wrongly(confusion(of_today(mistakes, request))) == {}
 
 
 def test_two_mistakes_at_once_are_both_found() -> None:

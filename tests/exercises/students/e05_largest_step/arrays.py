@@ -4,7 +4,7 @@ import numpy as np
 
 EXERCISE = 5
 SEED = "example"
-MASS, STIFFNESS, DAMPING, MASSES = 0.026, 474.8, 0.229, 10
+MASS, STIFFNESS, DAMPING, MASSES = 0.026, 474.8, 0.229, 3
 
 
 def slope_matrix(damping):

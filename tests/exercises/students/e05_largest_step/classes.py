@@ -8,7 +8,7 @@ class Oscillator:
     mass = 0.026
     stiffness = 474.8
     damping = 0.229
-    masses = 10
+    masses = 3
 
     @property
     def omega(self):

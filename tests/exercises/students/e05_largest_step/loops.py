@@ -6,7 +6,7 @@ from math import cos, pi, sqrt
 m = 0.026
 k = 474.8
 c = 0.229
-n = 10
+n = 3
 
 
 def kick_drift():
