@@ -34,7 +34,9 @@ def list_command(as_json: bool) -> None:
     from experiments.exercises.exercise import exercises
 
     columns = ["exercise", "name", "title", "minutes", "goals", "mistakes known"]
-    rows = [[e.number, e.name, e.title, e.minutes, e.goals, len(e.mistakes)] for e in exercises().values()]
+    rows = [
+        [e.number, e.name, e.title, e.minutes, e.goals, len({m.name for m in e.mistakes})] for e in exercises().values()
+    ]
     if as_json:
         click.echo(json.dumps([dict(zip(columns, row, strict=True)) for row in rows], indent=2))
     else:

@@ -79,6 +79,12 @@ OF_A_SPRING = (
         friction="m c v",
     ),
     mistake(
+        "damping_one_way",
+        "Your damping always pulls the same way: the sign of the velocity is lost in it.",
+        "Which way does damping pull a mass that falls, and which way one that rises?",
+        friction="c |v|",
+    ),
+    mistake(
         "damping_of_the_square",
         "Your damping grows with the square of the speed.",
         "What is the unit of the damping that you are given?",
@@ -223,6 +229,12 @@ OF_A_STRING = (
         "Your weight also pulls sideways.",
         "Print the force on a mass without springs. Which of its two parts is the weight?",
         weight="both axes",
+    ),
+    mistake(
+        "numbers_of_the_example",
+        "Your gravity is always 9.81 m/s^2.",
+        "From where do you have it? The Moon has another.",
+        weight="m 9.81",
     ),
     mistake("weight_along_x", "Your weight pulls along x.", "Which column of an array is y?", weight="along x"),
 )

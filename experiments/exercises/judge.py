@@ -9,19 +9,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import permutations
 from typing import Any, Literal
 
 import numpy as np
 
 from experiments.exercises import sandbox
 from experiments.exercises.departure import Departure, Lines, first_departure
-from experiments.exercises.exercise import Answer, Exercise, Mistake
+from experiments.exercises.exercise import Answer, Exercise
 from experiments.exercises.faults import Finding, beside, fault_of_error, fault_of_values, not_repeated
 from experiments.exercises.known import Catalogue, answer_distance, catalogue
-
-#: Numbers in single precision are the same up to SINGLE, if nothing else is less than APART times as far.
-SINGLE, APART = 2e-5, 30.0
+from experiments.exercises.naming import SINGLE, fault_of_form, identify, told_by_the_exercise
 
 #: What a verdict says in a word.
 Outcome = Literal[
@@ -129,13 +126,13 @@ def _verdict(known: Catalogue, reply: sandbox.Reply) -> Verdict:
         given = None  # the submission wrote what it was not asked for
     if given is None:
         return _failed(known, "crashed", Finding("unreadable", "What it answered is not readable."))
-    departure, lines = first_departure(known, given, max(_tolerance(known), 1e-9))
+    departure, lines = first_departure(known, given, max(known.exercise.tolerance, 1e-9))
     found: dict[str, Any] = {"departure": departure, "lines": lines}
     if not all(_same(a["values"][0], a.get("again")) for a in reply.answers):
         return _failed(known, "mistake", Finding("not_repeatable", ""), **found)
     found["right_error"] = known.distance(given, known.right)
     passed = tuple(
-        answer_distance(answer, right, scales) <= max(SINGLE, _tolerance(known))
+        answer_distance(answer, right, scales) <= max(SINGLE, known.exercise.tolerance)
         for answer, right, scales in zip(given, known.right, known.scales, strict=True)
     )
     fault = fault_of_values(known.questions, given, known.right) or told_by_the_exercise(known, given)
@@ -162,66 +159,6 @@ def _named(
     another = len(findings) == 1 and bool(mistakes) and mistakes[0].another
     outcome: Outcome = "another scheme" if another else "mistakes" if len(findings) > 1 else "mistake"
     return Verdict(outcome, findings, passed, error, **found)
-
-
-def told_by_the_exercise(known: Catalogue, given: Sequence[Answer]) -> Finding | None:
-    """What an exercise itself says of answers that no solution with a mistake gives."""
-    if known.exercise.fault is None:
-        return None
-    faults = (known.exercise.fault(q, answer[0][0]) for q, answer in zip(known.questions, given, strict=True))
-    return next((Finding(*words) for words in faults if words), None)
-
-
-def fault_of_form(known: Catalogue, given: Sequence[Answer]) -> Finding | None:
-    """Right numbers, in another order than was asked for: v before x."""
-    rows = list(zip(known.questions, given, known.right, known.scales, strict=True))
-    several = [row for row in rows if len(row[0].parts) > 1]
-    alone = max((answer_distance(a, r, s) for q, a, r, s in rows if len(q.parts) == 1), default=0.0)
-    if not several or alone > _tolerance(known):
-        return None
-    question = several[0][0]
-    for order in permutations(range(len(question.parts))):
-        # the first step only: what is asked next is made of what was answered
-        apart = [answer_distance([[a[0][i] for i in order]], r[:1], s) for q, a, r, s in several]
-        if max(apart) <= _tolerance(known):
-            return Finding(
-                "results_in_another_order",
-                "Your results are right, but not in the order that was asked for.",
-                f"What is to be returned are {', '.join(question.parts)}. Which comes first?",
-            )
-    return None
-
-
-def identify(known: Catalogue, given: Sequence[Answer]) -> tuple[tuple[Mistake, ...] | None, float]:
-    """The mistakes whose numbers these are, none where they are right, None where nobody knows; and how far from them.
-
-    The simplest that fits: no mistake, one, two.
-    """
-    tolerance, rough = _tolerance(known), max(SINGLE, _tolerance(known))
-    right = known.distance(given, known.right)
-    if right <= tolerance:
-        return (), right
-    errors = [known.distance(given, known.answers(m.knobs)) for m in known.exercise.mistakes]
-    ranking = sorted(range(len(errors)), key=lambda i: errors[i])
-    nearest = errors[ranking[0]] if ranking else np.inf
-    if nearest <= tolerance:
-        return (known.exercise.mistakes[ranking[0]],), nearest
-    if right <= rough and nearest > APART * right:
-        return (), right
-    second = min([right, *(errors[i] for i in ranking[1:2])])
-    if nearest <= rough and second > APART * nearest:
-        return (known.exercise.mistakes[ranking[0]],), nearest
-    for pair in known.pairs:
-        knobs = {**pair[0].knobs, **pair[1].knobs}
-        if known.distance(given, known.beginnings(knobs), first_steps=True) <= tolerance:
-            error = known.distance(given, known.answers(knobs))
-            if error <= tolerance:
-                return pair, error
-    return None, right
-
-
-def _tolerance(known: Catalogue) -> float:
-    return known.exercise.tolerance
 
 
 def _values(known: Catalogue, reply: sandbox.Reply) -> list[Answer] | None:

@@ -62,6 +62,17 @@ class Catalogue:
             for question, answer in zip(self.questions, self.right, strict=True)
         ]
 
+    @cached_property
+    def functions(self) -> Mapping[str, Catalogue]:
+        """The same of each function by itself."""
+        return {name: self._of(name) for name in dict.fromkeys(question.function for question in self.questions)}
+
+    def _of(self, function: str) -> Catalogue:
+        part = Catalogue.__new__(Catalogue)
+        part.exercise, part._answers, part._beginnings = self.exercise, {}, {}
+        part.questions = [question for question in self.questions if question.function == function]
+        return part
+
     @property
     def apart(self) -> bool:
         """Whether no mistake gives the answers of another, or the right ones."""

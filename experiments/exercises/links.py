@@ -81,14 +81,15 @@ def _weights(string: Any, weight: str, shape: tuple[int, ...]) -> Array:
     """Downwards, shape (n, d)."""
     one, axes = np.ones_like(string.masses), np.arange(shape[1])
     mass = {"g": one, "none": 0 * one}.get(weight, string.masses)
+    gravity = 9.81 if weight == "m 9.81" else string.gravity
     along = {"both axes": axes >= 0, "along x": axes == 0}.get(weight, axes == shape[1] - 1)
-    return np.asarray(np.outer(mass * string.gravity, along))
+    return np.asarray(np.outer(mass * gravity, along))
 
 
 def _friction(string: Any, v: Array, friction: str) -> Array:
     """Along the velocity, shape (n, d)."""
     m, speed = string.masses[:, None], np.linalg.norm(v, axis=1)[:, None]
-    return np.asarray(string.drag * {"c v": v, "m c v": m * v, "c v^2": speed * v}[friction])
+    return np.asarray(string.drag * {"c v": v, "m c v": m * v, "c v^2": speed * v, "c |v|": np.abs(v)}[friction])
 
 
 def _pull(x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, direction: str, slack: bool) -> Array:

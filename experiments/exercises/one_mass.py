@@ -10,6 +10,7 @@ import numpy as np
 
 from experiments.exercises.exercise import Mistake, Question
 from experiments.exercises.links import namespace
+from experiments.exercises.on_strings import MOON
 from experiments.exercises.stepping import DT, M_AND_SPEED, step
 
 #: The numbers at the end of the starter.
@@ -69,7 +70,7 @@ NUMBERS_OF_THE_EXAMPLE = tuple(
 
 
 def questions_on_one(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
-    """A few springs, 20 steps of each."""
+    """A few springs, 20 steps of each: one stretched, and its mass on its way up; the next pressed, on its way down."""
     questions = []
     for i in range(5 if hidden else 3):
         spring = {
@@ -77,9 +78,10 @@ def questions_on_one(random: np.random.Generator, hidden: bool, seed: str) -> li
             "stiffness": float(random.uniform(40.0, 80.0)),
             "rest_length": float(random.uniform(0.1, 0.2)),
             "damping": 0.0 if i == 4 else float(random.uniform(0.02, 0.05)),
-            "gravity": 1.62 if i == 2 else 9.81,
+            "gravity": MOON if i == 2 else 9.81,
         }
-        y, v = -spring["rest_length"] * float(random.uniform(1.1, 1.4)), float(random.uniform(0.3, 1.0))
+        share, v = float(random.uniform(1.1, 1.4)), float(random.uniform(0.3, 1.0))
+        y, v = -spring["rest_length"] * (share - 0.5 * (i % 2)), v * (-1) ** i
         dt = DT * float(random.uniform(0.5, 1.0))
         questions.append(Question("step", (y, v, dt, spring), ("y", "v"), f"spring {i + 1}", 20, units=M_AND_SPEED))
     return questions

@@ -1,4 +1,4 @@
-"""Programs as students write them, right and wrong: `students/`, where a mistake is a change of the text of a program."""
+"""Programs as students write them, right and wrong: `students/`, where a mistake is a change of a program's text."""
 
 from __future__ import annotations
 

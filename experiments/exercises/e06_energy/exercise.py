@@ -9,6 +9,7 @@ import numpy as np
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.force_mistakes import mistake
 from experiments.exercises.links import random_string
+from experiments.exercises.on_strings import elsewhere
 from reference.state import Array
 
 
@@ -39,10 +40,12 @@ def energy(
         "-m g y": -m * x[:, 1],
         "g y": x[:, 1],
         "m y": m * x[:, 1],
+        "m 9.81 y": m * x[:, 1],
         "m g x": m * x[:, 0],
         "from the anchor": m * (x[:, 1] - string.anchor[1]),
     }[height]
-    return moving.sum(), spring.sum(), high.sum() * (1.0 if height == "m y" else string.gravity)
+    gravity = {"m y": 1.0, "m 9.81 y": 9.81}.get(height, string.gravity)
+    return moving.sum(), spring.sum(), high.sum() * gravity
 
 
 def power(
@@ -79,8 +82,8 @@ def power(
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
     """Strings in motion."""
     asked = []
-    for count in (1, 7, 4) if hidden else (4, 3):
-        x, v, string = random_string(random, count)
+    for i, count in enumerate((1, 7, 4) if hidden else (4, 3)):
+        x, v, string = elsewhere(random_string(random, count), i + 1)
         string["damping"] = random.uniform(0.01, 0.1, count)
         about = f"string of {count}"
         asked.append(Question("energy", (x, v, string), ("kinetic", "elastic", "gravitational"), about))
@@ -163,6 +166,12 @@ EXERCISE = Exercise(
             "You measure heights from the anchor.",
             "At which height is the energy of the weight to be 0?",
             height="from the anchor",
+        ),
+        mistake(
+            "numbers_of_the_example",
+            "Your gravity is always 9.81 m/s^2.",
+            "From where do you have it? The Moon has another.",
+            height="m 9.81 y",
         ),
         mistake("sideways", "You take x for the height.", "Which axis points up?", height="m g x"),
         mistake("power_sign", "Your damping adds energy.", "Which sign has what is lost?", sign=1.0),

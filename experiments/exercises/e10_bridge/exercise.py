@@ -9,6 +9,7 @@ import numpy as np
 
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.on_strings import MOON
 from reference.state import Array
 from reference.trusses import truss
 
@@ -35,7 +36,9 @@ def heaviest(
     weights = np.zeros(2 * count)
     mass = bridge.masses if joints == "all" else bridge.masses * (bridge.joints[:, 1] == 0)
     g = bridge.gravity
-    weights[1::2] = {"m g": mass * g, "m": mass, "m g/2": mass * g / 2, "mean": mass.mean() * g}[load]
+    weights[1::2] = {"m g": mass * g, "m": mass, "m g/2": mass * g / 2, "mean": mass.mean() * g, "m 9.81": mass * 9.81}[
+        load
+    ]
     solve = np.linalg.solve if held != "turned" else lambda a, b: np.linalg.lstsq(a, b)[0]
     force = solve(matrix, weights)[:-3]
     long = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
@@ -95,14 +98,14 @@ def _directions(bridge: Any, length: str) -> Array:
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
     """Warren bridges with a load of their own at every joint."""
     asked = []
-    for panels in (3, 6, 4) if hidden else (4, 5):
+    for i, panels in enumerate((3, 6, 4) if hidden else (4, 5)):
         built = truss("warren", panels, float(random.uniform(2, 4)), float(random.uniform(2, 4)))
         bridge = {
             "joints": built.joints,
             "members": built.members,
             "stiffness": random.uniform(1e7, 3e7, len(built.members)),
             "masses": random.uniform(500, 4000, len(built.joints)),
-            "gravity": 9.81,
+            "gravity": MOON if i == 1 else 9.81,
             "pinned": 0,
             "roller": panels,
         }
@@ -158,6 +161,12 @@ EXERCISE = Exercise(
             "Every joint has the same load in your bridge.",
             "Each joint has a mass of its own.",
             load="mean",
+        ),
+        mistake(
+            "numbers_of_the_example",
+            "Your gravity is always 9.81 m/s^2.",
+            "From where do you have it? The Moon has another.",
+            load="m 9.81",
         ),
         mistake(
             "mass_forgotten",
