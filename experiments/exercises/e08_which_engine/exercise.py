@@ -56,7 +56,7 @@ def fault(question: Question, given: Any) -> tuple[str, str, str] | None:
     for name in KNOWN:
         who = [letter for letter, other in zip(LETTERS, given.tolist(), strict=True) if other == name]
         if len(who) > 1:
-            words = f"You call {' and '.join(who)} {name}: no two of them are the same."
+            words = f"You call {', '.join(who[:-1])} and {who[-1]} {name}: no two of them are the same."
             return "name_twice", words, "Which of them is the same to 1e-15 after forty steps?"
     return None
 
