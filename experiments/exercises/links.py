@@ -102,8 +102,11 @@ def _pull(x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, di
         "square": square,
         "sum": np.abs(gap).sum(axis=1),
         "signed": gap[:, 0],
+        "y": -gap[:, 0],
     }[length]
     force = k * (np.maximum(long - rest_lengths, 0.0) if slack else long - rest_lengths)
+    if length in ("signed", "y") and direction == "unit":
+        return np.asarray(force[:, None])
     if direction == "sloppy":
         return np.asarray(force[:, None] * gap)
     if direction == "rest length":

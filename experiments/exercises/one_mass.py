@@ -46,10 +46,22 @@ def on_one_mass(mistakes: Iterable[Mistake]) -> tuple[Mistake, ...]:
     Some let the mass fly above its anchor. There -y, and the distance to the anchor, are no longer the same length:
     who takes the one makes the same mistake as who takes the other.
     """
-    found = []
-    for made in mistakes:
-        found += [made, replace(made, knobs={**made.knobs, "length": "signed"})]
-    return (*found, *NUMBERS_OF_THE_EXAMPLE)
+    made = tuple(mistakes)
+    above = (replace(m, knobs={**m.knobs, "length": "signed"}) for m in made if m.name in FLY)
+    return (*made, *above, Y_FOR_THE_LENGTH, *NUMBERS_OF_THE_EXAMPLE)
+
+
+#: Mistakes with which masses fly above their anchor.
+FLY = ("spring_sign", "rest_length_added", "dt_missing")
+
+
+#: The text says that heights are less than zero.
+Y_FOR_THE_LENGTH = Mistake(
+    "y_for_the_length",
+    "You take y for the length of the spring, but y is less than zero.",
+    "How long is the spring when its mass is at y = -0.2 m?",
+    {"length": "y"},
+)
 
 
 #: Numbers are to be taken from what is given. The damping of the example is 0: none at all.

@@ -7,6 +7,7 @@ thing of a wrong one is right. They stay out of the catalogue: no engine is look
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -33,9 +34,13 @@ def step(x: Array, v: Array, dt: float, string: Any, scheme: str, clock: str = "
         law: knobs of `links.forces` and `LinkMotion`.
     """
     took = {"dt": dt, "twice": dt * dt, "none": 1.0, "half": dt / 2, "double": 2 * dt}[clock]
-    advance = STEPS.get(scheme) or catalogue.find(scheme).step
-    end = advance(LinkMotion(string, **law), State(0.0, x, v), took)
+    end = _advance(scheme)(LinkMotion(string, **law), State(0.0, x, v), took)
     return end.positions, end.velocities
+
+
+@cache
+def _advance(scheme: str) -> Step:
+    return STEPS.get(scheme) or catalogue.find(scheme).step
 
 
 def _slopes(motion: Motion, state: State, dt: float) -> tuple[Array, Array, Array, Array]:
