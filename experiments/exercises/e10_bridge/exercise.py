@@ -108,9 +108,10 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
     asked = []
     for i, panels in enumerate((3, 6, 4) if hidden else (4, 5)):
         gravity = MOON if i == 1 else 9.81
-        bridge = some_bridge(random, panels, gravity)
+        light = (0, panels, 1)[i]
+        bridge = some_bridge(random, panels, gravity, light)
         while _slants(bridge) != (i == 0):
-            bridge = some_bridge(random, panels, gravity)
+            bridge = some_bridge(random, panels, gravity, light)
         about = f"bridge of {len(bridge['members'])} members"
         asked.append(Question("heaviest", (bridge,), ("member", "force"), about))
         asked.append(Question("largest_dt", (bridge,), ("dt",), about))
