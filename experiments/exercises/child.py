@@ -12,7 +12,7 @@ import os
 import struct
 import sys
 import traceback
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence, Set
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
@@ -104,7 +104,9 @@ def parts_of(value: Any, parts: Sequence[str]) -> list[Any]:
     values = split(value, parts)
     if len(values) != len(parts):
         raise ValueError(f"it returns {len(values)} thing{'s'[: len(values) != 1]}: expected {', '.join(parts)}")
-    arrays = [np.asarray(v) for v in values]
+    if any(isinstance(v, Mapping) for v in values):
+        raise ValueError("it returns a dict, which has no order")
+    arrays = [np.asarray(list(v) if isinstance(v, Set | Iterator) else v) for v in values]
     for array, name in zip(arrays, parts, strict=True):
         if array.dtype.kind not in KINDS:
             raise ValueError(f"{name} is not made of real numbers, but of {array.dtype}")
@@ -177,6 +179,7 @@ def main() -> None:
     np.seterr(all="ignore")
     reply: dict[str, Any] = {"walls": walls, "answers": []}
     module = ModuleType("submission")
+    module.__file__ = os.path.join(task["scratch"], "submission.py")  # files of the exercise are beside it
     sys.modules["submission"] = module
     try:
         exec(compile(task["source"], NAME, "exec"), module.__dict__)

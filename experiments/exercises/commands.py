@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import secrets
+import shutil
 import sys
+import textwrap
 from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,7 +36,9 @@ def list_command(as_json: bool) -> None:
     from experiments.exercises.exercise import exercises
 
     columns = ["exercise", "name", "title", "minutes", "goals", "mistakes known"]
-    rows = [[e.number, e.name, e.title, e.minutes, e.goals, len(e.mistakes)] for e in exercises().values()]
+    rows = [
+        [e.number, e.name, e.title, e.minutes, e.goals, len({m.name for m in e.mistakes})] for e in exercises().values()
+    ]
     if as_json:
         click.echo(json.dumps([dict(zip(columns, row, strict=True)) for row in rows], indent=2))
     else:
@@ -111,7 +115,7 @@ def _check_one(path: Path, submission: Submission, key: str | None, plot: bool, 
         findings = [{"name": f.name, "words": f.words, "hint": f.hint} for f in given.verdict.findings]
         click.echo(json.dumps({**row, "findings": findings, "deviation": given.verdict.error}, indent=2))
         return int(not given.verdict.right)
-    click.echo("\n".join(paragraphs(submission, given)))
+    click.echo("\n".join(map(_wrapped, paragraphs(submission, given))))
     lines = given.verdict.lines
     if lines is not None:
         click.echo("\n" + in_terminal(lines))
@@ -120,6 +124,14 @@ def _check_one(path: Path, submission: Submission, key: str | None, plot: bool, 
             as_png(lines, picture, given.verdict.name)
             click.echo(f"written: {picture}")
     return int(not given.verdict.right)
+
+
+def _wrapped(line: str) -> str:
+    """A line of words as wide as the terminal, if it is one."""
+    if not sys.stdout.isatty():
+        return line
+    width = min(shutil.get_terminal_size().columns, 100)
+    return textwrap.fill(line, width, subsequent_indent="  ", drop_whitespace=True)
 
 
 def _check_class(

@@ -37,7 +37,7 @@ class Departure:
     def __str__(self) -> str:
         if self.item == "between mass":
             place = f"between mass {self.index[0]} and mass {self.index[1]}"
-            return f"{self.about}, {place}: {self.given} springs, expected {self.right}"
+            return f"{self.about}, {place}: {self.given} spring{'s'[: self.given != 1]}, expected {self.right}"
         place = f"{self.item} {self.index[0]}" if self.index else ""
         at = f"[{', '.join(map(str, self.index))}]" if self.index else ""
         where = ", ".join(filter(None, [self.about, f"step {self.step}" if self.step else "", place]))

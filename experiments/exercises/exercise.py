@@ -33,6 +33,14 @@ FOLDER_NAME = re.compile(r"e(\d\d)_([a-z_]+)")
 #: Numbers are the same up to this part of the largest of their kind, unless an exercise says otherwise.
 TOLERANCE = 1e-9
 
+#: What students read below every text.
+RULES = """
+## What your file may use
+
+Python's own library and NumPy, nothing else. It is checked by itself: of other files it
+finds those that you were given.
+"""
+
 #: What a question's answer is: for every step, every part of what was returned.
 Answer = list[list[Array]]
 
@@ -101,6 +109,7 @@ class Exercise:
         files: makes more files for the student to work on, by name, from the student's seed and the teacher's key.
         tolerance: up to which part of the largest number an answer is right, where students type it in.
         canonical: makes answers that mean the same the same, before they are compared.
+        fault: says what is wrong with an answer by looking at it alone: a name, words, a hint; None where nothing is.
     """
 
     title: str
@@ -114,6 +123,7 @@ class Exercise:
     files: Callable[[str], Mapping[str, str]] | None = None
     tolerance: float = TOLERANCE
     canonical: Callable[[Question, Any], Any] | None = None
+    fault: Callable[[Question, Any], tuple[str, str, str] | None] | None = None
     folder: Path = Path()
 
     @property
@@ -129,7 +139,7 @@ class Exercise:
     @property
     def text(self) -> str:
         """What students read, in Markdown."""
-        return (self.folder / "text.md").read_text(encoding="utf-8")
+        return (self.folder / "text.md").read_text(encoding="utf-8") + RULES
 
     @property
     def starter(self) -> str:

@@ -46,7 +46,7 @@ def fault_of_error(error: Mapping[str, Any] | None, missing: str | None) -> Find
     kind, words, line = (clean(str(error.get(name))) for name in ("type", "words", "line"))
     where = f"line {line}: " if line != "None" else ""
     if kind == "ValueError" and words.startswith("it returns"):
-        name = "returns_nothing" if "nothing" in words else "wrong_count"
+        name = "returns_nothing" if "nothing" in words else "returns_a_dict" if "dict" in words else "wrong_count"
         return Finding(name, f"Your function does not return what it should: {words}.", "What does the text ask for?")
     if kind == "ValueError" and "not made of real numbers" in words:
         return Finding("not_numbers", f"Your function does not return numbers: {words}.", "Look at what you return.")
@@ -73,6 +73,9 @@ def fault_of_values(questions: Sequence[Question], given: Sequence[Answer], righ
 
 
 def _fault(name: str, part: Any, want: Any) -> Finding | None:
+    if want.dtype.kind == "U" and part.dtype.kind == "U" and part.shape == ():
+        words = f"{name} are one text: expected {want.size} texts, one after another."
+        return Finding("one_text", words, "A list has brackets, and every name quotes of its own.")
     if part.shape != want.shape and not (want.shape == () and part.size == 1):
         words = f"{name} has shape {part.shape}: expected {want.shape}."
         if want.ndim == 2 and part.shape == want.shape[::-1]:

@@ -66,6 +66,30 @@ OF_A_SPRING = (
         "How long is the vector that gives the direction?",
         direction="sloppy",
     ),
+    mistake(
+        "spring_cannot_push",
+        "Your springs only pull: when they are too short they do nothing, like a rope.",
+        "What does a spring do that is shorter than at rest?",
+        slack=True,
+    ),
+    mistake(
+        "damping_with_the_mass",
+        "The mass is in your damping: it is multiplied by it, or taken off the acceleration without being divided.",
+        "What is the unit of the damping times a velocity? Is that a force, or an acceleration?",
+        friction="m c v",
+    ),
+    mistake(
+        "damping_one_way",
+        "Your damping always pulls the same way: the sign of the velocity is lost in it.",
+        "Which way does damping pull a mass that falls, and which way one that rises?",
+        friction="c |v|",
+    ),
+    mistake(
+        "damping_of_the_square",
+        "Your damping grows with the square of the speed.",
+        "What is the unit of the damping that you are given?",
+        friction="c v^2",
+    ),
 )
 
 #: Only in two.
@@ -132,13 +156,25 @@ OF_A_STRING = (
         "last_link_wraps",
         "Your last mass has a spring to the first: there is none below it.",
         "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
+        last="ring",
+    ),
+    mistake(
+        "last_link_wraps",
+        "Your last mass has a spring to the first: there is none below it.",
+        "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
         last="rolls",
     ),
     mistake(
         "last_link_skipped",
         "Your last mass gets no force at all.",
         "Up to which number does your loop run?",
-        last="skipped",
+        skipped=-1,
+    ),
+    mistake(
+        "first_mass_skipped",
+        "Your first mass gets no force at all.",
+        "At which number does your loop begin? What is above mass 0?",
+        skipped=0,
     ),
     mistake(
         "spring_above_only",
@@ -163,5 +199,52 @@ OF_A_STRING = (
         "For the spring below mass i you take the stiffness and rest length of the spring above it.",
         "Which number has the spring between mass i and mass i + 1?",
         below="above",
+    ),
+    mistake(
+        "neighbours_stiffness",
+        "For the spring below mass i you take the stiffness of the spring above it.",
+        "Which number has the spring between mass i and mass i + 1?",
+        below="stiffness of above",
+    ),
+    mistake(
+        "neighbours_rest_length",
+        "For the spring below mass i you take the rest length of the spring above it.",
+        "Which number has the spring between mass i and mass i + 1?",
+        below="rest length of above",
+    ),
+    mistake(
+        "divided_by_the_rest_length",
+        "You divide your direction by the rest length: it is of length 1 only while the spring is at rest.",
+        "How long is the vector that you divide? And by what?",
+        direction="rest length",
+    ),
+    mistake(
+        "axis_by_axis",
+        "You treat x and y as two springs: each part of the vector is compared with the rest length by itself.",
+        "How long is a spring that hangs aslant? Which one number is compared with the rest length?",
+        direction="each axis",
+    ),
+    mistake(
+        "weight_on_both_axes",
+        "Your weight also pulls sideways.",
+        "Print the force on a mass without springs. Which of its two parts is the weight?",
+        weight="both axes",
+    ),
+    mistake(
+        "numbers_of_the_example",
+        "Your gravity is always 9.81 m/s^2.",
+        "From where do you have it? The Moon has another.",
+        weight="m 9.81",
+    ),
+    mistake("weight_along_x", "Your weight pulls along x.", "Which column of an array is y?", weight="along x"),
+)
+
+#: Where forces are asked for, and not a step.
+OF_FORCES = (
+    mistake(
+        "accelerations_returned",
+        "You give back accelerations: your forces are divided by the masses.",
+        "In which unit is your answer, and in which is a force?",
+        divided=True,
     ),
 )

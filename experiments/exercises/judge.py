@@ -15,12 +15,10 @@ import numpy as np
 
 from experiments.exercises import sandbox
 from experiments.exercises.departure import Departure, Lines, first_departure
-from experiments.exercises.exercise import Answer, Exercise, Mistake
+from experiments.exercises.exercise import Answer, Exercise
 from experiments.exercises.faults import Finding, beside, fault_of_error, fault_of_values, not_repeated
 from experiments.exercises.known import Catalogue, answer_distance, catalogue
-
-#: Numbers in single precision are the same up to SINGLE, if nothing else is less than APART times as far.
-SINGLE, APART = 2e-5, 30.0
+from experiments.exercises.naming import SINGLE, fault_of_form, identify, told_by_the_exercise
 
 #: What a verdict says in a word.
 Outcome = Literal[
@@ -86,7 +84,8 @@ def judge_all(
         words = Finding("not_written_yet", "This is the starter as it was handed out.", "The text says what to write.")
         return [_failed(known, "error", words) for known in checks]
     asked = [question.asked() for known in checks for question in known.questions]
-    reply = sandbox.run(source, asked, limits)
+    files = exercise.files(seed) if exercise.files else {}
+    reply = sandbox.run(source, asked, limits, files)
     if len(reply.answers) != len(asked) and reply.error is None and len(checks) > 1:
         return [judge(exercise, source, seed, key, limits) for key in keys]
     verdicts, first = [], 0
@@ -94,7 +93,7 @@ def judge_all(
         part = slice(first, first + len(known.questions))
         verdict = _verdict(known, replace(reply, answers=reply.answers[part]))
         if verdict.name == "not_repeatable":
-            again = sandbox.run(source, asked, limits)
+            again = sandbox.run(source, asked, limits, files)
             same = len(again.answers) == len(reply.answers) and _equal(reply, again)
             verdict = replace(verdict, findings=(not_repeated(same),))
         verdicts.append(replace(verdict, walls=tuple(reply.walls)))
@@ -127,16 +126,16 @@ def _verdict(known: Catalogue, reply: sandbox.Reply) -> Verdict:
         given = None  # the submission wrote what it was not asked for
     if given is None:
         return _failed(known, "crashed", Finding("unreadable", "What it answered is not readable."))
-    departure, lines = first_departure(known, given, max(_tolerance(known), 1e-9))
+    departure, lines = first_departure(known, given, max(known.exercise.tolerance, 1e-9))
     found: dict[str, Any] = {"departure": departure, "lines": lines}
     if not all(_same(a["values"][0], a.get("again")) for a in reply.answers):
         return _failed(known, "mistake", Finding("not_repeatable", ""), **found)
     found["right_error"] = known.distance(given, known.right)
     passed = tuple(
-        answer_distance(answer, right, scales) <= max(SINGLE, _tolerance(known))
+        answer_distance(answer, right, scales) <= max(SINGLE, known.exercise.tolerance)
         for answer, right, scales in zip(given, known.right, known.scales, strict=True)
     )
-    fault = fault_of_values(known.questions, given, known.right)
+    fault = fault_of_values(known.questions, given, known.right) or told_by_the_exercise(known, given)
     if fault is not None:
         return Verdict("mistake", (fault,), passed, **found)
     return _named(known, given, reply, passed, found)
@@ -148,6 +147,8 @@ def _named(
     """The verdict on numbers of the right shapes."""
     also = beside(reply.answers)
     mistakes, error = identify(known, given)
+    if mistakes is None and (plain := fault_of_form(known, given)) is not None:
+        return Verdict("mistake", (plain, *also), passed, **found)
     if mistakes is None:
         return Verdict("not in the catalogue", also, passed, **found)
     findings = (*(Finding(m.name, m.words, m.hint) for m in mistakes), *also)
@@ -158,38 +159,6 @@ def _named(
     another = len(findings) == 1 and bool(mistakes) and mistakes[0].another
     outcome: Outcome = "another scheme" if another else "mistakes" if len(findings) > 1 else "mistake"
     return Verdict(outcome, findings, passed, error, **found)
-
-
-def identify(known: Catalogue, given: Sequence[Answer]) -> tuple[tuple[Mistake, ...] | None, float]:
-    """The mistakes whose numbers these are, none where they are right, None where nobody knows; and how far from them.
-
-    The simplest that fits: no mistake, one, two.
-    """
-    tolerance, rough = _tolerance(known), max(SINGLE, _tolerance(known))
-    right = known.distance(given, known.right)
-    if right <= tolerance:
-        return (), right
-    errors = [known.distance(given, known.answers(m.knobs)) for m in known.exercise.mistakes]
-    ranking = sorted(range(len(errors)), key=lambda i: errors[i])
-    nearest = errors[ranking[0]] if ranking else np.inf
-    if nearest <= tolerance:
-        return (known.exercise.mistakes[ranking[0]],), nearest
-    if right <= rough and nearest > APART * right:
-        return (), right
-    second = min([right, *(errors[i] for i in ranking[1:2])])
-    if nearest <= rough and second > APART * nearest:
-        return (known.exercise.mistakes[ranking[0]],), nearest
-    for pair in known.pairs:
-        knobs = {**pair[0].knobs, **pair[1].knobs}
-        if known.distance(given, known.beginnings(knobs), first_steps=True) <= tolerance:
-            error = known.distance(given, known.answers(knobs))
-            if error <= tolerance:
-                return pair, error
-    return None, right
-
-
-def _tolerance(known: Catalogue) -> float:
-    return known.exercise.tolerance
 
 
 def _values(known: Catalogue, reply: sandbox.Reply) -> list[Answer] | None:

@@ -55,9 +55,23 @@ class Catalogue:
     def scales(self) -> list[list[float]]:
         """The largest right number of each part of each question; 1 where all are zero."""
         return [
-            [max((_largest(step[p]) for step in answer), default=0.0) or 1.0 for p in range(len(question.parts))]
+            [
+                float(_largest(_stacked([step[p] for step in answer])).max(initial=0.0)) or 1.0
+                for p in range(len(question.parts))
+            ]
             for question, answer in zip(self.questions, self.right, strict=True)
         ]
+
+    @cached_property
+    def functions(self) -> Mapping[str, Catalogue]:
+        """The same of each function by itself."""
+        return {name: self._of(name) for name in dict.fromkeys(question.function for question in self.questions)}
+
+    def _of(self, function: str) -> Catalogue:
+        part = Catalogue.__new__(Catalogue)
+        part.exercise, part._answers, part._beginnings = self.exercise, {}, {}
+        part.questions = [question for question in self.questions if question.function == function]
+        return part
 
     @property
     def apart(self) -> bool:
@@ -97,30 +111,48 @@ def answer_distance(answer: Answer, known: Answer, scales: Sequence[float]) -> f
     """Of the answers to one question."""
     if len(answer) != len(known):
         return np.inf
+    theirs = [_stacked(steps) for steps in zip(*known, strict=True)]
+    # a motion that has blown up is compared no further
+    beyond = [_largest(part) > LARGEST * scale for part, scale in zip(theirs, scales, strict=True)]
+    blown = np.flatnonzero(np.any(beyond, axis=0)[1:])
+    end = int(blown[0]) + 1 if len(blown) else len(known)
     far = 0.0
-    for i, (step, other) in enumerate(zip(answer, known, strict=True)):
-        if i and any(_largest(part) > LARGEST * scale for part, scale in zip(other, scales, strict=True)):
-            break
-        far = max([far, *(part_distance(*three) for three in zip(step, other, scales, strict=True))])
+    for p, (part, scale) in enumerate(zip(theirs, scales, strict=True)):
+        mine = [step[p] for step in answer[:end]]
+        if any(one.shape != part.shape[1:] for one in mine):
+            return np.inf
+        far = max(far, _distance(_stacked(mine), part[:end], scale))
     return far
-
-
-def _largest(part: Array) -> float:
-    if part.dtype.kind == "U":
-        return 0.0
-    size = np.abs(part.astype(float)).max(initial=0.0)
-    return float(size) if np.isfinite(size) else np.inf
 
 
 def part_distance(part: Array, right: Array, scale: float) -> float:
     """The largest difference of two arrays, as a part of the scale; infinite where shapes or kinds differ."""
-    if part.shape != right.shape or (part.dtype.kind == "U") != (right.dtype.kind == "U"):
+    if part.shape != right.shape:
         return np.inf
-    if part.dtype.kind == "U":
-        return 0.0 if bool((part == right).all()) else np.inf
+    return _distance(part[None], right[None], scale)
+
+
+def _stacked(steps: Sequence[Array]) -> Array:
+    return np.array(steps)
+
+
+def _distance(parts: Array, right: Array, scale: float) -> float:
+    """The same of many steps, their first axis."""
+    if (parts.dtype.kind == "U") != (right.dtype.kind == "U"):
+        return np.inf
+    if parts.dtype.kind == "U":
+        return 0.0 if bool((parts == right).all()) else np.inf
+    one, other = (array.reshape(len(array), -1).astype(float) for array in (parts, right))
     with np.errstate(all="ignore"):
-        gap = np.abs(part.astype(float) - right.astype(float))
-    both_lost = ~np.isfinite(part) & ~np.isfinite(right)
+        gap = np.where(np.isfinite(one) | np.isfinite(other), np.abs(one - other), 0.0).max(axis=1, initial=0.0)
     # what is larger than the scale is compared with itself
-    largest = float(np.where(both_lost, 0.0, gap).max(initial=0.0)) / max(scale, min(_largest(right), LARGEST * scale))
+    largest = float((gap / np.maximum(scale, np.minimum(_largest(right), LARGEST * scale))).max(initial=0.0))
     return largest if np.isfinite(largest) else np.inf
+
+
+def _largest(steps: Array) -> Array:
+    """The largest number of each step; infinite where one is none."""
+    if steps.dtype.kind == "U":
+        return np.zeros(len(steps))
+    size = np.abs(steps.reshape(len(steps), -1).astype(float)).max(axis=1, initial=0.0)
+    return np.where(np.isfinite(size), size, np.inf)

@@ -23,13 +23,17 @@ def forces(
     gravity: float = 1.0,
     weight: str = "m g",
     drag: float = 1.0,
+    friction: str = "c v",
     rest: float = 1.0,
     length: str = "root",
     direction: str = "unit",
+    slack: bool = False,
     anchor: str = "own",
     last: str = "free",
     sides: str = "both",
     below: str = "own",
+    skipped: int | None = None,
+    divided: bool = False,
 ) -> Array:
     """The force on every mass [N], shape (n, d): its springs, its weight, its drag.
 
@@ -41,42 +45,75 @@ def forces(
     if anchor.startswith("second"):
         upper[1:2] = string.anchor
     k, rest_lengths = string.stiffness, rest * string.rest_lengths
-    pull = pulls * _pull(x, upper, k, rest_lengths, length, direction)
+
+    def pull_of(low: Array, high: Array, k: Array, rest_lengths: Array) -> Array:
+        return pulls * _pull(low, high, k, rest_lengths, length, direction, slack)
+
+    pull = pull_of(x, upper, k, rest_lengths)
     # the spring below mass i is the spring above mass i + 1, or what a mistake takes it for
-    under = pull[1:]
-    if below == "above":
-        under = pulls * _pull(x[1:], x[:-1], k[:-1], rest_lengths[:-1], length, direction)
+    under = {
+        "own": lambda: pull[1:],
+        "above": lambda: pull_of(x[1:], x[:-1], k[:-1], rest_lengths[:-1]),
+        "stiffness of above": lambda: pull_of(x[1:], x[:-1], k[:-1], rest_lengths[1:]),
+        "rest length of above": lambda: pull_of(x[1:], x[:-1], k[1:], rest_lengths[:-1]),
+        "own side": lambda: -pull_of(x[:-1], x[1:], k[1:], rest_lengths[1:]),
+    }[below]()
     if anchor == "second, from above":
-        under = pulls * _pull(x[1:], x[:-1], k[1:], rest_lengths[1:], length, direction)
-    if below == "own side":
-        under = -pulls * _pull(x[:-1], x[1:], k[1:], rest_lengths[1:], length, direction)
+        under = pull_of(x[1:], x[:-1], k[1:], rest_lengths[1:])
     if anchor == "missing":
         pull[0] = 0.0
-    total = pull if sides != "below" else np.zeros_like(pull)
+    total = pull.copy() if sides != "below" else np.zeros_like(pull)
     if sides != "above":
-        total = total.copy()
         total[:-1] += under if sides == "same" else -under
-    if last == "wraps" and len(x) > 1:
-        total[-1] += pulls * _pull(x[-1:], x[:1], k[:1], rest_lengths[:1], length, direction)[0]
+    if last in ("wraps", "ring") and len(x) > 1:
+        closing = pull_of(x[-1:], x[:1], k[:1], rest_lengths[:1])[0]
+        total[-1] += closing
+        total[0] -= closing * (last == "ring")
     if last == "rolls":
         total[-1] -= pull[0]
-    mass = {"m g": string.masses, "g": np.ones_like(string.masses), "none": 0 * string.masses}[weight]
-    total = total.copy()
-    total[:, -1] -= gravity * mass * string.gravity
-    total = total - drag * string.drag * v
-    if last == "skipped":
-        total[-1] = 0.0
-    return np.asarray(total)
+    total = total - gravity * _weights(string, weight, x.shape) - drag * _friction(string, v, friction)
+    if skipped is not None:
+        total[skipped] = 0.0
+    return np.asarray(total / string.masses[:, None] if divided else total)
 
 
-def _pull(x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, direction: str) -> Array:
+def _weights(string: Any, weight: str, shape: tuple[int, ...]) -> Array:
+    """Downwards, shape (n, d)."""
+    one, axes = np.ones_like(string.masses), np.arange(shape[1])
+    mass = {"g": one, "none": 0 * one}.get(weight, string.masses)
+    gravity = 9.81 if weight == "m 9.81" else string.gravity
+    along = {"both axes": axes >= 0, "along x": axes == 0}.get(weight, axes == shape[1] - 1)
+    return np.asarray(np.outer(mass * gravity, along))
+
+
+def _friction(string: Any, v: Array, friction: str) -> Array:
+    """Along the velocity, shape (n, d)."""
+    m, speed = string.masses[:, None], np.linalg.norm(v, axis=1)[:, None]
+    return np.asarray(string.drag * {"c v": v, "m c v": m * v, "c v^2": speed * v, "c |v|": np.abs(v)}[friction])
+
+
+def _pull(x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, direction: str, slack: bool) -> Array:
     """The force of each spring on its lower mass, shape (n, d)."""
     gap = upper - x
     square = (gap**2).sum(axis=1)
-    long = {"root": np.sqrt(square), "square": square, "sum": np.abs(gap).sum(axis=1)}[length]
-    force = k * (long - rest_lengths)
+    # in one dimension a length may be less than nothing: that of who is above his anchor
+    long = {
+        "root": np.sqrt(square),
+        "square": square,
+        "sum": np.abs(gap).sum(axis=1),
+        "signed": gap[:, 0],
+        "y": -gap[:, 0],
+    }[length]
+    force = k * (np.maximum(long - rest_lengths, 0.0) if slack else long - rest_lengths)
+    if length in ("signed", "y") and direction == "unit":
+        return np.asarray(force[:, None])
     if direction == "sloppy":
         return np.asarray(force[:, None] * gap)
+    if direction == "rest length":
+        return np.asarray(force[:, None] * gap / rest_lengths[:, None])
+    if direction == "each axis":
+        stretch = np.abs(gap) - rest_lengths[:, None]
+        return np.asarray(k[:, None] * (np.maximum(stretch, 0.0) if slack else stretch) * np.sign(gap))
     if direction == "degrees":
         angle = np.degrees(np.arctan2(gap[:, -1], gap[:, 0] if gap.shape[1] > 1 else 0.0))
         return np.asarray(force[:, None] * np.stack([np.cos(angle), np.sin(angle)][-gap.shape[1] :], axis=1))

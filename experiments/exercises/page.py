@@ -17,10 +17,11 @@ _PAGE = """<!DOCTYPE html>
 body {{ font: 17px/1.5 system-ui, sans-serif; max-width: 42rem; margin: 2rem auto; padding: 0 1rem; }}
 code {{ font: 0.9em ui-monospace, monospace; }}
 table {{ border-collapse: collapse; display: block; overflow-x: auto; }}
+td code {{ white-space: nowrap; }}
 th, td {{ border-bottom: 1px solid #8888; padding: 0.25rem 0.75rem 0.25rem 0; text-align: left; }}
 @media (max-width: 30rem) {{
   table {{ font-size: 0.8em; }}
-  th, td {{ padding-right: 0.4rem; overflow-wrap: anywhere; }}
+  th, td {{ padding-right: 0.4rem; }}
 }}
 @media print {{
   body {{ font-size: 11pt; max-width: none; margin: 0; color: #000; background: #fff; }}

@@ -15,8 +15,19 @@ WIDTH, HEIGHT = 56, 9
 RIGHT, GIVEN, BOTH = "o", "x", "*"
 
 
+def magnified(lines: Lines) -> Lines:
+    """The numbers; or, where the two lie less than a row apart, what is left when the right ones are taken off."""
+    count = min(len(lines.right), len(lines.given))
+    left = lines.given[:count] - lines.right[:count]
+    low, high = _range(lines)
+    if not np.isfinite(left).all() or np.abs(left).max() > (high - low) / (HEIGHT - 1):
+        return lines
+    return Lines(lines.over, f"yours less expected, of {lines.what}", np.zeros(count), left)
+
+
 def in_terminal(lines: Lines) -> str:
     """The plot, as text."""
+    lines = magnified(lines)
     low, high = _range(lines)
     grid = [[" "] * WIDTH for _ in range(HEIGHT)]
     count = max(len(lines.right), len(lines.given))
@@ -42,6 +53,7 @@ def as_png(lines: Lines, file: Path, title: str) -> None:
     from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
 
+    lines = magnified(lines)
     figure = Figure(figsize=(6, 3.2), dpi=150, layout="constrained")
     axes = figure.subplots()
     first = 1 if lines.over == "step" else 0
@@ -61,7 +73,9 @@ def as_png(lines: Lines, file: Path, title: str) -> None:
 def _range(lines: Lines) -> tuple[float, float]:
     """What is shown: all that is right, and of what was given as much as is not ten times as far away."""
     low, high = float(lines.right.min()), float(lines.right.max())
-    reach = max(high - low, 1e-3 * max(abs(low), abs(high)), 1e-12)
+    # where nothing but zeros is right, all that was given is shown
+    given = np.abs(lines.given[np.isfinite(lines.given)]).max(initial=1e-12)
+    reach = max(high - low, 1e-3 * max(abs(low), abs(high))) or float(given)
     near = lines.given[np.isfinite(lines.given) & (np.abs(lines.given - (low + high) / 2) < 10 * reach)]
     low, high = min([low, *near.tolist()]), max([high, *near.tolist()])
     return (low, high) if high > low else (low - reach, high + reach)

@@ -1,8 +1,9 @@
 """A submission run in a fresh process of its own, that can neither reach the checker nor its files.
 
-The process gets the submission's text and the arrays of the questions, works in an empty folder that is removed
-afterwards, and leaves bytes, in which there is nothing but numbers and words (no pickle). This process reads them and
-judges; it never imports a submission. What stands around the process is in `confine`.
+The process gets the submission's text and the arrays of the questions, works in a folder that has the files which the
+student was given and is removed afterwards, and leaves bytes, in which there is nothing but numbers and words (no
+pickle). This process reads them and judges; it never imports a submission. What stands around the process is in
+`confine`.
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ WALL = 20.0
 #: Its folder may fill up to that [bytes].
 FOLDER = 2**26
 
-#: How often it is looked at [s].
-LOOK = 0.02
+#: How often it is looked at [s]; and what a look counts for at most: a machine that stood still is not its fault.
+LOOK, STALL = 0.02, 0.5
 
 #: An answer is no longer than that [bytes].
 LONGEST = 2**23
@@ -69,15 +70,24 @@ class Reply:
     names: Sequence[str] = field(default_factory=list)
 
 
-def run(source: str, questions: Sequence[Mapping[str, Any]], limits: Limits | None = None) -> Reply:
+def run(
+    source: str,
+    questions: Sequence[Mapping[str, Any]],
+    limits: Limits | None = None,
+    files: Mapping[str, str] | None = None,
+) -> Reply:
     """Put questions to a submission.
 
     Args:
         source: its text.
         questions: each with function, arguments, steps and parts.
+        files: what it finds in its folder, by name: what the student was given.
     """
     limits = limits or Limits()
     scratch = Path(tempfile.mkdtemp(prefix="springlab-submission-"))
+    for name, text in (files or {}).items():
+        (scratch / name).write_text(text, encoding="utf-8")
+        (scratch / name).chmod(0o644)
     task = {
         "source": source,
         "questions": list(questions),
@@ -112,13 +122,14 @@ def _start(scratch: Path, asked: IO[bytes], said: IO[bytes], printed: IO[bytes])
 
 def _watch(process: subprocess.Popen[bytes], scratch: Path, limits: Limits) -> tuple[str, str]:
     """How it ended: a word and a reason."""
-    deadline = time.monotonic() + limits.wall
+    waited, last = 0.0, time.monotonic()
     ending = None
     try:
         while ending is None:
             with suppress(subprocess.TimeoutExpired):
                 return _cause(process.wait(LOOK), limits)
-            if time.monotonic() > deadline:
+            waited, last = waited + min(time.monotonic() - last, STALL), time.monotonic()
+            if waited > limits.wall:
                 ending = ("timed out", f"no answer within {limits.wall:g} s")
             elif _size(scratch) > FOLDER:
                 ending = ("crashed", f"it wrote more than {FOLDER / 2**20:g} MiB of files")

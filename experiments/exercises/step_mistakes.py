@@ -54,6 +54,28 @@ OF_A_STEP = (
     mistake("nothing_moves", "Your step returns the state as it was.", "What do you return?", scheme="nothing"),
 )
 
+#: In Euler's.
+OF_EULER = (
+    mistake(
+        "dt_missing_in_velocity",
+        "Your velocity takes the whole acceleration: there is no dt with it.",
+        "What is the unit of an acceleration times dt?",
+        scheme="velocities_without_dt",
+    ),
+    mistake(
+        "dt_missing_in_position",
+        "Your position takes the whole velocity: there is no dt with it.",
+        "What is the unit of a velocity times dt?",
+        scheme="positions_without_dt",
+    ),
+    mistake(
+        "half_a_dt_squared",
+        "Your position has dt^2 a / 2 in it, the formula for a constant force: that is more than Euler does.",
+        "By which velocity does Euler move the position, and by nothing else?",
+        scheme="velocities_by_euler",
+    ),
+)
+
 #: Right, but to be named.
 OTHERS = (
     _another("euler", "This is Euler's step: one slope, taken at the beginning.", scheme="euler"),
@@ -141,6 +163,18 @@ OF_HEUN = (
         "Your guess moves the velocities, but keeps the old positions.",
         "A guess of what? A state is more than velocities.",
         scheme="guess_of_velocities",
+    ),
+    mistake(
+        "guess_by_kick_drift",
+        "Your guess moves its positions with its own new velocities: that is not Euler's.",
+        "By which velocity does Euler move the positions?",
+        scheme="guess_by_kick_drift",
+    ),
+    mistake(
+        "guess_damped_by_old_velocity",
+        "In the forces at your guess the damping still has the old velocities.",
+        "A guess has velocities of its own. Which forces hang on them?",
+        scheme="old_velocity_in_force",
     ),
 )
 

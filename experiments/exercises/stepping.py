@@ -7,6 +7,7 @@ thing of a wrong one is right. They stay out of the catalogue: no engine is look
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -33,9 +34,13 @@ def step(x: Array, v: Array, dt: float, string: Any, scheme: str, clock: str = "
         law: knobs of `links.forces` and `LinkMotion`.
     """
     took = {"dt": dt, "twice": dt * dt, "none": 1.0, "half": dt / 2, "double": 2 * dt}[clock]
-    advance = STEPS.get(scheme) or catalogue.find(scheme).step
-    end = advance(LinkMotion(string, **law), State(0.0, x, v), took)
+    end = _advance(scheme)(LinkMotion(string, **law), State(0.0, x, v), took)
     return end.positions, end.velocities
+
+
+@cache
+def _advance(scheme: str) -> Step:
+    return STEPS.get(scheme) or catalogue.find(scheme).step
 
 
 def _slopes(motion: Motion, state: State, dt: float) -> tuple[Array, Array, Array, Array]:
@@ -129,6 +134,32 @@ def guess_of_velocities(motion: Motion, state: State, dt: float) -> State:
     return state + dt / 2 * (here + there)
 
 
+def guess_by_kick_drift(motion: Motion, state: State, dt: float) -> State:
+    """The guess moves its positions with its own new velocities."""
+    here = motion.slope(state)
+    new = state.velocities + dt * here.velocities
+    there = motion.slope(State(state.time, state.positions + dt * new, new))
+    return state + dt / 2 * (here + there)
+
+
+def old_velocity_in_force(motion: Motion, state: State, dt: float) -> State:
+    """The force at the guess takes the velocities that there were."""
+    here = motion.slope(state)
+    guess = state + dt * here
+    force = motion.acceleration(State(state.time, guess.positions, state.velocities))
+    return _moved(state, dt, dt / 2 * (state.velocities + guess.velocities), dt / 2 * (here.velocities + force))
+
+
+def velocities_without_dt(motion: Motion, state: State, dt: float) -> State:
+    """Euler's step, but the velocities take the whole acceleration."""
+    return _moved(state, dt, dt * state.velocities, motion.acceleration(state))
+
+
+def positions_without_dt(motion: Motion, state: State, dt: float) -> State:
+    """Euler's step, but the positions take the whole velocity."""
+    return _moved(state, dt, state.velocities, dt * motion.acceleration(state))
+
+
 def still_positions(motion: Motion, state: State, dt: float) -> State:
     """Positions stay."""
     return State(state.time + dt, state.positions, state.velocities + dt * motion.acceleration(state))
@@ -166,6 +197,10 @@ STEPS: dict[str, Step] = {
         new_velocity,
         guess_of_positions,
         guess_of_velocities,
+        guess_by_kick_drift,
+        old_velocity_in_force,
+        velocities_without_dt,
+        positions_without_dt,
         still_positions,
         still_velocities,
         velocity_replaced,

@@ -1,4 +1,4 @@
-"""A class of 200: every mistake in every style, and right solutions, as files of students.
+"""A class of 200, with all ten exercises: mistakes in every style, and right solutions, as files of students.
 
 python -m tests.exercises.a_class FOLDER && time springlab exercise check FOLDER --csv grades.csv
 """
@@ -9,16 +9,15 @@ import sys
 from itertools import cycle, islice
 from pathlib import Path
 
-from tests.exercises.confusion import CASES
-from tests.exercises.corpus import solution, wrong
+from tests.exercises.corpus import programs
 
 
 def write(folder: Path, count: int = 200) -> None:
     """Write so many submissions."""
     folder.mkdir(parents=True, exist_ok=True)
-    for i, (style, mistake) in enumerate(islice(cycle(CASES), count)):
-        text = wrong(style, mistake) if mistake else solution(style)
-        (folder / f"student_{i:03}_{mistake or 'right'}.py").write_text(f"# student {i}\n{text}", encoding="utf-8")
+    for i, program in enumerate(islice(cycle(programs()[::3]), count)):
+        name = f"student_{i:03}_{program.exercise}_{program.name.replace(' ', '_')}.py"
+        (folder / name).write_text(f"# student {i}\n{program.text}", encoding="utf-8")
 
 
 if __name__ == "__main__":

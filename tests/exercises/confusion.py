@@ -1,6 +1,6 @@
-"""The table of confusion: every mistake in every style, and what the checker called it.
+"""The table of confusion: every program of `corpus`, and what the checker called it.
 
-python -m tests.exercises.confusion
+python -m tests.exercises.confusion [EXERCISE ...]
 """
 
 from __future__ import annotations
@@ -10,39 +10,70 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
+from itertools import groupby
 
-from experiments.exercises.exercise import find
-from experiments.exercises.judge import judge
-from tests.exercises.corpus import MISTAKES, solution, wrong
+from experiments.exercises.grading import grade
+from tests.exercises.corpus import RIGHT, Program, programs
 
-#: A style and a mistake, None for none.
-Case = tuple[str, str | None]
+#: The teacher's secret, of the hidden questions: right programs have to answer these too.
+KEY = "sesame"
 
-#: All there are.
-CASES: list[Case] = [(style, name) for style, names in MISTAKES.items() for name in (None, *names)]
+#: What the checker says where it has no name; that is an answer too.
+UNKNOWN = "not in the catalogue"
 
 
-def named(case: Case) -> str:
+def called(program: Program) -> str:
     """What the checker says."""
-    style, mistake = case
-    return judge(find("4"), wrong(style, mistake) if mistake else solution(style)).name
+    return grade(program.submission, KEY if program.name == RIGHT else None).verdict.name
 
 
-def confusion(cases: Sequence[Case]) -> dict[Case, str]:
+def confusion(chosen: Sequence[Program]) -> dict[Program, str]:
     """What the checker says of all of them."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        return dict(zip(cases, pool.map(named, cases), strict=True))
+        return dict(zip(chosen, pool.map(called, chosen), strict=True))
+
+
+def wrongly(found: dict[Program, str]) -> dict[str, str]:
+    """Those that were called something else."""
+    return {
+        f"{program.exercise}, {program.name} in {program.style}": said
+        for program, said in found.items()
+        if not program.is_called(said)
+    }
+
+
+def summary(found: dict[Program, str]) -> str:
+    """How many programs were called what they are, and how many something else."""
+    kinds = Counter(_kind(program, said) for program, said in found.items())
+    return ", ".join(f"{words} {many}" for words, many in sorted(kinds.items()))
+
+
+def _kind(program: Program, said: str) -> str:
+    if program.name == RIGHT:
+        return "right and passed" if said == RIGHT else "right and refused"
+    if said == RIGHT:
+        return "wrong and passed"
+    if said == UNKNOWN:
+        return "wrong and not in the catalogue"
+    return "wrong and named right" if program.is_called(said) else "wrong and named wrongly"
+
+
+def _table(found: dict[Program, str]) -> None:
+    for exercise, ours in groupby(found, key=lambda program: program.exercise):
+        print(f"exercise {exercise}")
+        said = {program: found[program] for program in ours}
+        for name in dict.fromkeys(program.name for program in said):
+            calls = [call for program, call in said.items() if program.name == name]
+            others = sorted({call for call in calls if call != name})
+            print(f"  {name:34} {calls.count(name)} of {len(calls)}" + (f"; {', '.join(others)}" if others else ""))
+        print(f"  {summary(said)}")
 
 
 if __name__ == "__main__":
-    found = confusion(CASES)
-    wrongly = {case: said for case, said in found.items() if said != (case[1] or "right")}
-    count = Counter(case[1] or "right" for case in found)
-    for name, many in sorted(count.items()):
-        right = sum(1 for case, said in found.items() if (case[1] or "right") == name == said)
-        others = sorted({said for case, said in wrongly.items() if (case[1] or "right") == name})
-        print(f"{name:32} named right {right} of {many}" + (f"; else {', '.join(others)}" if others else ""))
-    three = sum(1 for name, many in count.items() if many == 3 and name != "right")
-    print(f"{len(count) - 1} mistakes, {three} of them in three styles")
-    print(f"{len(found) - len(wrongly)} of {len(found)} named right")
-    sys.exit(bool(wrongly))
+    numbers = [int(word) for word in sys.argv[1:]]
+    found = confusion([program for program in programs() if not numbers or program.exercise in numbers])
+    _table(found)
+    print(f"all: {summary(found)}")
+    for program, said in wrongly(found).items():
+        print(f"{program}: {said}")
+    sys.exit(bool(wrongly(found)))

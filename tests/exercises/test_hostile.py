@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -67,6 +68,20 @@ def test_a_wall_less_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     assert judge(find("1"), thief).name == "reaches_out"
     monkeypatch.setattr(sandbox, "_readable", lambda: ("/",))
     assert judge(find("1"), thief).name == "right"
+
+
+def test_a_machine_that_stands_still_costs_nobody_a_grade(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An hour passes between any two looks at a process, as when a machine sleeps: it has its time all the same.
+
+    Shown to fail: where each of these hours counts, a right program is timed out.
+    """
+    text = (MODELS / "e01_euler.py").read_text(encoding="utf-8")
+    clock = count(step=3600.0)
+    monkeypatch.setattr(sandbox.time, "monotonic", lambda: next(clock))
+    limits = sandbox.Limits(wall=600.0)
+    assert judge(find("1"), text, limits=limits).name == "right"
+    monkeypatch.setattr(sandbox, "STALL", 3600.0)
+    assert judge(find("1"), text, limits=limits).name == "timed_out"
 
 
 @pytest.mark.parametrize(

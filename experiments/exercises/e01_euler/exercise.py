@@ -6,8 +6,8 @@ from typing import Any
 
 from experiments.exercises.exercise import Exercise
 from experiments.exercises.force_mistakes import OF_A_SPRING
-from experiments.exercises.one_mass import questions_on_one, step_of_one
-from experiments.exercises.step_mistakes import OF_A_STEP, OF_INERTIA, OTHERS
+from experiments.exercises.one_mass import on_one_mass, questions_on_one, step_of_one
+from experiments.exercises.step_mistakes import OF_A_STEP, OF_EULER, OF_INERTIA, OTHERS
 
 #: On one mass, whose motion is linear, these are the same as Heun's step.
 SAME = ("midpoint", "ralston")
@@ -25,9 +25,8 @@ EXERCISE = Exercise(
     solutions={"step": step},
     questions=questions_on_one,
     mistakes=(
-        *OF_A_SPRING,
-        *OF_INERTIA,
-        *OF_A_STEP,
+        *on_one_mass((*OF_A_SPRING, *OF_INERTIA, *OF_A_STEP)),
+        *OF_EULER,
         *(other for other in OTHERS if other.name not in ("euler", *SAME)),
     ),
 )

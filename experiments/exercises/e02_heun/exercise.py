@@ -6,7 +6,7 @@ from typing import Any
 
 from experiments.exercises.exercise import Exercise
 from experiments.exercises.force_mistakes import OF_A_SPRING
-from experiments.exercises.one_mass import questions_on_one, step_of_one
+from experiments.exercises.one_mass import on_one_mass, questions_on_one, step_of_one
 from experiments.exercises.step_mistakes import OF_A_STEP, OF_HEUN, OF_INERTIA, OTHERS
 
 #: On one mass, whose motion is linear, these are the same as Heun's step.
@@ -26,9 +26,7 @@ EXERCISE = Exercise(
     questions=questions_on_one,
     mistakes=(
         *OF_HEUN,
-        *OF_A_SPRING,
-        *OF_INERTIA,
-        *OF_A_STEP,
+        *on_one_mass((*OF_A_SPRING, *OF_INERTIA, *OF_A_STEP)),
         *(other for other in OTHERS if other.name not in ("heun", *SAME)),
     ),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from experiments.exercises.exercise import Exercise
-from experiments.exercises.force_mistakes import OF_A_SPRING, OF_A_STRING
+from experiments.exercises.force_mistakes import OF_A_SPRING, OF_A_STRING, OF_FORCES
 from experiments.exercises.links import forces
 from experiments.exercises.on_strings import questions_on_forces
 
@@ -13,5 +13,5 @@ EXERCISE = Exercise(
     goals="Vectors along springs, action and reaction, the first and the last link.",
     solutions={"forces": forces},
     questions=questions_on_forces,
-    mistakes=(*OF_A_SPRING, *OF_A_STRING),
+    mistakes=(*OF_A_SPRING, *OF_A_STRING, *OF_FORCES),
 )

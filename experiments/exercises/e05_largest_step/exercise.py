@@ -28,29 +28,57 @@ def parameters(seed: str) -> dict[str, float]:
         "mass": round(float(random.uniform(0.02, 0.2)), 3),
         "stiffness": round(float(random.uniform(50, 500)), 1),
         "damping": round(float(random.uniform(0.05, 0.3)), 3),
-        "masses": float(random.integers(5, 20)),
+        # so few that it shows, to three figures, what holds the ends
+        "masses": int(random.integers(3, 5)),
     }
 
 
-def kick_drift(mass: float, stiffness: float, limit: str = "2", rate: str = "root", **_: Any) -> float:
+def _rate(mass: float, stiffness: float, rate: str, grams: float) -> float:
+    """The frequency of one mass on one spring [1/s]: the root of k/m."""
+    square = stiffness / (mass * grams)
+    return {"root": sqrt(square), "square": square, "upside down": 1 / sqrt(square)}[rate]
+
+
+def kick_drift(
+    mass: float, stiffness: float, limit: str = "2", rate: str = "root", grams: float = 1.0, unit: float = 1.0, **_: Any
+) -> float:
     """Stable while dt w < 2, w the root of k/m."""
     factor = {"2": 2.0, "1": 1.0, "period": 2 * pi}[limit]
-    return factor / (sqrt(stiffness / mass) if rate == "root" else stiffness / mass)
+    return unit * factor / _rate(mass, stiffness, rate, grams)
 
 
-def runge_kutta(mass: float, stiffness: float, reach: str = "2.83", rate: str = "root", **_: Any) -> float:
+def runge_kutta(
+    mass: float,
+    stiffness: float,
+    reach: str = "2.83",
+    rate_rk: str = "root",
+    grams: float = 1.0,
+    unit: float = 1.0,
+    **_: Any,
+) -> float:
     """Stable while dt w < 2 sqrt 2: so far its region reaches up the imaginary axis."""
-    factor = {"2.83": sqrt(8), "2": 2.0, "2.79": 2.7853}[reach]
-    return factor / (sqrt(stiffness / mass) if rate == "root" else stiffness / mass)
+    factor = {"2.83": sqrt(8), "2": 2.0, "2.79": 2.7853, "4": 4.0}[reach]
+    return unit * factor / _rate(mass, stiffness, rate_rk, grams)
 
 
-def euler(mass: float, stiffness: float, damping: float, bound: str = "c/k", **_: Any) -> float:
+def euler(
+    mass: float, stiffness: float, damping: float, bound: str = "c/k", grams: float = 1.0, unit: float = 1.0, **_: Any
+) -> float:
     """Stable while dt < c/k: |1 + dt z|^2 = 1 - dt c/m + dt^2 k/m for the pair of roots z."""
-    bounds = {"c/k": damping / stiffness, "2c/k": 2 * damping / stiffness, "2m/c": 2 * mass / damping}
-    return {**bounds, "2/w": 2 / sqrt(stiffness / mass)}[bound]
+    bounds = {"c/k": damping / stiffness, "2c/k": 2 * damping / stiffness, "2m/c": 2 * mass * grams / damping}
+    return unit * {**bounds, "2/w": 2 / _rate(mass, stiffness, "root", grams), "never": 0.0}[bound]
 
 
-def string(mass: float, stiffness: float, masses: float, mode: str = "highest", rate: str = "root", **_: Any) -> float:
+def string(
+    mass: float,
+    stiffness: float,
+    masses: float,
+    mode: str = "highest",
+    rate_string: str = "root",
+    grams: float = 1.0,
+    unit: float = 1.0,
+    **_: Any,
+) -> float:
     """Stable while dt w < 2, w that of the highest mode: 2 sqrt(k/m) sin((2n - 1) pi / (4n + 2))."""
     n = masses
     share = {
@@ -58,9 +86,11 @@ def string(mass: float, stiffness: float, masses: float, mode: str = "highest", 
         "lowest": 2 * sin(pi / (4 * n + 2)),
         "one": 1.0,
         "together": 1 / n,
+        "both ends held": 2 * sin(n * pi / (2 * n + 2)),
+        "both ends free": 2 * sin((n - 1) * pi / (2 * n)),
+        "endless": 2.0,
     }[mode]
-    square = share**2 * stiffness / mass
-    return 2 / (sqrt(square) if rate == "root" else square)
+    return unit * 2 / _rate(mass, share**2 * stiffness, rate_string, grams)
 
 
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
@@ -74,6 +104,12 @@ def files(seed: str) -> dict[str, str]:
     return {"parameters.json": json.dumps(parameters(seed), indent=2) + "\n"}
 
 
+#: The same mistake in one function, or in all that have a frequency.
+RATES = (("rate",), ("rate_rk",), ("rate_string",), ("rate", "rate_rk"), ("rate", "rate_rk", "rate_string"))
+SQUARE, UPSIDE_DOWN = ([dict.fromkeys(names, value) for names in RATES] for value in ("square", "upside down"))
+STIFFER = "Does a stiffer spring swing faster or slower?"
+
+
 EXERCISE = Exercise(
     title="The largest stable step",
     minutes=60,
@@ -84,7 +120,14 @@ EXERCISE = Exercise(
     tolerance=5e-3,
     files=files,
     mistakes=(
-        mistake("root_forgotten", "You take k/m for the frequency.", "What is the unit of k/m?", rate="square"),
+        *(
+            mistake("root_forgotten", "You take k/m for the frequency.", "What is the unit of k/m?", **k)
+            for k in SQUARE
+        ),
+        *(mistake("upside_down", "You take the root of m/k for the frequency.", STIFFER, **k) for k in UPSIDE_DOWN),
+        mistake("milliseconds", "Your steps are in milliseconds.", "Which unit was asked for?", unit=1e3),
+        mistake("grams", "You take the mass for grams.", "In which unit is the mass that you were given?", grams=1e-3),
+        mistake("grams", "You take the mass for grams.", "In which unit is the mass that you were given?", grams=1e3),
         mistake(
             "limit_of_one",
             "Your limit for kick-drift is that of dt w = 1.",
@@ -104,6 +147,12 @@ EXERCISE = Exercise(
             reach="2",
         ),
         mistake(
+            "a_limit_for_each_slope",
+            "Your limit for Runge-Kutta is 4 / w: slopes are not steps.",
+            "How far up the imaginary axis does its region of stability reach?",
+            reach="4",
+        ),
+        mistake(
             "real_axis",
             "Your limit for Runge-Kutta is where its region ends on the real axis.",
             "On which axis are the eigenvalues of a motion without damping?",
@@ -114,6 +163,12 @@ EXERCISE = Exercise(
             "Your limit for Euler is kick-drift's.",
             "What does Euler do to an undamped motion, at any dt?",
             bound="2/w",
+        ),
+        mistake(
+            "euler_never_stable",
+            "You say that Euler is never stable.",
+            "That is so without damping. Is there none?",
+            bound="never",
         ),
         mistake(
             "euler_twice",
@@ -144,6 +199,21 @@ EXERCISE = Exercise(
             "For the string you take all springs as one.",
             "Which mode is the first to become unstable?",
             mode="together",
+        ),
+        mistake(
+            "both_ends_held",
+            "Your string is held at both ends.",
+            "What is below the last mass?",
+            mode="both ends held",
+        ),
+        mistake(
+            "both_ends_free", "Your string hangs on nothing.", "What is above the first mass?", mode="both ends free"
+        ),
+        mistake(
+            "endless_string",
+            "Your string has no end: 2 root k/m is what the fastest mode comes near to, with more and more masses.",
+            "How many masses has yours?",
+            mode="endless",
         ),
     ),
 )

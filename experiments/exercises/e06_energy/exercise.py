@@ -9,6 +9,7 @@ import numpy as np
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.force_mistakes import mistake
 from experiments.exercises.links import random_string
+from experiments.exercises.on_strings import elsewhere
 from reference.state import Array
 
 
@@ -31,16 +32,37 @@ def energy(
         "k s^2": k * stretch**2,
         "k L^2/2": k * long**2 / 2,
         "k s/2": k * stretch / 2,
+        "k (L^2 - l^2)/2": k * (long**2 - string.rest_lengths**2) / 2,
         "one less": k * stretch**2 / 2 * (np.arange(len(k)) > 0),
     }[elastic]
-    high = {"m g y": m * x[:, 1], "-m g y": -m * x[:, 1], "g y": x[:, 1], "m y": m * x[:, 1], "m g x": m * x[:, 0]}[
-        height
-    ]
-    return moving.sum(), spring.sum(), high.sum() * (1.0 if height == "m y" else string.gravity)
+    high = {
+        "m g y": m * x[:, 1],
+        "-m g y": -m * x[:, 1],
+        "g y": x[:, 1],
+        "m y": m * x[:, 1],
+        "m 9.81 y": m * x[:, 1],
+        "m g x": m * x[:, 0],
+        "from the anchor": m * (x[:, 1] - string.anchor[1]),
+    }[height]
+    gravity = {"m y": 1.0, "m 9.81 y": 9.81}.get(height, string.gravity)
+    return moving.sum(), spring.sum(), high.sum() * gravity
 
 
-def power(x: Array, v: Array, string: Any, sign: float = -1.0, lost: str = "both", rate: str = "along") -> float:
-    """What damping along the springs and drag add to the energy [W]: never more than nothing."""
+def power(
+    x: Array,
+    v: Array,
+    string: Any,
+    sign: float = -1.0,
+    lost: str = "both",
+    rate: str = "along",
+    half: tuple[float, float] = (1.0, 1.0),
+    speed: str = "squared",
+) -> float:
+    """What damping along the springs and drag add to the energy [W]: never more than nothing.
+
+    Args:
+        half: the share of the springs, and of the drag.
+    """
     gap = np.diff(x, axis=0, prepend=string.anchor[None])
     unit = gap / np.linalg.norm(gap, axis=1)[:, None]
     relative = np.diff(v, axis=0, prepend=np.zeros((1, 2)))
@@ -49,16 +71,19 @@ def power(x: Array, v: Array, string: Any, sign: float = -1.0, lost: str = "both
         "all": (relative**2).sum(axis=1),
         "own": (v * unit).sum(axis=1) ** 2,
         "once": np.abs((relative * unit).sum(axis=1)),
+        "sloppy": (relative * gap).sum(axis=1) ** 2,
     }[rate]
-    springs = string.damping @ square * (lost != "drag")
-    return float(sign * (springs + string.drag * (v**2).sum() * (lost != "springs")))
+    speeds = (v**2).sum(axis=1)
+    springs = half[0] * (string.damping @ square) * (lost != "drag")
+    drag = half[1] * string.drag * (speeds if speed == "squared" else np.sqrt(speeds)).sum() * (lost != "springs")
+    return float(sign * (springs + drag))
 
 
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
     """Strings in motion."""
     asked = []
-    for count in (1, 7, 4) if hidden else (4, 3):
-        x, v, string = random_string(random, count)
+    for i, count in enumerate((1, 7, 4) if hidden else (4, 3)):
+        x, v, string = elsewhere(random_string(random, count), i + 1)
         string["damping"] = random.uniform(0.01, 0.1, count)
         about = f"string of {count}"
         asked.append(Question("energy", (x, v, string), ("kinetic", "elastic", "gravitational"), about))
@@ -110,6 +135,12 @@ EXERCISE = Exercise(
             elastic="k s/2",
         ),
         mistake(
+            "difference_of_squares",
+            "Your elastic energy has L^2 - l^2 in it: the stretch is to be squared as a whole.",
+            "What is (a - b)^2?",
+            elastic="k (L^2 - l^2)/2",
+        ),
+        mistake(
             "anchor_spring_missing",
             "The spring at the anchor is not in your elastic energy.",
             "How many springs are there?",
@@ -129,6 +160,18 @@ EXERCISE = Exercise(
         ),
         mistake(
             "height_without_g", "There is no g in your energy of gravity.", "What is the unit of m y?", height="m y"
+        ),
+        mistake(
+            "height_from_the_anchor",
+            "You measure heights from the anchor.",
+            "At which height is the energy of the weight to be 0?",
+            height="from the anchor",
+        ),
+        mistake(
+            "numbers_of_the_example",
+            "Your gravity is always 9.81 m/s^2.",
+            "From where do you have it? The Moon has another.",
+            height="m 9.81 y",
         ),
         mistake("sideways", "You take x for the height.", "Which axis points up?", height="m g x"),
         mistake("power_sign", "Your damping adds energy.", "Which sign has what is lost?", sign=1.0),
@@ -156,6 +199,27 @@ EXERCISE = Exercise(
             "In your power the rate of stretching is not squared.",
             "Power is force times velocity: how often is the velocity in it?",
             rate="once",
+        ),
+        mistake(
+            "drag_not_squared",
+            "In your power the drag has the speed in it, not its square.",
+            "Power is force times velocity: how often is the velocity in it?",
+            speed="once",
+        ),
+        mistake(
+            "not_normalised",
+            "The direction in your rate of stretching is not of length 1.",
+            "By how much does a spring get longer when its end moves 1 mm along it?",
+            rate="sloppy",
+        ),
+        *(
+            mistake(
+                "power_halved",
+                "There is a half in your power.",
+                "Power is force times velocity. From where would a half come?",
+                half=half,
+            )
+            for half in ((0.5, 1.0), (1.0, 0.5), (0.5, 0.5))
         ),
     ),
 )

@@ -19,43 +19,56 @@ def push_out(
     velocity: str = "inwards off",
     place: str = "surface",
     where: str = "inside",
+    whose: str = "of those",
     normal: str = "unit",
+    centre: str = "own",
 ) -> tuple[Array, Array]:
     """Masses inside go straight out to the surface, and lose the velocity that leads inwards."""
-    gap = x - circle.centre
+    middle = circle.centre if centre == "own" else 0 * circle.centre
+    gap = x - middle
     far = np.linalg.norm(gap, axis=1)
-    n = gap if normal == "gap" else gap / far[:, None]
+    n = gap if normal != "unit" else gap / far[:, None]
     at = (v * n).sum(axis=1)[:, None]
+    along = np.stack([n[:, 1], -n[:, 0]], axis=1)
+    slides = (v * along).sum(axis=1)[:, None]
     inside = {
         "inside": far < circle.radius,
         "everywhere": np.full(len(x), True),
         "outside": far > circle.radius,
         "square": far**2 < circle.radius,
         "box": (np.abs(gap) < circle.radius).all(axis=1),
+        "first": (far < circle.radius) & (np.arange(len(x)) == 0),
     }[where][:, None]
     new = {
-        "inwards off": v - np.minimum(at, 0) * n,
+        "inwards off": v - np.minimum(at, 0) * n if normal != "gap, along" else np.where(at < 0, slides * along, v),
         "tangential": v - at * n,
-        "printed": v * np.stack([n[:, 1], -n[:, 0]], axis=1),
+        "printed": v * along,
         "stopped": 0 * v,
+        "stopped, inwards": np.where(at < 0, 0, v),
         "mirrored": v - 2 * np.minimum(at, 0) * n,
         "kept": v,
         "normal": at * n,
+        "normal, inwards": np.where(at < 0, at * n, v),
         "turned": at * n - v,
         "outwards off": v - np.maximum(at, 0) * n,
+        "clockwise": np.where(at < 0, np.abs(slides) * along, v),
+        "anticlockwise": np.where(at < 0, -np.abs(slides) * along, v),
+        "whole": np.where(at < 0, np.sign(slides) * np.linalg.norm(v, axis=1)[:, None] * along, v),
     }[velocity]
+    above = middle[1] + np.sqrt(np.maximum(circle.radius**2 - gap[:, 0] ** 2, 0))
     out = {
-        "surface": circle.centre + circle.radius * n,
+        "surface": middle + circle.radius * n,
         "kept": x,
         "origin": circle.radius * n,
         "added": x + circle.radius * n,
-        "other side": circle.centre - circle.radius * n,
+        "other side": middle - circle.radius * n,
+        "up": np.stack([x[:, 0], above], axis=1),
     }[place]
-    return np.where(inside, out, x), np.where(inside, new, v)
+    return np.where(inside, out, x), np.where(inside | (whose == "everybody's"), new, v)
 
 
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
-    """Masses inside and outside, on all sides, coming and going."""
+    """Masses inside and outside, on all sides, coming and going, to the left and to the right."""
     asked = []
     for count in (1, 9, 12) if hidden else (8, 6):
         circle = {"centre": random.uniform(-1, 1, 2), "radius": float(random.uniform(0.3, 0.6))}
@@ -64,8 +77,12 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
         anywhere, within = random.uniform(0, 2 * np.pi, count), random.uniform(0.6, 0.8, count)
         angle = np.choose(kind, [anywhere, anywhere, quarter + np.pi / 4, quarter, anywhere])
         far = circle["radius"] * np.choose(kind, [within, within, 1.2, 1.2, 4.0])
-        x = circle["centre"] + far[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        v = random.uniform(-1, 1, (count, 2))
+        out = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        # of those inside every other comes in; of the five and five, one slides this way, one that way
+        leads = random.uniform(0.2, 1.0, count) * np.where(kind == 1, 1, -1)
+        slides = random.uniform(0.2, 1.0, count) * np.where(np.arange(count) // 5 % 2, 1, -1)
+        v = leads[:, None] * out + slides[:, None] * np.stack([-out[:, 1], out[:, 0]], axis=1)
+        x = circle["centre"] + far[:, None] * out
         asked.append(
             Question("push_out", (x, v, circle), ("x", "v"), f"{count} masses about a circle", units=("m", "m/s"))
         )
@@ -92,8 +109,9 @@ EXERCISE = Exercise(
             {"velocity": "tangential"},
             True,
         ),
-        mistake(
-            "stopped", "Your masses stop.", "What does a smooth surface do to a velocity along it?", velocity="stopped"
+        *(
+            mistake("stopped", "Your masses stop.", "What does a smooth surface do to a velocity along it?", velocity=v)
+            for v in ("stopped", "stopped, inwards")
         ),
         mistake(
             "bounces",
@@ -107,11 +125,41 @@ EXERCISE = Exercise(
             "What of a velocity is left at the surface?",
             velocity="kept",
         ),
+        *(
+            mistake(
+                "normal_part_kept",
+                "You keep the part along the normal, and take the tangential one.",
+                "Which way does a mass go that slides?",
+                velocity=v,
+            )
+            for v in ("normal", "normal, inwards")
+        ),
+        *(
+            mistake(
+                "always_one_way",
+                "All your masses slide the same way about the circle, whichever way they came.",
+                "What becomes of the sign of a velocity whose size you take?",
+                velocity=v,
+            )
+            for v in ("clockwise", "anticlockwise")
+        ),
         mistake(
-            "normal_part_kept",
-            "You keep the part along the normal, and take the tangential one.",
-            "Which way does a mass go that slides?",
-            velocity="normal",
+            "whole_speed_kept",
+            "Your masses slide with their whole speed: it is turned along the circle.",
+            "How fast does a mass slide that comes straight in?",
+            velocity="whole",
+        ),
+        mistake(
+            "velocity_of_everybody",
+            "Masses outside lose velocity too.",
+            "Which masses does the circle touch? For which is the velocity changed?",
+            whose="everybody's",
+        ),
+        mistake(
+            "first_mass_only",
+            "You treat the first mass only.",
+            "How far is your return indented? What ends a loop?",
+            where="first",
         ),
         mistake("tangential_turned", "Your masses slide the other way.", "What minus what?", velocity="turned"),
         mistake(
@@ -131,6 +179,18 @@ EXERCISE = Exercise(
             "You put masses on a circle about the origin.",
             "Where is the circle's centre?",
             place="origin",
+        ),
+        mistake(
+            "centre_forgotten",
+            "You put masses on a circle about the origin.",
+            "Where is the circle's centre?",
+            centre="origin",
+        ),
+        mistake(
+            "straight_up",
+            "You push masses straight up.",
+            "Which way is out? Look at a mass at the side of the circle.",
+            place="up",
         ),
         mistake(
             "radius_added",
@@ -165,11 +225,14 @@ EXERCISE = Exercise(
         mistake(
             "box", "You take the square about the circle for the circle.", "What does Pythagoras say?", where="box"
         ),
-        mistake(
-            "not_normalised",
-            "Your normal is not of length 1.",
-            "How long is the vector from the centre to a mass?",
-            normal="gap",
+        *(
+            mistake(
+                "not_normalised",
+                "Your normal is not of length 1.",
+                "How long is the vector from the centre to a mass?",
+                normal=normal,
+            )
+            for normal in ("gap", "gap, along")
         ),
     ),
 )

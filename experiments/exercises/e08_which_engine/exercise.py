@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import hashlib
 import json
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Exercise, Question
+from experiments.exercises.exercise import Exercise, Mistake, Question
 from experiments.exercises.force_mistakes import mistake
 from experiments.exercises.links import namespace, random_string
 from experiments.exercises.stepping import DT, step
@@ -29,11 +30,35 @@ def chosen(seed: str) -> tuple[list[str], np.random.Generator]:
     return random.permutation(["kick_drift", "drift_kick", *others]).tolist(), random
 
 
-def names(seed: str, swap: tuple[str, str] = ("", ""), shifted: int = 0) -> Any:
+def names(seed: str, swap: tuple[str, str] = ("", ""), shifted: int = 0, order: int = 1) -> Any:
     """The right names, or with two of them taken for each other."""
     right = chosen(seed)[0]
     swapped = [{swap[0]: swap[1], swap[1]: swap[0]}.get(name, name) for name in right]
-    return np.array(swapped[shifted:] + swapped[:shifted])
+    return np.array((swapped[shifted:] + swapped[:shifted])[::order])
+
+
+def as_in_the_text(question: Question, given: Any) -> Any:
+    """Names as the text has them: no capitals, an underscore between words."""
+    if given.dtype.kind != "U":
+        return given
+    return np.strings.replace(np.strings.replace(np.strings.lower(np.strings.strip(given)), "-", "_"), " ", "_")
+
+
+def fault(question: Question, given: Any) -> tuple[str, str, str] | None:
+    """A name that is missing, that nobody has, or that two have."""
+    if given.shape != (len(LETTERS),):
+        return None
+    for letter, name in zip(LETTERS, given.tolist(), strict=True):
+        if name == "":
+            return "name_missing", f"There is no name for {letter}.", "Which of the eight have you not tried on it?"
+        if name not in KNOWN:
+            return "unknown_name", f"{name[:40]!r} is none of the eight names.", "The text has the names."
+    for name in KNOWN:
+        who = [letter for letter, other in zip(LETTERS, given.tolist(), strict=True) if other == name]
+        if len(who) > 1:
+            words = f"You call {', '.join(who[:-1])} and {who[-1]} {name}: no two of them are the same."
+            return "name_twice", words, "Which of them is the same to 1e-15 after forty steps?"
+    return None
 
 
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
@@ -56,8 +81,23 @@ def files(seed: str) -> dict[str, str]:
     return made
 
 
-def _swapped(a: str, b: str, hint: str) -> Any:
+def _swapped(a: str, b: str, hint: str) -> Mistake:
     return mistake(f"{a}_or_{b}", f"You take {a} for {b}, or {b} for {a}.", hint, swap=(a, b))
+
+
+#: Those that are most alike, and what tells them apart.
+ALIKE = (
+    _swapped("kick_drift", "drift_kick", "Look at the very first step: whose velocity moved the masses?"),
+    _swapped("heun", "midpoint", "Where is their second slope taken? They part in the third order of dt."),
+    _swapped("heun", "heun_link_by_link", "Does the first mass tell them apart, or the second?"),
+    _swapped("heun", "velocity_verlet", "Which has dt^2 a / 2 in its first step, and nothing of higher order?"),
+    _swapped("midpoint", "velocity_verlet", "Which has dt^2 a / 2 in its first step, and nothing of higher order?"),
+    _swapped("heun", "rk4", "Halve dt in your own program: how far does each move?"),
+    _swapped("rk4", "velocity_verlet", "Halve dt in your own program: how far does each move?"),
+    _swapped("rk4", "midpoint", "Halve dt in your own program: how far does each move?"),
+    _swapped("euler", "kick_drift", "Look at the very first step: has gravity moved the masses yet?"),
+    _swapped("euler", "drift_kick", "Their first step is the same; look at the second."),
+)
 
 
 EXERCISE = Exercise(
@@ -69,19 +109,24 @@ EXERCISE = Exercise(
     seeded=True,
     keyed=True,
     files=files,
+    canonical=as_in_the_text,
+    fault=fault,
     mistakes=(
-        _swapped("kick_drift", "drift_kick", "Look at the very first step: whose velocity moved the masses?"),
-        _swapped("heun", "midpoint", "Where is their second slope taken? They part in the third order of dt."),
-        _swapped("heun", "heun_link_by_link", "Does the first mass tell them apart, or the second?"),
-        _swapped("heun", "velocity_verlet", "Which has dt^2 a / 2 in its first step, and nothing of higher order?"),
-        _swapped("midpoint", "velocity_verlet", "Which has dt^2 a / 2 in its first step, and nothing of higher order?"),
-        _swapped("heun", "rk4", "Halve dt in your own program: how far does each move?"),
-        _swapped("rk4", "velocity_verlet", "Halve dt in your own program: how far does each move?"),
-        _swapped("rk4", "midpoint", "Halve dt in your own program: how far does each move?"),
-        _swapped("euler", "kick_drift", "Look at the very first step: has gravity moved the masses yet?"),
-        _swapped("euler", "drift_kick", "Their first step is the same; look at the second."),
-        mistake(
-            "letters_off_by_one", "Your names are right, but one letter off.", "Which file is the first?", shifted=1
+        *ALIKE,
+        *(
+            _swapped(a, b, "Run both in your own program: how large is what is left after the second step?")
+            for a, b in combinations(KNOWN, 2)
+            if not any({a, b} == set(mistake.knobs["swap"]) for mistake in ALIKE)
         ),
+        *(
+            mistake(
+                "letters_off_by_one",
+                "Your names are right, but one letter off.",
+                "Which file is the first?",
+                shifted=by,
+            )
+            for by in (1, -1)
+        ),
+        mistake("letters_reversed", "Your names are right, but from E to A.", "Which file is the first?", order=-1),
     ),
 )

@@ -20,28 +20,44 @@ def springs(
     bend: str = "both",
     far: int = 2,
     numbering: str = "rows",
+    first: int = 0,
     ends: str = "open",
-    double: bool = False,
+    double: str = "",
     less: int = 0,
+    begun: str = "everywhere",
 ) -> IntArray:
-    """Pairs of masses: mass (r, c) has number r * columns + c."""
-    number = np.arange(rows * columns).reshape(rows, columns)
-    if numbering == "columns":
-        number = np.add.outer(np.arange(rows), rows * np.arange(columns))
+    """Pairs of masses: mass (r, c) has number r * columns + c.
+
+    Args:
+        begun: in which rows springs begin, downwards and to the right.
+    """
+    by_row, by_column = {"rows": (columns, 1), "columns": (1, rows), "too few": (rows, 1)}[numbering]
+    number = first + np.add.outer(by_row * np.arange(rows), by_column * np.arange(columns))
     grid = number[: rows - less, : columns - less]
     pairs = []
     for dr, dc, kind in ((0, 1, along != "columns"), (1, 0, along != "rows")):
-        pairs += _offset(grid, dr, dc) if kind else []
-    pairs += _offset(grid, 1, 1) if shear in ("both", "falling") else []
+        within = (grid[:-1] if dc else grid[:, :-1]) if along == "not at the edge" else grid
+        pairs += _offset(within, dr, dc) if kind else []
+    pairs += _offset(grid, 1, 1) if shear in ("both", "falling", "falling, and one off") else []
     pairs += _offset(grid[:, ::-1], 1, 1) if shear in ("both", "rising") else []
-    for dr, dc, kind in ((0, far, bend in ("both", "rows")), (far, 0, bend in ("both", "columns"))):
+    if shear == "falling, and one off":
+        pairs += [(a, b - 2) for a, b in _offset(grid, 1, 1)]
+    for dr, dc, kind in ((0, far, bend in ("both", "rows", "all")), (far, 0, bend in ("both", "columns", "all"))):
         pairs += _offset(grid, dr, dc) if kind else []
-    pairs += _offset(grid, 2, 2) + _offset(grid[:, ::-1], 2, 2) if bend == "aslant" else []
-    if ends == "next row":
-        pairs += [(int(grid[r, -1]), int(grid[r + 1, 0])) for r in range(len(grid) - 1)]
+    pairs += _offset(grid, 2, 2) + _offset(grid[:, ::-1], 2, 2) if bend in ("aslant", "all") else []
+    line = grid.ravel().tolist()
+    over = {"next row": (1,), "bend to the next row": (2,), "both to the next row": (1, 2)}.get(ends, ())
+    for skip in over:
+        pairs += [
+            (a, b) for i, (a, b) in enumerate(zip(line, line[skip:], strict=False)) if i % columns >= columns - skip
+        ]
     if ends == "closed":
         pairs += [(int(row[-1]), int(row[0])) for row in grid]
-    return np.array(pairs + [(b, a) for a, b in pairs] if double else pairs)
+    if begun != "everywhere":
+        begins = {"first row": 1, "not in the last": rows - 1}[begun]
+        pairs = [pair for pair in pairs if min(pair) < begins * columns]
+    pairs += {"": [], "turned": [(b, a) for a, b in pairs], "itself": [(a, a) for a in line]}[double]
+    return np.array(pairs)
 
 
 def _offset(grid: IntArray, dr: int, dc: int) -> list[tuple[int, int]]:
@@ -54,6 +70,8 @@ def counted(question: Question, pairs: Any) -> Any:
 
     A number that no mass has counts as the one after the last.
     """
+    if pairs.size == 0:
+        pairs = np.zeros((0, 2), dtype=int)
     if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iuf":
         return pairs
     n = question.arguments[0] * question.arguments[1]
@@ -115,6 +133,18 @@ EXERCISE = Exercise(
             bend="aslant",
         ),
         mistake(
+            "bend_aslant_too",
+            "There are bend springs along the diagonals too.",
+            "Along what do bend springs go?",
+            bend="all",
+        ),
+        mistake(
+            "diagonal_off_by_one",
+            "Your second diagonal begins one column too far to the left: at the left edge it ends in another row.",
+            "Which masses have a neighbour below on the left? The condition is not that of the one on the right.",
+            shear="falling, and one off",
+        ),
+        mistake(
             "bend_too_far", "Your bend springs skip two masses.", "How many masses does a bend spring skip?", far=3
         ),
         mistake(
@@ -136,10 +166,29 @@ EXERCISE = Exercise(
             numbering="columns",
         ),
         mistake(
+            "rows_for_columns",
+            "You count r * rows + c: several masses have one number.",
+            "How many masses are before row 1?",
+            numbering="too few",
+        ),
+        mistake("counted_from_one", "You count masses from 1.", "Which number has the first mass?", first=1),
+        mistake(
             "joined_to_the_next_row",
             "The last mass of each row is joined to the first of the next.",
             "Which masses have no neighbour on the right?",
             ends="next row",
+        ),
+        mistake(
+            "bend_to_the_next_row",
+            "The last two masses of each row have bend springs to the first two of the next.",
+            "Which masses have no next but one on the right?",
+            ends="bend to the next row",
+        ),
+        mistake(
+            "joined_to_the_next_row",
+            "The last mass of each row is joined to the first of the next.",
+            "Which masses have no neighbour on the right?",
+            ends="both to the next row",
         ),
         mistake(
             "rows_are_rings",
@@ -151,13 +200,37 @@ EXERCISE = Exercise(
             "every_spring_twice",
             "Every spring is there twice, once from either end.",
             "How many springs join two masses?",
-            double=True,
+            double="turned",
+        ),
+        mistake(
+            "joined_to_itself",
+            "Every mass is also joined to itself.",
+            "Which offsets do your loops run over?",
+            double="itself",
         ),
         mistake(
             "last_row_and_column_missing",
             "The last row and the last column have no springs.",
             "Up to which number do your loops run, and for which springs?",
             less=1,
+        ),
+        mistake(
+            "no_structural_springs_at_the_edge",
+            "Along the last row and the last column there are no structural springs.",
+            "Which of your conditions belong to the neighbour on the right, and which to the one below?",
+            along="not at the edge",
+        ),
+        mistake(
+            "first_row_only",
+            "Springs begin in the first row only.",
+            "How far is your return indented? What ends a loop?",
+            begun="first row",
+        ),
+        mistake(
+            "last_row_skipped",
+            "No spring begins in the last row.",
+            "Up to which number does your loop over rows run? Has the last row no springs along it?",
+            begun="not in the last",
         ),
     ),
 )

@@ -7,45 +7,78 @@ from typing import Any
 
 import numpy as np
 
+from experiments.exercises.bridges import some_bridge
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.force_mistakes import mistake
-from reference.scenes.trusses import truss
+from experiments.exercises.links import namespace
+from experiments.exercises.on_strings import MOON
 from reference.state import Array
 
 
 def heaviest(
-    bridge: Any, choice: str = "size", sign: float = 1.0, load: str = "m g", joints: str = "all"
+    bridge: Any,
+    choice: str = "size",
+    sign: float = 1.0,
+    told: str = "signed",
+    first: int = 0,
+    load: str = "m g",
+    joints: str = "all",
+    in_joints: str = "unit",
+    held: str = "all",
 ) -> tuple[int, float]:
     """The member with the largest force, and that force [N], tension > 0: the method of joints."""
-    unit, count = _directions(bridge), len(bridge.joints)
+    unit, count = _directions(bridge, in_joints), len(bridge.joints)
     matrix = np.zeros((2 * count, len(bridge.members) + 3))
     for j, (a, b) in enumerate(bridge.members):
         matrix[2 * a : 2 * a + 2, j] = unit[j]
         matrix[2 * b : 2 * b + 2, j] = -unit[j]
-    for j, row in enumerate((2 * bridge.pinned, 2 * bridge.pinned + 1, 2 * bridge.roller + 1)):
+    for j, row in enumerate((2 * bridge.pinned, 2 * bridge.pinned + 1, 2 * bridge.roller + (held != "turned"))):
         matrix[row, len(bridge.members) + j] = 1.0
     weights = np.zeros(2 * count)
     mass = bridge.masses if joints == "all" else bridge.masses * (bridge.joints[:, 1] == 0)
-    weights[1::2] = mass * {"m g": bridge.gravity, "m": 1.0, "m g/2": bridge.gravity / 2}[load]
-    force = np.linalg.solve(matrix, weights)[:-3]
+    g = bridge.gravity
+    weights[1::2] = {"m g": mass * g, "m": mass, "m g/2": mass * g / 2, "mean": mass.mean() * g, "m 9.81": mass * 9.81}[
+        load
+    ]
+    solve = np.linalg.solve if held != "turned" else lambda a, b: np.linalg.lstsq(a, b)[0]
+    force = solve(matrix, weights)[:-3]
     long = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
     by = {"size": np.abs(force), "tension": force, "compression": -force, "length": long, "stiffness": bridge.stiffness}
     index = int(np.argmax(by[choice]))
-    return index, float(sign * force[index])
+    found = abs(force[index]) if told == "size" else sign * force[index]
+    return index + first, float(found)
 
 
-def largest_dt(bridge: Any, factor: str = "2", rate: str = "root", mode: str = "highest", held: str = "all") -> float:
+def largest_dt(
+    bridge: Any,
+    factor: str = "2",
+    rate: str = "root",
+    mode: str = "highest",
+    held: str = "all",
+    inertia: str = "own",
+    in_stiffness: str = "unit",
+    material: str = "k",
+) -> float:
     """The largest stable dt [s] of kick-drift: 2 over the highest frequency of the bridge on its supports."""
-    unit, count = _directions(bridge), len(bridge.joints)
+    unit, count = _directions(bridge, in_stiffness), len(bridge.joints)
+    long = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
     stiffness = np.zeros((2 * count, 2 * count))
-    for (a, b), u, k in zip(bridge.members, unit, bridge.stiffness, strict=True):
+    for (a, b), u, k in zip(bridge.members, unit, bridge.stiffness / (long if material == "EA" else 1.0), strict=True):
         at = [2 * a, 2 * a + 1, 2 * b, 2 * b + 1]
         way = np.concatenate([u, -u])
         stiffness[np.ix_(at, at)] += k * np.outer(way, way)
-    supports = {"all": [0, 1, 3], "pin": [0, 1], "both pinned": [0, 1, 2, 3], "none": []}[held]
+    supports = {
+        "all": [0, 1, 3],
+        "pin": [0, 1],
+        "both pinned": [0, 1, 2, 3],
+        "none": [],
+        "turned": [0, 1, 2],
+    }[held]
     rows = [2 * bridge.pinned, 2 * bridge.pinned + 1, 2 * bridge.roller, 2 * bridge.roller + 1]
     free = np.setdiff1d(np.arange(2 * count), [rows[i] for i in supports])
-    root = np.sqrt(np.repeat(bridge.masses, 2))[free]
+    m = bridge.masses
+    masses = {"own": m, "forgotten": np.ones_like(m), "mean": np.full_like(m, m.mean())}[inertia]
+    root = np.sqrt(np.repeat(masses, 2))[free]
     squares = np.linalg.eigvalsh(stiffness[np.ix_(free, free)] / np.outer(root, root))
     square = {
         "highest": squares[-1],
@@ -56,28 +89,30 @@ def largest_dt(bridge: Any, factor: str = "2", rate: str = "root", mode: str = "
     return {"2": 2.0, "1": 1.0, "period": 2 * pi}[factor] / (sqrt(square) if rate == "root" else float(square))
 
 
-def _directions(bridge: Any) -> Array:
+def _directions(bridge: Any, length: str) -> Array:
     """Of each member, from its first joint to its second, of length 1."""
     a, b = np.asarray(bridge.members).T
     gap = bridge.joints[b] - bridge.joints[a]
-    return np.asarray(gap / np.linalg.norm(gap, axis=1)[:, None])
+    return np.asarray(gap / np.linalg.norm(gap, axis=1)[:, None] if length == "unit" else gap)
+
+
+def _slants(bridge: dict[str, Any]) -> bool:
+    """Whether the member that carries most goes from the bottom to the top."""
+    member = bridge["members"][heaviest(namespace(bridge))[0]]
+    one, other = bridge["joints"][member, 1] > 0
+    return bool(one != other)
 
 
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
-    """Warren bridges with a load of their own at every joint."""
+    """Bridges in which a member that slants carries most, and bridges in which another does."""
     asked = []
-    for panels in (3, 6, 4) if hidden else (4, 5):
-        built = truss("warren", panels, float(random.uniform(2, 4)), float(random.uniform(2, 4)))
-        bridge = {
-            "joints": built.joints,
-            "members": built.members,
-            "stiffness": random.uniform(1e7, 3e7, len(built.members)),
-            "masses": random.uniform(500, 4000, len(built.joints)),
-            "gravity": 9.81,
-            "pinned": 0,
-            "roller": panels,
-        }
-        about = f"bridge of {len(built.members)} members"
+    for i, panels in enumerate((3, 6, 4) if hidden else (4, 5)):
+        gravity = MOON if i == 1 else 9.81
+        light = (0, panels, 1)[i]
+        bridge = some_bridge(random, panels, gravity, light)
+        while _slants(bridge) != (i == 0):
+            bridge = some_bridge(random, panels, gravity, light)
+        about = f"bridge of {len(bridge['members'])} members"
         asked.append(Question("heaviest", (bridge,), ("member", "force"), about))
         asked.append(Question("largest_dt", (bridge,), ("dt",), about))
     return asked
@@ -117,6 +152,52 @@ EXERCISE = Exercise(
             "Which way does a member in tension pull its joints?",
             sign=-1.0,
         ),
+        mistake(
+            "force_without_sign",
+            "You give back the size of the force.",
+            "How does somebody see whether the member is pulled or pressed?",
+            told="size",
+        ),
+        mistake("counted_from_one", "You count members from 1.", "Which number has the first member?", first=1),
+        mistake(
+            "weights_spread_evenly",
+            "Every joint has the same load in your bridge.",
+            "Each joint has a mass of its own.",
+            load="mean",
+        ),
+        mistake(
+            "numbers_of_the_example",
+            "Your gravity is always 9.81 m/s^2.",
+            "From where do you have it? The Moon has another.",
+            load="m 9.81",
+        ),
+        mistake(
+            "mass_forgotten",
+            "There is no mass in your frequencies.",
+            "What is the unit of a stiffness, and what that of a frequency squared?",
+            inertia="forgotten",
+        ),
+        mistake(
+            "one_mass_for_all",
+            "You take the mean mass for all joints.",
+            "Each joint has a mass of its own.",
+            inertia="mean",
+        ),
+        mistake(
+            "stiffness_over_length",
+            "You divide the stiffness by the length of the member.",
+            "In which unit is the stiffness given: N, or N/m?",
+            material="EA",
+        ),
+        *(
+            mistake(
+                "not_normalised",
+                "The directions of your members are not of length 1.",
+                "How long is the vector from joint to joint?",
+                **dict.fromkeys(where, "gap"),
+            )
+            for where in (("in_joints",), ("in_stiffness",), ("in_joints", "in_stiffness"))
+        ),
         mistake("weight_without_g", "Your loads are masses, not weights.", "What is the unit of a load?", load="m"),
         mistake("half_the_weight", "Your loads are half of the weights.", "What hangs on a joint?", load="m g/2"),
         mistake(
@@ -155,6 +236,12 @@ EXERCISE = Exercise(
             "Both ends of your bridge are pinned.",
             "Which way is a roller free to move?",
             held="both pinned",
+        ),
+        mistake(
+            "roller_turned",
+            "Your roller holds sideways, and is free upwards.",
+            "Which way is a roller free to move?",
+            held="turned",
         ),
         mistake(
             "roller_free", "Nothing holds the roller of your bridge up.", "Which way does a roller hold?", held="pin"

@@ -3,7 +3,7 @@ from math import pi, sin, sqrt
 EXERCISE = 5
 SEED = "example"
 
-M, K, C, N = 0.026, 474.8, 0.229, 10
+M, K, C, N = 0.026, 474.8, 0.229, 3
 RATE = sqrt(K / M)
 
 

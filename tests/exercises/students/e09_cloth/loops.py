@@ -1,0 +1,24 @@
+EXERCISE = 9
+
+
+def springs(rows, columns):
+    pairs = []
+    for r in range(rows):
+        for c in range(columns):
+            i = r * columns + c
+            # structural
+            if c + 1 < columns:
+                pairs.append((i, i + 1))
+            if r + 1 < rows:
+                pairs.append((i, i + columns))
+            # shear
+            if r + 1 < rows and c + 1 < columns:
+                pairs.append((i, i + columns + 1))
+            if r + 1 < rows and c > 0:
+                pairs.append((i, i + columns - 1))
+            # bend
+            if c + 2 < columns:
+                pairs.append((i, i + 2))
+            if r + 2 < rows:
+                pairs.append((i, i + 2 * columns))
+    return pairs
