@@ -68,6 +68,7 @@ class Lab:
     ) -> None:
         """Another scene, at its start, with its own dt [s] or another. Raises InputError; then nothing has changed."""
         opened = open_scene(scene, settings, barrier)
+        self._predictor.forget()
         self.opened: Opened = opened
         self.own, self._dt = opened.system, opened.dt if dt is None else dt
         self.numbers: dict[str, float] = {}
@@ -79,7 +80,7 @@ class Lab:
         self._carry = 0.0
         self._grabbed = self._at = None
         self.own = self.system = self.opened.system
-        self._due = sorted(self.opened.changes, key=lambda c: c.time)
+        self._due = self._from(0.0)
         self._begin(self.opened.settings if self.opened.as_named else None, [self.own.start] * len(self._steppers))
         self._history, self.measures = History(), Measures(self._steppers)
         self._truth = Truth(self.own)
@@ -265,6 +266,11 @@ class Lab:
             return steps
         return max(1, min(steps, math.ceil((self._due[0].time - self.time) / self._dt - 1e-9)))
 
+    def _from(self, time: float) -> list[Change]:
+        """What the scene itself changes from a time on [s]."""
+        later = [change for change in self.opened.changes if change.time >= time - 1e-9 * self._dt]
+        return sorted(later, key=lambda change: change.time)
+
     def rewind(self, seconds: float) -> None:
         """Show the moment so many seconds before the last one; nothing is lost until it moves on from there."""
         moment = self._history.back(seconds)
@@ -283,6 +289,7 @@ class Lab:
         self._history.forget_after(moment)
         self.measures.forget_after(moment.clock)
         self.clock, self._grabbed, self._dt = moment.clock, moment.grabbed, moment.stretch.dt
+        self._due = self._from(moment.time)
         stretch = moment.stretch
         settings = stretch.settings
         self._begin(settings, moment.states)

@@ -50,8 +50,11 @@ class Page:
         self._thread.start()
 
     def end(self) -> None:
-        """The viewer is gone."""
+        """The viewer is gone: no more frames."""
         self._ended.set()
+
+    def wait(self) -> None:
+        """Until the last frame is done, but not for long."""
         self._thread.join(5)
 
     def do(self, action: Callable[[], None]) -> None:
@@ -80,8 +83,7 @@ class Page:
     def _open(self) -> None:
         self.stage = Stage(self._client, self._dragged, lambda mass: self.do(lambda: self._pin(mass)))
         self.controls = Controls(self._client, self)
-        self._plots: Plots | None = None
-        self._plotted: tuple[str, ...] = ()
+        self._plots = Plots(self._client, self.controls.room_for_plots)
         self.renew()
         self.lab.play()
 
@@ -110,18 +112,8 @@ class Page:
                 self.say(str(error))
 
     def _show_slow(self) -> None:
-        if self._plotted != self.lab.measures.names:
-            self._plot()
-        if self._plots is not None:
-            self._plots.show(self.lab)
+        self._plots.show(self.lab)
         self.controls.show(self.lab, self._company)
-
-    def _plot(self) -> None:
-        if self._plots is not None:
-            self._plots.remove()
-        with self.controls.room_for_plots():
-            self._plots = Plots(self._client, self.lab.measures.names)
-        self._plotted = self.lab.measures.names
 
     # What viewers do.
 
@@ -132,9 +124,11 @@ class Page:
 
     def open(self, scene: str, settings: dict[str, str] | None = None, barrier: bool | None = None) -> None:
         """Another scene, or the same with other parameters."""
-        self.lab.open(scene, settings, barrier)
-        self.renew()
-        self.lab.play()
+        try:
+            self.lab.open(scene, settings, barrier)
+            self.lab.play()
+        finally:
+            self.renew()
 
     def preset(self, slide: str) -> None:
         """One of the lecture's pictures."""

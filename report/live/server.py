@@ -71,6 +71,8 @@ class LiveServer:
             pages, self.pages = list(self.pages.values()), {}
         for page in pages:
             page.end()
+        for page in pages:
+            page.wait()
         with contextlib.redirect_stdout(io.StringIO()):
             self._server.stop()
 
@@ -79,7 +81,9 @@ class LiveServer:
         while True:
             time.sleep(3600)
 
-    def _welcome(self, client: object) -> None:
+    # Coroutines: viser runs them one after the other, so that nobody leaves before they have come.
+
+    async def _welcome(self, client: object) -> None:
         from viser import ClientHandle
 
         assert isinstance(client, ClientHandle)
@@ -89,7 +93,7 @@ class LiveServer:
                 return
             self.pages[client.client_id] = Page(client, self._scene, company(len(self.pages) + 1))
 
-    def _goodbye(self, client: object) -> None:
+    async def _goodbye(self, client: object) -> None:
         with self._lock:
             page = self.pages.pop(client.client_id, None)  # type: ignore[attr-defined]
         if page is not None:
