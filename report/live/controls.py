@@ -10,6 +10,7 @@ from experiments.advice import rounded_down
 from report.live import scenes
 from report.live.dials import Dial
 from report.live.lab import Lab
+from report.live.leaving import Leaving
 from report.live.moves import heard
 from report.live.parameters import GRAVITIES, PRESETS, sliders
 from report.live.stepping import MOST_WORLDS, choices
@@ -32,6 +33,9 @@ class Controls:
     Args:
         client: the viewer.
         page: does what is asked.
+
+    Attributes:
+        leaving: parts that go.
     """
 
     def __init__(self, client: ClientHandle, page: Page) -> None:
@@ -39,6 +43,7 @@ class Controls:
         self._dials: dict[str, Dial] = {}
         self._scene_parts: list[Any] = []
         self._suggested: float | None = None
+        self.leaving = Leaving()
         client.gui.set_panel_label("springlab live")
         client.gui.main_panel.dock_right()
         client.gui.main_panel.set_width(380)
@@ -116,8 +121,8 @@ class Controls:
 
     def renew(self, lab: Lab) -> None:
         """The scene's own parameters and dials."""
-        for part in [*self._scene_parts, *self._dials.values()]:
-            part.remove()
+        for part in [*self._scene_parts, *(part for dial in self._dials.values() for part in dial.parts)]:
+            self.leaving.hide(part)
         self._scene_parts, self._dials, self._counts = [], {}, {}
         self._scene.value = lab.opened.name
         self._barrier.value = bool(lab.own.obstacles)
@@ -253,13 +258,15 @@ def suggestion(lab: Lab) -> float | None:
 
 def status(lab: Lab, company: str) -> str:
     """Time, limits and who is looking, in sentences."""
-    said = [f"t = {lab.time:.3f} s{'' if lab.playing else ', paused'}."]
+    said = [f"{lab.opened.stem}, t = {lab.time:.3f} s{'' if lab.playing else ', paused'}."]
     for name, prediction in lab.predictions.items():
         if prediction.limit is None:
             said.append(f"{name}: {prediction.reason}.")
         else:
             part = lab.dt / prediction.limit
             said.append(f"{name}: dt is {part:.2f} of the predicted largest stable dt, {prediction.limit / MS:.4g} ms.")
+    if lab.grabbed is not None:
+        said.append(f"Mass {lab.grabbed} hangs on the cursor.")
     if lab.why_no_truth:
         said.append(f"{lab.why_no_truth[0].upper()}{lab.why_no_truth[1:]}.")
     return " ".join([*said, company])

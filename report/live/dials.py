@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from report.live.moves import Later, heard
 
@@ -66,10 +66,10 @@ class Dial:
             self._marked = wanted
             self._slider._marks = _build_slider_marks(wanted)
 
-    def remove(self) -> None:
-        """Take it away."""
-        self._number.remove()
-        self._slider.remove()
+    @property
+    def parts(self) -> tuple[Any, Any]:
+        """What it consists of."""
+        return self._number, self._slider
 
     def _move(self, value: float) -> None:
         if value == self.value:

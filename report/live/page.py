@@ -40,7 +40,7 @@ class Page:
         company: says how many viewers there are.
     """
 
-    def __init__(self, client: ClientHandle, scene: str, company: str) -> None:
+    def __init__(self, client: ClientHandle, scene: str, company: Callable[[], str]) -> None:
         self._client, self._company = client, company
         self._todo: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._ended = threading.Event()
@@ -83,7 +83,7 @@ class Page:
     def _open(self) -> None:
         self.stage = Stage(self._client, self._dragged, lambda mass: self.do(lambda: self._pin(mass)))
         self.controls = Controls(self._client, self)
-        self._plots = Plots(self._client, self.controls.room_for_plots)
+        self._plots = Plots(self._client, self.controls.room_for_plots, self.controls.leaving)
         self.renew()
         self.lab.play()
 
@@ -113,7 +113,8 @@ class Page:
 
     def _show_slow(self) -> None:
         self._plots.show(self.lab)
-        self.controls.show(self.lab, self._company)
+        self.controls.show(self.lab, self._company())
+        self.controls.leaving.remove_old()
 
     # What viewers do.
 
@@ -177,18 +178,14 @@ class Page:
                 return
             file = BytesIO()
             Image.fromarray(seen).save(file, "PNG")
-            self.download(f"{self._scene_name}.png", file.getvalue())
+            self.download(f"{self.lab.opened.stem}.png", file.getvalue())
 
         # The browser's answer may take a while: not in the thread that makes frames.
         threading.Thread(target=ask, daemon=True).start()
 
     def csv(self) -> None:
         """What was measured since the last reset."""
-        self.download(f"{self._scene_name}.csv", self.lab.measures.csv().encode())
-
-    @property
-    def _scene_name(self) -> str:
-        return self.lab.opened.name.rpartition("/")[2].removesuffix(".toml")
+        self.download(f"{self.lab.opened.stem}.csv", self.lab.measures.csv().encode())
 
     def scene_names(self) -> list[str]:
         """What can be chosen: the scenes, and the file the lab was started with."""

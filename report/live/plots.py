@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.state import Array
+from report.live.leaving import Leaving
 from report.live.stage import WORLD_COLOURS
 
 if TYPE_CHECKING:
@@ -59,10 +60,11 @@ class Plots:
     Args:
         client: the viewer.
         room: where they go.
+        leaving: takes those that are no more.
     """
 
-    def __init__(self, client: ClientHandle, room: Callable[[], AbstractContextManager[Any]]) -> None:
-        self._client, self._room = client, room
+    def __init__(self, client: ClientHandle, room: Callable[[], AbstractContextManager[Any]], leaving: Leaving) -> None:
+        self._client, self._room, self._leaving = client, room, leaving
         self._drawn: list[tuple[Drawn, Any] | None] = [None] * len(PLOTS)
         self._powers = 0
 
@@ -89,7 +91,7 @@ class Plots:
             drawn[1].data = data
             return
         if drawn is not None:
-            drawn[1].remove()
+            self._leaving.hide(drawn[1])
         self._drawn[i] = (wanted, self._plot(i, wanted, data, log)) if wanted.lines else None
 
     def _plot(self, i: int, wanted: Drawn, data: tuple[Array, ...], log: bool) -> Any:

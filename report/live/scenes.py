@@ -45,6 +45,11 @@ class Opened:
     as_named: bool = True
 
     @property
+    def stem(self) -> str:
+        """The name; of a file, without its folder."""
+        return self.name.rpartition("/")[2].removesuffix(".toml")
+
+    @property
     def driven(self) -> frozenset[str]:
         """The parameters that change all the time: nobody else can."""
         often = Counter(change.parameter for change in self.changes)

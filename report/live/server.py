@@ -91,7 +91,7 @@ class LiveServer:
             if len(self.pages) >= MOST_VIEWERS:
                 client.gui.add_markdown(FULL.format(MOST_VIEWERS))
                 return
-            self.pages[client.client_id] = Page(client, self._scene, company(len(self.pages) + 1))
+            self.pages[client.client_id] = Page(client, self._scene, lambda: company(len(self.pages)))
 
     async def _goodbye(self, client: object) -> None:
         with self._lock:
@@ -102,7 +102,8 @@ class LiveServer:
 
 def company(number: int) -> str:
     """What is said of viewers and simulations."""
-    return f"This simulation is yours alone: viewer {number} of at most {MOST_VIEWERS}, each with their own."
+    here = "you are the only viewer" if number <= 1 else f"{number} viewers are here, each with their own"
+    return f"This simulation is yours alone; {here}. At most {MOST_VIEWERS} can be."
 
 
 def check_port(host: str, port: int) -> None:

@@ -31,6 +31,9 @@ FEW = 200
 #: What the panels on both sides take of the width [px]; on screens narrower than that they cover a part of the height.
 PANELS, NARROW, COVERED = 720, 576, 0.6
 
+#: They leave at least so much [px].
+LEAST = 200
+
 
 class Stage:
     """What one viewer sees of a lab's worlds.
@@ -83,7 +86,7 @@ class Stage:
         width, height = seen.image_width, max(seen.image_height, 1)
         if self._wide is None:
             self._wide = width >= NARROW
-            width -= PANELS * (width > 2 * PANELS)
+            width -= PANELS * (width > PANELS + LEAST)
         return Window(seen.fov, width / height, 0.0 if self._wide else COVERED)
 
     def _build(self, lab: Lab) -> None:
