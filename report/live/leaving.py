@@ -11,7 +11,7 @@ from collections import deque
 from typing import Any
 
 #: By then the slowest browser has done what it was told before [s].
-LATER = 5.0
+LATER = 60.0
 
 
 class Leaving:

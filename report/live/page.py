@@ -156,7 +156,7 @@ class Page:
 
     def say(self, text: str) -> None:
         """A sentence, for a while."""
-        self._client.add_notification("springlab", html.escape(text), auto_close_seconds=8.0, color="orange")
+        self._client.add_notification("springlab", text, auto_close_seconds=8.0, color="orange")
 
     def download(self, name: str, content: bytes) -> None:
         """A file for the viewer."""

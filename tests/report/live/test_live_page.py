@@ -5,38 +5,14 @@ Every page here has asked for nothing from elsewhere, and had no error in its co
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 
 from report.live.scenes import names
-from tests.report.live.commands import ends_of
-from tests.report.live.visit import Visitor, browser, server
-
-
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Any]:
-    """One browser for all."""
-    with browser() as found:
-        yield found
-
-
-@pytest.fixture(scope="module")
-def address() -> Iterator[str]:
-    """One server for all: every viewer has a simulation of their own."""
-    with server() as (found, _):
-        yield found
-
-
-@pytest.fixture
-def visitor(chromium: Any, address: str) -> Iterator[Visitor]:
-    """A viewer."""
-    found = Visitor(chromium, address)
-    yield found
-    found.leave()
+from tests.report.live.commands import begins, ends_of
+from tests.report.live.visit import Visitor
 
 
 def test_every_scene_opens_and_moves(visitor: Visitor) -> None:
@@ -107,11 +83,3 @@ def test_a_mass_is_dragged(visitor: Visitor) -> None:
     visitor.command("compare string-live.toml ")
     visitor.press("Play", exact=True)
     visitor.wait_until(0.1)
-
-
-def begins(line: str, folder: Path) -> Any:
-    """Where the masses are in the file of a command [m]."""
-    import tomllib
-
-    name = line.split()[2]
-    return tomllib.loads((folder / name).read_text(encoding="utf-8"))["system"]["positions"]

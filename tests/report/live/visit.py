@@ -46,6 +46,8 @@ def server(*words: str) -> Iterator[tuple[str, subprocess.Popen[str]]]:
     """
     # Of one that does not end the stacks of its threads are seen.
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONFAULTHANDLER": "1"}
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        environment.pop(name, None)
     pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
     with subprocess.Popen(command_line("--port=0", *words), env=environment, **pipes) as process:
         try:
@@ -72,6 +74,14 @@ def browser() -> Iterator[Any]:
     """Chromium with WebGL."""
     with chromium(*WEBGL) as found:
         yield found
+
+
+@contextmanager
+def visit(browser: Any, address: str) -> Iterator[Visitor]:
+    """One viewer, who leaves in the end."""
+    found = Visitor(browser, address)
+    yield found
+    found.leave()
 
 
 class Visitor:
@@ -139,7 +149,12 @@ class Visitor:
 
     def value(self, label: str) -> float:
         """The number in a box."""
-        return float(self.page.get_by_label(label, exact=True).input_value())
+        return float(self.box(label).input_value())
+
+    def box(self, label: str) -> Any:
+        """The box for a number; of viser's own sliders it has no label that it knows of."""
+        row = self.page.get_by_text(label, exact=True).locator("xpath=ancestor::div[.//input][1]")
+        return row.locator("input:not([type=hidden])")
 
     def once(self, look: Callable[[], Any], seen: Callable[[Any], bool]) -> Any:
         """What is looked at again and again, once it is as it should be."""
@@ -150,11 +165,11 @@ class Visitor:
             self.page.wait_for_timeout(50)
         raise AssertionError(f"still {found}")
 
-    def scene_shown(self) -> np.ndarray:
-        """The scene's picture, as rows of colours."""
+    def scene_shown(self, part: dict[str, int] = SCENE) -> np.ndarray:
+        """A part of the page, as rows of colours."""
         from PIL import Image
 
-        picture = Image.open(BytesIO(self.page.screenshot(clip=SCENE))).convert("RGB")
+        picture = Image.open(BytesIO(self.page.screenshot(clip=part))).convert("RGB")
         return np.asarray(picture).astype(int)
 
     def last_mass(self) -> tuple[int, int]:
@@ -173,7 +188,7 @@ class Visitor:
 
     def type(self, label: str, value: float) -> None:
         """Type a number."""
-        box = self.page.get_by_label(label, exact=True)
+        box = self.box(label)
         box.fill(f"{value:.6g}")
         box.press("Enter")
 
@@ -185,6 +200,10 @@ class Visitor:
     def press(self, name: str, exact: bool = False) -> None:
         """Press a button."""
         self.page.get_by_role("button", name=name, exact=exact).click()
+
+    def press_key(self, name: str) -> None:
+        """Press a button by the keyboard, while the mouse does something else."""
+        self.page.get_by_role("button", name=name, exact=True).press("Enter")
 
     def pause(self) -> None:
         """And see that it has."""
