@@ -57,9 +57,16 @@ def camera(system: MassSpringSystem, shifts: Array, window: Window) -> tuple[Arr
     right /= np.linalg.norm(right)
     up = np.cross(back, right)
     corners = np.array(list(product(*zip(low, high, strict=True)))) - middle
-    across = np.abs(corners @ np.stack([right, up], axis=1)) / (FILLED * window.tangents)
-    distance = (across.max(axis=1) + corners @ back).max()
-    middle = middle - window.covered * distance * np.tan(window.field_of_view / 2) * up
+    near, across, upwards = (corners @ axis for axis in (back, right, up))
+    wide, high_enough = FILLED * window.tangents
+    # What is not covered has its middle at this part of half the height.
+    centre = window.covered * np.tan(window.field_of_view / 2)
+    distance = max(
+        (np.abs(across) / wide + near).max(),
+        ((upwards + near * (centre + high_enough)) / high_enough).max(),
+        ((-upwards - near * (centre - high_enough)) / high_enough).max(),
+    )
+    middle = middle - centre * distance * up
     return middle + distance * back, middle
 
 

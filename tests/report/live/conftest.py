@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from report.live.lab import Lab
 from tests.report.live.visit import Visitor, browser, server, visit
 
 
@@ -29,3 +30,12 @@ def visitor(chromium: Any, address: str) -> Iterator[Visitor]:
     """A viewer."""
     with visit(chromium, address) as found:
         yield found
+
+
+@pytest.fixture
+def labs() -> Iterator[list[Lab]]:
+    """Labs that are ended afterwards."""
+    made: list[Lab] = []
+    yield made
+    for lab in made:
+        lab.end()
