@@ -22,9 +22,11 @@ class Lab(Course):
     """Worlds on one scene, and what people do with them. See Course for how they go on."""
 
     def play(self) -> None:
-        """Go; after a blow-up, from the start."""
+        """Go; after a blow-up, from the start. What hung on the cursor in the past does not any more."""
         if any(world.stopped for world in self.worlds) and self._at is None:
             self.reset()
+        if self._at is not None:
+            self.release()
         self.playing = True
 
     def set_dt(self, dt: float) -> None:
@@ -72,8 +74,8 @@ class Lab(Course):
 
     @property
     def grabbed(self) -> int | None:
-        """The mass that hangs on the cursor."""
-        return self._grabbed
+        """The mass that hangs on the cursor; while the past is looked at, that did then."""
+        return self._grabbed if self._at is None else self._at.grabbed
 
     def grab(self, mass: int, place: Array) -> None:
         """Hang a mass on the cursor, in every world, or move the cursor it hangs on. place: [m], shape (d,)."""
@@ -89,8 +91,9 @@ class Lab(Course):
 
     def release(self) -> None:
         """Let go of the mass on the cursor."""
-        if self._grabbed is None:
+        if self.grabbed is None:
             return
+        self._go_on_from_here()
         states = [self._without_cursor(world.state) for world in self.worlds]
         self._truth.state = None if self._truth.state is None else self._without_cursor(self._truth.state)
         self._grabbed, self.system = None, self.own

@@ -72,10 +72,11 @@ class Page:
         except InputError as error:
             # The file it was started with may be gone.
             self.say(str(error))
-        except Exception:
+        except Exception as error:
             # A viewer that is gone in the middle of a frame is no error.
             if not self._ended.is_set():
                 traceback.print_exc(file=sys.stderr)
+                self.say(f"The lab has stopped here, by a mistake of its own ({error}): load the page again.")
         finally:
             if lab is not None:
                 lab.end()

@@ -90,6 +90,30 @@ def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: l
     assert apart(lab.worlds[0].state, end) == 0
 
 
+@pytest.mark.parametrize("seconds", [0.0, 0.01, 0.5])
+def test_a_mass_may_be_held_now_or_in_the_past(labs: list[Lab], seconds: float) -> None:
+    """Whenever one goes back to: what is done there is done to what was held then, and played on, nothing is."""
+    lab = open_lab(labs, "string", ["heun", "rk4"])
+    for held in (False, True, False, True):
+        if held:
+            lab.grab(5, np.array([0.6, 0.2]))
+        for _ in range(30):
+            lab.advance(2)
+        if not held:
+            continue
+        lab.rewind(seconds)
+        lab.toggle_pin(3)
+        assert lab.grabbed is None
+        lab.advance(2)
+        assert {len(world.state.positions) for world in lab.worlds} == {11}
+        lab.grab(5, np.array([0.6, 0.1]))
+        lab.advance(20)
+        lab.rewind(1e-3)
+        lab.play()
+        assert lab.grabbed is None
+        lab.advance(2)
+
+
 def test_a_limit_is_that_of_the_scene_that_is_open(labs: list[Lab]) -> None:
     """Of the one before it nothing is said, while the new one is not known yet."""
     lab = open_lab(labs, "spring")
