@@ -69,9 +69,11 @@ class Plots:
         self._powers = 0
 
     def show(self, lab: Lab) -> None:
-        """What has been measured last."""
+        """What has been measured last; after a reset, nothing."""
         times, numbers = lab.measures.last(PAST, POINTS)
         if len(times) < 2:
+            for i in range(len(PLOTS)):
+                self._hide(i)
             return
         for i, (title, place, log) in enumerate(PLOTS):
             values = numbers[:, :, place]
@@ -90,9 +92,14 @@ class Plots:
         if drawn is not None and drawn[0] == wanted:
             drawn[1].data = data
             return
+        self._hide(i)
+        if wanted.lines:
+            self._drawn[i] = (wanted, self._plot(i, wanted, data, log))
+
+    def _hide(self, i: int) -> None:
+        drawn, self._drawn[i] = self._drawn[i], None
         if drawn is not None:
             self._leaving.hide(drawn[1])
-        self._drawn[i] = (wanted, self._plot(i, wanted, data, log)) if wanted.lines else None
 
     def _plot(self, i: int, wanted: Drawn, data: tuple[Array, ...], log: bool) -> Any:
         lines = [
