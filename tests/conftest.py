@@ -23,7 +23,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--full",
         action="store_true",
-        help="Run the soak tests and the fuzz test in full: 2,000 runs, 20 kills; 1,000 files.",
+        help="Run the soak tests, the fuzz test and the live page in full: 2,000 runs, 20 kills; 1,000 files.",
     )
 
 

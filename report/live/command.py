@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 import click
@@ -20,6 +21,8 @@ def live_command(scene: str, host: str, port: int, show: bool) -> None:
     """Open a page where SCENE (a name or a TOML file) runs, and everything can be changed while it does."""
     from report.live.server import LiveServer
 
+    # To be told to end is as good as Ctrl-C: nothing is left behind.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     server = LiveServer(scene, host, port)
     try:
         if host not in LOOPBACK:

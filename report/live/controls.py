@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,8 @@ from experiments.advice import rounded_down
 from report.live import scenes
 from report.live.dials import Dial
 from report.live.lab import Lab
+from report.live.leaving import Leaving
+from report.live.moves import heard
 from report.live.parameters import GRAVITIES, PRESETS, sliders
 from report.live.stepping import MOST_WORLDS, choices
 
@@ -31,6 +33,9 @@ class Controls:
     Args:
         client: the viewer.
         page: does what is asked.
+
+    Attributes:
+        leaving: parts that go.
     """
 
     def __init__(self, client: ClientHandle, page: Page) -> None:
@@ -38,12 +43,13 @@ class Controls:
         self._dials: dict[str, Dial] = {}
         self._scene_parts: list[Any] = []
         self._suggested: float | None = None
+        self.leaving = Leaving()
         client.gui.set_panel_label("springlab live")
         client.gui.main_panel.dock_right()
         client.gui.main_panel.set_width(380)
         self._banner = client.gui.add_html("", visible=False)
         self._again = client.gui.add_button("Start again", visible=False)
-        self._again.on_click(lambda _: page.do(self._start_again))
+        self._again.on_click(self._heard(lambda _: self._start_again()))
         self._status = client.gui.add_html("")
         self._add_run()
         self._add_scene()
@@ -59,14 +65,8 @@ class Controls:
         """Where plots are to go."""
         return self._plots_tab
 
-    def _by_viewer(self, action: Callable[[], None]) -> Callable[[Any], None]:
-        """What to do when a viewer moves something; what the page sets itself is no news."""
-
-        def moved(event: Any) -> None:
-            if event.client is not None:
-                self._page.do(action)
-
-        return moved
+    def _heard(self, action: Callable[[Any], None]) -> Callable[[Any], Coroutine[Any, Any, None]]:
+        return heard(self._page.do, action)
 
     # Made once.
 
@@ -74,25 +74,25 @@ class Controls:
         gui, page = self._gui, self._page
         with gui.add_folder("Run"):
             run = gui.add_button_group("", ("Play", "Pause", "Step", "Reset"))
-            run.on_click(lambda event: page.do(lambda: self._run(event.target.value)))
+            run.on_click(self._heard(self._run))
             self._back = gui.add_slider("back [s]", min=0.0, max=10.0, step=0.05, initial_value=0.0)
-            self._back.on_update(self._by_viewer(self._rewind))
+            self._back.on_update(self._heard(lambda seconds: page.lab.rewind(seconds)))
             self._speed = Dial(
-                self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, lambda value: page.do(self._pace)
+                self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, page.do, lambda _: self._pace()
             )
             self._most = gui.add_slider("steps a frame, at most", min=1, max=2000, step=1, initial_value=1000)
-            self._most.on_update(lambda _: page.do(self._pace))
+            self._most.on_update(self._heard(lambda _: self._pace()))
 
     def _add_scene(self) -> None:
         gui, page = self._gui, self._page
         with gui.add_folder("Scene") as self._scene_folder:
             names = page.scene_names()
             self._scene = gui.add_dropdown("scene", names, initial_value=page.lab.opened.name)
-            self._scene.on_update(self._by_viewer(lambda: page.open(self._scene.value)))
+            self._scene.on_update(self._heard(page.open))
             self._barrier = gui.add_checkbox("barrier in the way", False)
-            self._barrier.on_update(self._by_viewer(self._reopen))
+            self._barrier.on_update(self._heard(lambda _: self._reopen()))
             slides = gui.add_button_group("as on slide", tuple(PRESETS))
-            slides.on_click(lambda event: page.do(lambda: page.preset(event.target.value)))
+            slides.on_click(self._heard(page.preset))
 
     def _add_worlds(self) -> None:
         gui, page = self._gui, self._page
@@ -101,28 +101,28 @@ class Controls:
             for i in range(MOST_WORLDS):
                 options = choices() if i == 0 else [NOBODY, *choices()]
                 menu = gui.add_dropdown(f"world {i + 1}", options, initial_value=options[0])
-                menu.on_update(self._by_viewer(self._choose))
+                menu.on_update(self._heard(lambda _: self._choose()))
                 self._worlds.append(menu)
             beside = gui.add_checkbox("side by side", False)
-            beside.on_update(lambda _: page.do(lambda: setattr(page.stage, "beside", beside.value)))
+            beside.on_update(self._heard(lambda on: setattr(page.stage, "beside", on)))
             true = gui.add_checkbox("true motion, grey", True)
-            true.on_update(lambda _: page.do(lambda: setattr(page.stage, "show_true", true.value)))
+            true.on_update(self._heard(lambda on: setattr(page.stage, "show_true", on)))
             gui.add_markdown("Drag a mass to pull at it, in all worlds; click it to pin it or let it go.")
 
     def _add_take_away(self) -> None:
         gui, page = self._gui, self._page
         with gui.add_folder("Take away"):
-            gui.add_button("Copy command").on_click(lambda _: page.do(self._command))
+            gui.add_button("Copy command").on_click(self._heard(lambda _: self._command()))
             self._command_text = gui.add_html("", visible=False)
-            gui.add_button("CSV of this run").on_click(lambda _: page.do(page.csv))
-            gui.add_button("Picture").on_click(lambda _: page.do(page.picture))
+            gui.add_button("CSV of this run").on_click(self._heard(lambda _: page.csv()))
+            gui.add_button("Picture").on_click(self._heard(lambda _: page.picture()))
 
     # Made anew with every scene.
 
     def renew(self, lab: Lab) -> None:
         """The scene's own parameters and dials."""
-        for part in [*self._scene_parts, *self._dials.values()]:
-            part.remove()
+        for part in [*self._scene_parts, *(part for dial in self._dials.values() for part in dial.parts)]:
+            self.leaving.hide(part)
         self._scene_parts, self._dials, self._counts = [], {}, {}
         self._scene.value = lab.opened.name
         self._barrier.value = bool(lab.own.obstacles)
@@ -136,7 +136,7 @@ class Controls:
                     self._gui.add_dropdown(name, words, initial_value=lab.opened.settings.get(name, words[0]))
                 )
             for part in self._counts.values():
-                part.on_update(self._by_viewer(self._reopen))
+                part.on_update(self._heard(lambda _: self._reopen()))
         with self._parameters:
             self._add_dials(lab)
         for i, menu in enumerate(self._worlds):
@@ -150,13 +150,16 @@ class Controls:
         page = self._page
         dt = lab.dt / MS
         self._dials["dt"] = Dial(
-            self._client, "dt [ms]", dt, dt / 100, dt * 100, lambda v: page.do(lambda: page.lab.set_dt(v * MS))
+            self._client, "dt [ms]", dt, dt / 100, dt * 100, page.do, lambda value: page.lab.set_dt(value * MS)
         )
-        for slider in sliders(lab.opened.system):
+        driven = lab.opened.driven
+        if driven:
+            self._keep(self._gui.add_markdown(f"The scene itself changes {' and '.join(sorted(driven))}."))
+        for slider in (slider for slider in sliders(lab.opened.system) if slider.name not in driven):
             label = f"{slider.name.replace('_', ' ')} [{slider.unit or 'times its own'}]"
 
             def move(value: float, name: str = slider.name) -> None:
-                page.do(lambda: page.lab.set_parameter(name, value))
+                page.lab.set_parameter(name, value)
 
             self._dials[slider.name] = Dial(
                 self._client,
@@ -164,13 +167,14 @@ class Controls:
                 lab.numbers.get(slider.name, slider.value),
                 slider.low,
                 slider.high,
+                page.do,
                 move,
                 zero=slider.zero,
                 linear=slider.name == "gravity" and bool(slider.unit),
             )
             if slider.name == "gravity" and slider.unit:
                 places = self._keep(self._gui.add_button_group("as on", tuple(GRAVITIES)))
-                places.on_click(lambda event: page.do(lambda: self._gravity(event.target.value)))
+                places.on_click(self._heard(self._gravity))
 
     # Shown some times in a second.
 
@@ -206,9 +210,6 @@ class Controls:
             lab.advance(1)
         else:
             lab.reset()
-
-    def _rewind(self) -> None:
-        self._page.lab.rewind(self._back.value)
 
     def _pace(self) -> None:
         self._page.lab.speed = max(self._speed.value, 1e-6)
@@ -257,13 +258,15 @@ def suggestion(lab: Lab) -> float | None:
 
 def status(lab: Lab, company: str) -> str:
     """Time, limits and who is looking, in sentences."""
-    said = [f"t = {lab.time:.3f} s{'' if lab.playing else ', paused'}."]
+    said = [f"{lab.opened.stem}, t = {lab.time:.3f} s{'' if lab.playing else ', paused'}."]
     for name, prediction in lab.predictions.items():
         if prediction.limit is None:
             said.append(f"{name}: {prediction.reason}.")
         else:
             part = lab.dt / prediction.limit
             said.append(f"{name}: dt is {part:.2f} of the predicted largest stable dt, {prediction.limit / MS:.4g} ms.")
+    if lab.grabbed is not None:
+        said.append(f"Mass {lab.grabbed} hangs on the cursor.")
     if lab.why_no_truth:
         said.append(f"{lab.why_no_truth[0].upper()}{lab.why_no_truth[1:]}.")
     return " ".join([*said, company])

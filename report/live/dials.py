@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from report.live.moves import Later, heard
+
 if TYPE_CHECKING:
     from viser import ClientHandle
 
@@ -21,7 +23,8 @@ class Dial:
         label: with the unit.
         value: to begin with.
         low, high: the ends of the slider, both > 0; what is typed may lie beyond.
-        on_move: told of every new number.
+        later: has what is to be done done between two frames.
+        on_move: told of every new number then. What it refuses with an InputError is put back.
         zero: whether the left end of the slider means 0.
         linear: whether the slider is not logarithmic; then it goes from 0.
     """
@@ -33,6 +36,7 @@ class Dial:
         value: float,
         low: float,
         high: float,
+        later: Later,
         on_move: Callable[[float], None],
         zero: bool = False,
         linear: bool = False,
@@ -44,15 +48,14 @@ class Dial:
         self._slider = client.gui.add_multi_slider(
             " ", min=0, max=STEPS, step=1, initial_value=(self._place(value),), marks=self._marks(())
         )
-        self._number.on_update(lambda event: self._typed(event))
-        self._slider.on_update(lambda event: self._slid(event))
+        self._number.on_update(heard(later, lambda value: self._move(float(value))))
+        self._slider.on_update(heard(later, lambda places: self._move(self._value(places[0]))))
 
     def show(self, value: float) -> None:
         """Another value, without telling of it."""
         if value != self.value:
             self.value = value
-            self._number.value = value
-            self._slider.value = (self._place(value),)
+            self._put()
 
     def mark(self, marks: Sequence[tuple[float, str]]) -> None:
         """Say something at some values, such as where the limit is."""
@@ -63,26 +66,23 @@ class Dial:
             self._marked = wanted
             self._slider._marks = _build_slider_marks(wanted)
 
-    def remove(self) -> None:
-        """Take it away."""
-        self._number.remove()
-        self._slider.remove()
+    @property
+    def parts(self) -> tuple[Any, Any]:
+        """What it consists of."""
+        return self._number, self._slider
 
-    def _typed(self, event: Any) -> None:
-        # What the page itself has set comes back without a client.
-        if event.client is not None and self._number.value != self.value:
-            self.value = float(self._number.value)
-            self._slider.value = (self._place(self.value),)
-            self._on_move(self.value)
-
-    def _slid(self, event: Any) -> None:
-        if event.client is None:
+    def _move(self, value: float) -> None:
+        if value == self.value:
             return
-        value = self._value(self._slider.value[0])
-        if value != self.value:
-            self.value = value
-            self._number.value = value
+        try:
             self._on_move(value)
+            self.value = value
+        finally:
+            self._put()
+
+    def _put(self) -> None:
+        self._number.value = self.value
+        self._slider.value = (self._place(self.value),)
 
     def _place(self, value: float) -> int:
         if self._linear:
@@ -112,7 +112,10 @@ class Dial:
 def short(number: float) -> str:
     """A number in two figures.
 
-    >>> short(104.0), short(0.00125), short(2e7)
-    ('100', '0.0013', '2e7')
+    >>> short(104.0), short(0.00125), short(2e7), short(2.5e-5)
+    ('100', '0.0013', '2e7', '2.5e-5')
     """
-    return f"{float(f'{number:.2g}'):g}".replace("e+0", "e")
+    rounded = float(f"{number:.2g}")
+    if 1e-3 <= rounded < 1e4:
+        return f"{rounded:g}"
+    return f"{rounded:.1e}".replace(".0e", "e").replace("e+0", "e").replace("e-0", "e-")

@@ -1,125 +1,33 @@
-"""The live lab without a page: worlds side by side on one scene, in step, everything to be changed while they move."""
+"""The live lab without a page: worlds side by side on one scene, everything to be changed while they move."""
 
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from reference.changes import Change
 from reference.errors import InputError
 from reference.state import Array, State
-from reference.system import FIELDS, Value
+from report.live.course import Course
 from report.live.cursor import at_rest_where_fixed, hook, on_hook, pinned, with_cursor, without_last
-from report.live.history import History, Moment
+from report.live.history import History
 from report.live.measures import Measures
 from report.live.parameters import own_value
-from report.live.prediction import Prediction, Predictor
-from report.live.reproduction import Reproduction, Stretch, reproduction
-from report.live.scenes import Opened, open_scene
+from report.live.reproduction import Reproduction, reproduction
 from report.live.stepping import checked
-from report.live.truth import Truth
-from report.live.world import World, ending
-
-#: All worlds together may take so long for a frame [s]; then the lab goes slower than asked.
-BUDGET = 0.03
 
 
-class Lab:
-    """Worlds on one scene. Not for several threads at once: whoever shows it asks it frame by frame.
+class Lab(Course):
+    """Worlds on one scene, and what people do with them. See Course for how they go on."""
 
-    Args:
-        scene: a name or a file.
-        steppers: one for each world.
-        settings: parameters of the scene set otherwise.
-
-    Attributes:
-        playing: whether frames advance.
-        speed: seconds of the scene in a second.
-        most_steps: no more in a frame.
-        notice: what the last blow-up or failure was; empty where there was none.
-        numbers: of parameters that were moved since the scene was opened.
-    """
-
-    def __init__(
-        self,
-        scene: str = "string",
-        steppers: Sequence[str] = ("kick_drift",),
-        settings: Mapping[str, str] | None = None,
-    ) -> None:
-        self.playing, self.speed, self.most_steps, self.notice = False, 1.0, 1000, ""
-        self.worlds: list[World] = []
-        self._grabbed: int | None = None
-        self._at: Moment | None = None
-        self._predictor = Predictor()
-        self._steppers = checked(steppers)
-        self.open(scene, settings)
-
-    # Scenes.
-
-    def open(
-        self,
-        scene: str,
-        settings: Mapping[str, str] | None = None,
-        barrier: bool | None = None,
-        dt: float | None = None,
-    ) -> None:
-        """Another scene, at its start, with its own dt [s] or another. Raises InputError; then nothing has changed."""
-        opened = open_scene(scene, settings, barrier)
-        self.opened: Opened = opened
-        self.own, self._dt = opened.system, opened.dt if dt is None else dt
-        self.numbers: dict[str, float] = {}
-        self.reset()
-
-    def reset(self) -> None:
-        """Back to the scene's start, with the parameters as they are now."""
-        self.clock = self.time = 0.0
-        self._carry = 0.0
-        self._grabbed = self._at = None
-        self.own = self.system = self.opened.system
-        self._due = sorted(self.opened.changes, key=lambda c: c.time)
-        self._begin(self.opened.settings if self.opened.as_named else None, [self.own.start] * len(self._steppers))
-        self._history, self.measures = History(), Measures(self._steppers)
-        self._truth = Truth(self.own)
-        for name, number in self.numbers.items():
-            self._change(name, own_value(self.opened.system, name, number))
-        self._ask()
-        self._record()
-
-    def _begin(self, settings: Mapping[str, str] | None, states: Sequence[State]) -> None:
-        """A stretch of its own, from these states; worlds that had stopped try again."""
-        self.notice = ""
-        for world in self.worlds[len(self._steppers) :]:
-            world.end()
-        del self.worlds[len(self._steppers) :]
-        for i, (name, state) in enumerate(zip(self._steppers, states, strict=True)):
-            if i < len(self.worlds):
-                self.worlds[i].name = name
-                self.worlds[i].restart(self.system, state, self._dt, self.own)
-            else:
-                self.worlds.append(World(name, self.system, state, self._dt))
-        begin = tuple(states)
-        self.stretch = Stretch(self.opened.name, settings, self.system, self._steppers, begin, self._dt)
-        for world in self.worlds:
-            self._tell(world)
-
-    def _again(self) -> None:
-        """A new stretch from where everything is; one that has not moved yet can still be named."""
-        fresh = self.time == 0 and self.stretch.steps == 0 and self.stretch.settings is not None
-        if fresh and self._grabbed is None and self.own.fixed is self.opened.system.fixed:
+    def play(self) -> None:
+        """Go; after a blow-up, from the start. What hung on the cursor in the past does not any more."""
+        if any(world.stopped for world in self.worlds) and self._at is None:
             self.reset()
-            return
-        self._begin(None, [at_rest_where_fixed(self.system, world.state) for world in self.worlds])
-        self._ask()
-
-    # What can be changed.
-
-    @property
-    def dt(self) -> float:
-        """The step [s]."""
-        return self._dt
+        if self._at is not None:
+            self.release()
+        self.playing = True
 
     def set_dt(self, dt: float) -> None:
         """Another step [s]; the motion goes on. Raises InputError unless it is a number > 0."""
@@ -143,20 +51,6 @@ class Lab:
         self._change(name, value)
         self._ask()
 
-    def _change(self, name: str, value: Value) -> None:
-        self.own = self.own.with_parameter(name, value)
-        if self._grabbed is not None and name in ("mass", "rest_length", "stiffness", "damping"):
-            value = self._for_all_but_the_cursor(name)
-        self.system = self.system.with_parameter(name, value)
-        self.stretch = self.stretch.with_change(name, value)
-        for world in self.worlds:
-            world.change(name, value, self.system)
-            self._tell(world)
-
-    def _for_all_but_the_cursor(self, name: str) -> Value:
-        field = FIELDS.get(name, name)
-        return (*getattr(self.own, field).tolist(), float(getattr(self.system, field)[-1]))
-
     def set_steppers(self, names: Sequence[str]) -> None:
         """Another stepper goes on where the one before it was; a new world begins where the first one is.
 
@@ -178,12 +72,10 @@ class Lab:
         self._ask()
         self._record()
 
-    # The mouse.
-
     @property
     def grabbed(self) -> int | None:
-        """The mass that hangs on the cursor."""
-        return self._grabbed
+        """The mass that hangs on the cursor; while the past is looked at, that did then."""
+        return self._grabbed if self._at is None else self._at.grabbed
 
     def grab(self, mass: int, place: Array) -> None:
         """Hang a mass on the cursor, in every world, or move the cursor it hangs on. place: [m], shape (d,)."""
@@ -199,8 +91,9 @@ class Lab:
 
     def release(self) -> None:
         """Let go of the mass on the cursor."""
-        if self._grabbed is None:
+        if self.grabbed is None:
             return
+        self._go_on_from_here()
         states = [self._without_cursor(world.state) for world in self.worlds]
         self._truth.state = None if self._truth.state is None else self._without_cursor(self._truth.state)
         self._grabbed, self.system = None, self.own
@@ -220,130 +113,6 @@ class Lab:
     def _without_cursor(self, state: State) -> State:
         return state if self._grabbed is None else without_last(state)
 
-    # Time.
-
-    def frame(self, elapsed: float) -> None:
-        """So many seconds have passed [s]: as many steps as they are worth, or as can be done."""
-        if not self.playing:
-            return
-        self._go_on_from_here()
-        wanted = self.speed * elapsed + self._carry
-        steps = min(int(wanted / self._dt + 1e-9), self.most_steps)
-        self._carry = min(wanted - steps * self._dt, self._dt)
-        if steps:
-            self.advance(steps, BUDGET)
-
-    def advance(self, steps: int, budget: float = math.inf) -> None:
-        """So many steps in every world, or as many as fit into a budget [s]."""
-        self._go_on_from_here()
-        deadline = time.perf_counter() + budget
-        left, chunk = steps, 1 if math.isfinite(budget) else steps
-        begin = time.perf_counter()
-        while left and not self.notice:
-            now = self._until_due(min(left, chunk))
-            for world in self.worlds:
-                world.advance(now)
-            self._truth.advance(self.system, now * self._dt)
-            self.stretch = self.stretch.after(now)
-            self.time += now * self._dt
-            left -= now
-            for world in self.worlds:
-                self._tell(world)
-            if time.perf_counter() > deadline:
-                break
-            # twice as many at a time as long as they are quick
-            chunk = min(2 * chunk, max(1, steps))
-        self.clock += max(time.perf_counter() - begin, (steps - left) * self._dt / max(self.speed, 1e-9))
-        self._record()
-
-    def _until_due(self, steps: int) -> int:
-        """Make the changes that are due now; how many steps there are until the next."""
-        while self._due and self._due[0].time <= self.time + 1e-9 * self._dt:
-            change: Change = self._due.pop(0)
-            self._change(change.parameter, change.value)
-        if not self._due:
-            return steps
-        return max(1, min(steps, math.ceil((self._due[0].time - self.time) / self._dt - 1e-9)))
-
-    def rewind(self, seconds: float) -> None:
-        """Show the moment so many seconds before the last one; nothing is lost until it moves on from there."""
-        moment = self._history.back(seconds)
-        if moment is None:
-            return
-        self.playing, self.notice, self._at = False, "", moment
-        for world, state in zip(self.worlds, moment.states, strict=True):
-            world.state = state
-        self.time, self.own, self.system, self._truth.state = moment.time, moment.own, moment.system, moment.true
-
-    def _go_on_from_here(self) -> None:
-        """If the past is being looked at, it is now the present."""
-        moment, self._at = self._at, None
-        if moment is None:
-            return
-        self._history.forget_after(moment)
-        self.measures.forget_after(moment.clock)
-        self.clock, self._grabbed, self._dt = moment.clock, moment.grabbed, moment.stretch.dt
-        stretch = moment.stretch
-        settings = stretch.settings
-        self._begin(settings, moment.states)
-        self.stretch = stretch
-        self._ask()
-
-    @property
-    def rewindable(self) -> float:
-        """How far back one can go [s]."""
-        return self._history.seconds
-
-    def play(self) -> None:
-        """Go; after a blow-up, from the start."""
-        if any(world.stopped for world in self.worlds) and self._at is None:
-            self.reset()
-        self.playing = True
-
-    # What is known.
-
-    @property
-    def true(self) -> State | None:
-        """Where it truly is; None where that is not followed."""
-        return self._truth.state
-
-    @property
-    def why_no_truth(self) -> str:
-        """Why it is not followed; empty where it is."""
-        return self._truth.why_not
-
-    @property
-    def predictions(self) -> Mapping[str, Prediction]:
-        """By stepper, for the parameters last answered for."""
-        return self._predictor.found
-
-    def wait_for_predictions(self, seconds: float = 10.0) -> None:
-        """Until the predictions are those for the parameters there are now."""
-        self._predictor.wait(seconds)
-
     def reproduction(self) -> Reproduction:
         """The commands that come to what is seen."""
         return reproduction(self._at.stretch if self._at else self.stretch)
-
-    def end(self) -> None:
-        """Let go of processes and threads."""
-        self._predictor.end()
-        for world in self.worlds:
-            world.end()
-
-    def _ask(self) -> None:
-        self._predictor.ask(self._steppers, self.own, self._dt)
-
-    def _tell(self, world: World) -> None:
-        """Of a world that has stopped just now, once: then everything pauses."""
-        if world.stopped and not world.told:
-            world.told = True
-            self.playing = False
-            self.notice = " ".join(filter(None, [self.notice, ending(world, self._dt, self.predictions)]))
-
-    def _record(self) -> None:
-        self.measures.take(self.clock, self.time, self.worlds, self._truth.state, self.own)
-        states = tuple(world.state for world in self.worlds)
-        self._history.keep(
-            Moment(self.clock, self.time, self.own, self.system, states, self._truth.state, self.stretch, self._grabbed)
-        )

@@ -27,6 +27,7 @@ class Measures:
     def __init__(self, names: Sequence[str]) -> None:
         self.names = tuple(names)
         self._rows: deque[tuple[float, ...]] = deque(maxlen=FRAMES)
+        self._first: tuple[float, ...] = ()
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -46,6 +47,12 @@ class Measures:
             row.append(float(np.linalg.norm(momentum(own, state) - right_momentum)) if known else np.nan)
             row.append(distance(state, right) if known else np.nan)
         self._rows.append(tuple(row))
+        self._first = self._first or self._rows[0]
+
+    @property
+    def begin(self) -> Array:
+        """The three numbers of each world in the very first row, shape (worlds, 3)."""
+        return np.array(self._first[2:]).reshape(-1, 3)
 
     def forget_after(self, clock: float) -> None:
         """What came after has not happened."""

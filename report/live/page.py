@@ -40,7 +40,7 @@ class Page:
         company: says how many viewers there are.
     """
 
-    def __init__(self, client: ClientHandle, scene: str, company: str) -> None:
+    def __init__(self, client: ClientHandle, scene: str, company: Callable[[], str]) -> None:
         self._client, self._company = client, company
         self._todo: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._ended = threading.Event()
@@ -50,8 +50,11 @@ class Page:
         self._thread.start()
 
     def end(self) -> None:
-        """The viewer is gone."""
+        """The viewer is gone: no more frames."""
         self._ended.set()
+
+    def wait(self) -> None:
+        """Until the last frame is done, but not for long."""
         self._thread.join(5)
 
     def do(self, action: Callable[[], None]) -> None:
@@ -69,10 +72,11 @@ class Page:
         except InputError as error:
             # The file it was started with may be gone.
             self.say(str(error))
-        except Exception:
+        except Exception as error:
             # A viewer that is gone in the middle of a frame is no error.
             if not self._ended.is_set():
                 traceback.print_exc(file=sys.stderr)
+                self.say(f"The lab has stopped here, by a mistake of its own ({error}): load the page again.")
         finally:
             if lab is not None:
                 lab.end()
@@ -80,8 +84,7 @@ class Page:
     def _open(self) -> None:
         self.stage = Stage(self._client, self._dragged, lambda mass: self.do(lambda: self._pin(mass)))
         self.controls = Controls(self._client, self)
-        self._plots: Plots | None = None
-        self._plotted: tuple[str, ...] = ()
+        self._plots = Plots(self._client, self.controls.room_for_plots, self.controls.leaving)
         self.renew()
         self.lab.play()
 
@@ -110,18 +113,9 @@ class Page:
                 self.say(str(error))
 
     def _show_slow(self) -> None:
-        if self._plotted != self.lab.measures.names:
-            self._plot()
-        if self._plots is not None:
-            self._plots.show(self.lab)
-        self.controls.show(self.lab, self._company)
-
-    def _plot(self) -> None:
-        if self._plots is not None:
-            self._plots.remove()
-        with self.controls.room_for_plots():
-            self._plots = Plots(self._client, self.lab.measures.names)
-        self._plotted = self.lab.measures.names
+        self._plots.show(self.lab)
+        self.controls.show(self.lab, self._company())
+        self.controls.leaving.remove_old()
 
     # What viewers do.
 
@@ -132,9 +126,11 @@ class Page:
 
     def open(self, scene: str, settings: dict[str, str] | None = None, barrier: bool | None = None) -> None:
         """Another scene, or the same with other parameters."""
-        self.lab.open(scene, settings, barrier)
-        self.renew()
-        self.lab.play()
+        try:
+            self.lab.open(scene, settings, barrier)
+            self.lab.play()
+        finally:
+            self.renew()
 
     def preset(self, slide: str) -> None:
         """One of the lecture's pictures."""
@@ -161,7 +157,7 @@ class Page:
 
     def say(self, text: str) -> None:
         """A sentence, for a while."""
-        self._client.add_notification("springlab", html.escape(text), auto_close_seconds=8.0, color="orange")
+        self._client.add_notification("springlab", text, auto_close_seconds=8.0, color="orange")
 
     def download(self, name: str, content: bytes) -> None:
         """A file for the viewer."""
@@ -183,18 +179,14 @@ class Page:
                 return
             file = BytesIO()
             Image.fromarray(seen).save(file, "PNG")
-            self.download(f"{self._scene_name}.png", file.getvalue())
+            self.download(f"{self.lab.opened.stem}.png", file.getvalue())
 
         # The browser's answer may take a while: not in the thread that makes frames.
         threading.Thread(target=ask, daemon=True).start()
 
     def csv(self) -> None:
         """What was measured since the last reset."""
-        self.download(f"{self._scene_name}.csv", self.lab.measures.csv().encode())
-
-    @property
-    def _scene_name(self) -> str:
-        return self.lab.opened.name.rpartition("/")[2].removesuffix(".toml")
+        self.download(f"{self.lab.opened.stem}.csv", self.lab.measures.csv().encode())
 
     def scene_names(self) -> list[str]:
         """What can be chosen: the scenes, and the file the lab was started with."""

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reference.state import Array
+from report.live.leaving import Leaving
 from report.live.stage import WORLD_COLOURS
 
 if TYPE_CHECKING:
@@ -14,12 +18,15 @@ if TYPE_CHECKING:
 
     from report.live.lab import Lab
 
-#: What is shown: its title, its place among the measures, and whether it is its logarithm.
+#: What is shown: its title with its unit, its place among the measures, and whether it is its logarithm.
 PLOTS = (
-    ("energy [J]", 0, False),
+    ("energy gained since the start [{}J]", 0, False),
     ("momentum, off the true one's: log10 of kg m/s", 1, True),
     ("distance from the true motion: log10 of m", 2, True),
 )
+
+#: Parts and multiples of a unit, so that the numbers of an axis have few figures.
+PREFIXES = {-12: "p", -9: "n", -6: "\N{MICRO SIGN}", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
 #: So much of the past [s], and so many points of it.
 PAST, POINTS = 10.0, 240
@@ -30,44 +37,107 @@ LEAST = 1e-16
 #: Dashes tell the worlds apart without colours.
 DASHES = ((), (8, 4), (2, 3), (8, 3, 2, 3))
 
+#: An axis that has its zero, for uPlot: ticks a little apart, far from zero, would all read the same.
+WITH_ZERO = {"pad": 0.1, "soft": 0, "mode": 1}
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """What a plot consists of. One that is to consist of something else is made anew.
+
+    Attributes:
+        title: with the unit.
+        lines: the numbers of the worlds it has lines for, and their names.
+    """
+
+    title: str
+    lines: tuple[tuple[int, str], ...]
+
 
 class Plots:
-    """Three plots, where the client's panels are just now.
+    """As many plots as there is something to see in.
 
     Args:
         client: the viewer.
-        names: of the steppers, one for each world.
+        room: where they go.
+        leaving: takes those that are no more.
     """
 
-    def __init__(self, client: ClientHandle, names: Sequence[str]) -> None:
-        self._handles = [self._plot(client, names, title) for title, _, _ in PLOTS]
-
-    def _plot(self, client: ClientHandle, names: Sequence[str], title: str) -> Any:
-        nothing = np.array([0.0, 1.0])
-        colours = [f"rgb{WORLD_COLOURS[i]}" for i in range(len(names))]
-        lines = [
-            {"label": name, "stroke": colours[i], "width": 2, "dash": DASHES[i], "spanGaps": False}
-            for i, name in enumerate(names)
-        ]
-        return client.gui.add_uplot(
-            data=(nothing, *(np.zeros(2) for _ in names)),
-            series=({"label": "t [s]"}, *lines),
-            scales={"x": {"time": False}},
-            axes=({"label": "t [s]", "size": 36, "labelSize": 16}, {"size": 66}),
-            title=title,
-            height=190,
-        )
+    def __init__(self, client: ClientHandle, room: Callable[[], AbstractContextManager[Any]], leaving: Leaving) -> None:
+        self._client, self._room, self._leaving = client, room, leaving
+        self._drawn: list[tuple[Drawn, Any] | None] = [None] * len(PLOTS)
+        self._powers = 0
 
     def show(self, lab: Lab) -> None:
-        """What has been measured last."""
+        """What has been measured last; after a reset, nothing."""
         times, numbers = lab.measures.last(PAST, POINTS)
         if len(times) < 2:
+            for i in range(len(PLOTS)):
+                self._hide(i)
             return
-        for handle, (_, place, log) in zip(self._handles, PLOTS, strict=True):
-            values = [numbers[:, i, place] for i in range(numbers.shape[1])]
-            handle.data = (times, *(np.log10(np.maximum(v, LEAST)) if log else v for v in values))
+        for i, (title, place, log) in enumerate(PLOTS):
+            values = numbers[:, :, place]
+            if log:
+                values = logarithms(values)
+            else:
+                values = values - lab.measures.begin[:, place]
+                self._powers = power(values, self._powers)
+                values = values / 10.0**self._powers
+            known = np.flatnonzero(np.isfinite(values).any(axis=0)).tolist()
+            wanted = Drawn(title.format(PREFIXES[self._powers]), tuple((k, lab.measures.names[k]) for k in known))
+            self._show(i, wanted, (times, *np.ascontiguousarray(values.T[known])), log)
 
-    def remove(self) -> None:
-        """Take them away."""
-        for handle in self._handles:
-            handle.remove()
+    def _show(self, i: int, wanted: Drawn, data: tuple[Array, ...], log: bool) -> None:
+        drawn = self._drawn[i]
+        if drawn is not None and drawn[0] == wanted:
+            drawn[1].data = data
+            return
+        self._hide(i)
+        if wanted.lines:
+            self._drawn[i] = (wanted, self._plot(i, wanted, data, log))
+
+    def _hide(self, i: int) -> None:
+        drawn, self._drawn[i] = self._drawn[i], None
+        if drawn is not None:
+            self._leaving.hide(drawn[1])
+
+    def _plot(self, i: int, wanted: Drawn, data: tuple[Array, ...], log: bool) -> Any:
+        lines = [
+            {
+                "label": name,
+                "stroke": f"rgb{WORLD_COLOURS[world]}",
+                "width": 2,
+                "dash": DASHES[world],
+                "points": {"show": False},
+            }
+            for world, name in wanted.lines
+        ]
+        scales: dict[str, Any] = {"x": {"time": False}}
+        if not log:
+            scales["y"] = {"range": {"min": WITH_ZERO, "max": WITH_ZERO}}
+        with self._room():
+            return self._client.gui.add_uplot(
+                data=data,
+                series=({"label": "t [s]"}, *lines),
+                scales=scales,
+                axes=({"label": "t [s]", "size": 36, "labelSize": 16}, {"size": 54}),
+                legend={"live": False},
+                title=wanted.title,
+                height=190,
+                padding=(12, 24, 0, 0),
+                order=float(i),
+            )
+
+
+def logarithms(values: Array) -> Array:
+    """To base ten; nothing but rounding is as small as the smallest that is more. Where unknown, no number."""
+    more = values[values > LEAST]
+    return np.log10(np.maximum(values, more.min(initial=1.0)))
+
+
+def power(values: Array, now: int) -> int:
+    """The power of ten to divide by for the largest to have at most three figures; as it is now, if that will do."""
+    most = float(np.abs(values).max(initial=0.0, where=np.isfinite(values)))
+    if 0.2 * 10.0**now <= most < 1000 * 10.0**now:
+        return now
+    return next((p for p in PREFIXES if most < 1000 * 10.0**p), max(PREFIXES))

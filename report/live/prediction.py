@@ -122,7 +122,7 @@ class Predictor:
         self.found: Mapping[str, Prediction] = {}
         self._question: tuple[tuple[str, ...], MassSpringSystem, float] | None = None
         self._asked = threading.Condition()
-        self._busy = self._ended = False
+        self._busy = self._ended = self._stale = False
         threading.Thread(target=self._answer, daemon=True).start()
 
     def ask(self, names: Sequence[str], system: MassSpringSystem, dt: float) -> None:
@@ -130,6 +130,11 @@ class Predictor:
         with self._asked:
             self._question = (tuple(names), system, dt)
             self._asked.notify_all()
+
+    def forget(self) -> None:
+        """Another system comes: what is known, or is just being found out, is not of that one."""
+        with self._asked:
+            self.found, self._question, self._stale = {}, None, self._busy
 
     def wait(self, seconds: float) -> None:
         """Until the last question is answered, but not longer than that."""
@@ -152,5 +157,7 @@ class Predictor:
                 self._question, self._busy = None, True
             found = {name: predict(name, system, dt) for name in dict.fromkeys(names)}
             with self._asked:
-                self.found, self._busy = found, False
+                if not self._stale:
+                    self.found = found
+                self._busy = self._stale = False
                 self._asked.notify_all()

@@ -21,6 +21,12 @@ from reference.system import MassSpringSystem, Value
 #: More changes than these, or longer ones, are put into a scene file: nobody wants them on one line.
 ON_ONE_LINE = 12
 
+#: Why there is a file.
+SINCE = (
+    "From the last thing on a command cannot say (another dt or stepper, a mass dragged or pinned, a barrier, what the "
+    "scene changes itself); the state at that time is in the file."
+)
+
 
 @dataclass(frozen=True, eq=False)
 class Stretch:
@@ -52,8 +58,11 @@ class Stretch:
 
     def with_change(self, parameter: str, value: Value) -> Stretch:
         """The same with a change now; a change of the same parameter since the last step is undone by it."""
-        kept = tuple(c for c in self.changes if c[:2] != (self.steps, parameter))
-        return replace(self, changes=(*kept, (self.steps, parameter, value)))
+        before = len(self.changes)
+        while before and self.changes[before - 1][0] == self.steps:
+            before -= 1
+        now = tuple(change for change in self.changes[before:] if change[1] != parameter)
+        return replace(self, changes=(*self.changes[:before], *now, (self.steps, parameter, value)))
 
 
 @dataclass(frozen=True)
@@ -96,8 +105,7 @@ def reproduction(stretch: Stretch) -> Reproduction:
         file = f"{stem}-live{'' if len(groups) == 1 else f'-{i + 1}'}.toml"
         files[file] = written_out(stretch.system, state) + _changes(changes)
         commands.append(_command(stretch, file, tuple(names)))
-    since = "From the last thing on a command cannot say (dt, a mass dragged or pinned, another stepper); the state at "
-    return Reproduction(tuple(commands), files, f"{since}that time is in the file. {note}".strip())
+    return Reproduction(tuple(commands), files, f"{SINCE} {note}".strip())
 
 
 def _command(stretch: Stretch, scene: str, steppers: tuple[str, ...], more: list[str] | None = None) -> str:

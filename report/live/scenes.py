@@ -1,7 +1,8 @@
-"""What the live lab can show: the scenes nothing drives, a file of one's own, each with a barrier or without."""
+"""What the live lab can show: every scene, or a file of one's own, each with a barrier or without."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -18,6 +19,9 @@ MOST_MASSES = 5_000
 #: A barrier's radius, and how far it is below the lowest mass, as parts of the system's size: for the default string
 #: the circle of the scene `barrier`.
 RADIUS, BELOW = 0.24, 0.2
+
+#: For so long a truck or the ground is followed [s]; what has changed so often is driven, and not only changed.
+FOLLOWED, OFTEN = 30.0, 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,10 +44,21 @@ class Opened:
     changes: tuple[Change, ...] = ()
     as_named: bool = True
 
+    @property
+    def stem(self) -> str:
+        """The name; of a file, without its folder."""
+        return self.name.rpartition("/")[2].removesuffix(".toml")
+
+    @property
+    def driven(self) -> frozenset[str]:
+        """The parameters that change all the time: nobody else can."""
+        often = Counter(change.parameter for change in self.changes)
+        return frozenset(name for name, count in often.items() if count > OFTEN)
+
 
 def names() -> list[str]:
-    """The scenes there are: those that a truck or the ground drives all the time are left to `compare`."""
-    return [s.name for s in scenes().values() if not s.driven({}).drives]
+    """The scenes there are."""
+    return list(scenes())
 
 
 def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bool | None = None) -> Opened:
@@ -59,6 +74,8 @@ def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bo
 
     settings = settings or {}
     setup = setup_for(name, settings=settings)
+    if setup.changes:
+        setup = setup_for(name, setup.dt, max(FOLLOWED, setup.duration), settings)
     system, as_named = setup.system, not setup.changes
     if len(system.masses) > MOST_MASSES:
         raise InputError(f"{name} has {len(system.masses):,} masses: expected at most {MOST_MASSES:,} in the live lab")

@@ -71,6 +71,8 @@ class LiveServer:
             pages, self.pages = list(self.pages.values()), {}
         for page in pages:
             page.end()
+        for page in pages:
+            page.wait()
         with contextlib.redirect_stdout(io.StringIO()):
             self._server.stop()
 
@@ -79,7 +81,9 @@ class LiveServer:
         while True:
             time.sleep(3600)
 
-    def _welcome(self, client: object) -> None:
+    # Coroutines: viser runs them one after the other, so that nobody leaves before they have come.
+
+    async def _welcome(self, client: object) -> None:
         from viser import ClientHandle
 
         assert isinstance(client, ClientHandle)
@@ -87,9 +91,9 @@ class LiveServer:
             if len(self.pages) >= MOST_VIEWERS:
                 client.gui.add_markdown(FULL.format(MOST_VIEWERS))
                 return
-            self.pages[client.client_id] = Page(client, self._scene, company(len(self.pages) + 1))
+            self.pages[client.client_id] = Page(client, self._scene, lambda: company(len(self.pages)))
 
-    def _goodbye(self, client: object) -> None:
+    async def _goodbye(self, client: object) -> None:
         with self._lock:
             page = self.pages.pop(client.client_id, None)  # type: ignore[attr-defined]
         if page is not None:
@@ -98,7 +102,8 @@ class LiveServer:
 
 def company(number: int) -> str:
     """What is said of viewers and simulations."""
-    return f"This simulation is yours alone: viewer {number} of at most {MOST_VIEWERS}, each with their own."
+    here = "you are the only viewer" if number <= 1 else f"{number} viewers are here, each with their own"
+    return f"This simulation is yours alone; {here}. At most {MOST_VIEWERS} can be."
 
 
 def check_port(host: str, port: int) -> None:

@@ -11,6 +11,7 @@ from reference.obstacles import Obstacle
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem
 from report.drawing import STRAIN_COLOURS, nice, strain
+from report.live.framing import Window, camera, side_by_side
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -24,11 +25,14 @@ TRUE_COLOUR = (150, 150, 150)
 #: A fixed mass.
 FIXED_COLOUR = (40, 40, 40)
 
-#: Side by side, worlds are so many sizes of the system apart.
-APART = 1.3
-
 #: Masses of more than these are dots too small to grab: they are drawn smaller.
 FEW = 200
+
+#: What the panels on both sides take of the width [px]; on screens narrower than that they cover a part of the height.
+PANELS, NARROW, COVERED = 720, 576, 0.6
+
+#: They leave at least so much [px].
+LEAST = 200
 
 
 class Stage:
@@ -54,6 +58,7 @@ class Stage:
         self._others: list[Any] = []
         self._true: Any = None
         self._most = 0.1
+        self._wide: bool | None = None
         self._ramp = _ramp()
 
     def show(self, lab: Lab) -> None:
@@ -75,18 +80,14 @@ class Stage:
         for i, (_, balls) in enumerate(self._nodes):
             balls.batched_colors = _ball_colours(lab.own, i)
 
-    def look(self, lab: Lab) -> None:
-        """Straight on, at all there is."""
-        system = lab.own
-        middle, size = _middle(system), 1.5 * float(np.linalg.norm(np.ptp(system.positions, axis=0)))
-        count = len(lab.worlds) if self.beside else 1
-        across = APART * system.size * (count - 1) / 2
-        straight = np.array([0.0, 0.1, 1.0]) if system.dimension == 2 else np.array([0.5, 0.35, 1.0])
-        straight[1] *= system.dimension == 3
-        camera = self._client.camera
-        camera.up_direction = (0.0, 1.0, 0.0)
-        camera.position = middle + np.array([across, 0, 0]) + straight * (size + 2 * across)
-        camera.look_at = middle + np.array([across, 0, 0])
+    def _window(self) -> Window:
+        """What is left between the panels, which are there in a moment; on narrow screens, above them."""
+        seen = self._client.camera
+        width, height = seen.image_width, max(seen.image_height, 1)
+        if self._wide is None:
+            self._wide = width >= NARROW
+            width -= PANELS * (width > PANELS + LEAST)
+        return Window(seen.fov, width / height, 0.0 if self._wide else COVERED)
 
     def _build(self, lab: Lab) -> None:
         for node in [*(node for pair in self._nodes for node in pair), *self._others]:
@@ -96,12 +97,13 @@ class Stage:
         scene, system = self._client.scene, lab.own
         n, size = len(system.masses), system.size
         radius = size * (0.022 if n <= FEW else 0.006)
-        for i, world in enumerate(lab.worlds):
-            shift = (APART * size * i * self.beside, 0.0, 0.0)
-            places = self._places(system, world.state)
+        window, count = self._window(), len(lab.worlds)
+        shifts = side_by_side(system, count, window) if self.beside else np.zeros((count, 3))
+        for i, (world, shift) in enumerate(zip(lab.worlds, shifts, strict=True)):
+            points = self._places(system, world.state)
             lines = scene.add_line_segments(
                 f"/world{i}/springs",
-                points=places[system.springs],
+                points=points[system.springs],
                 colors=self._colours(system, world.state, i),
                 thickness=3.0 if n <= FEW and i == 0 else 1.5,
                 thickness_units="screen",
@@ -111,7 +113,7 @@ class Stage:
                 f"/world{i}/masses",
                 *_ball(radius),
                 batched_wxyzs=np.tile(np.array([1.0, 0, 0, 0]), (n, 1)),
-                batched_positions=places,
+                batched_positions=points,
                 batched_colors=_ball_colours(system, i),
                 lod="off",
                 cast_shadow=False,
@@ -119,19 +121,22 @@ class Stage:
                 opacity=None if i == 0 or self.beside else 0.6,
                 position=shift,
             )
-            self._listen(balls, shift[0], system.dimension)
+            self._listen(balls, shift[: system.dimension])
             self._nodes.append((lines, balls))
             self._others += [self._obstacle(f"/world{i}/obstacle{k}", o, shift) for k, o in enumerate(system.obstacles)]
         self._others = [node for node in self._others if node is not None]
-        self.look(lab)
+        seen = self._client.camera
+        seen.up_direction = (0.0, 1.0, 0.0)
+        seen.position, seen.look_at = camera(system, shifts, window)
 
-    def _listen(self, balls: Any, across: float, dimension: int) -> None:
-        def drag(event: Any) -> None:
+    def _listen(self, balls: Any, shift: Array) -> None:
+        # Coroutines, so that they are told in the order in which it was done: see `moves`.
+        async def drag(event: Any) -> None:
             if event.instance_index is not None:
-                place = np.array(event.end_position[:dimension]) - across * np.eye(dimension)[0]
+                place = np.array(event.end_position[: len(shift)]) - shift
                 self._on_drag(event.instance_index, None if event.phase == "end" else place)
 
-        def click(event: Any) -> None:
+        async def click(event: Any) -> None:
             if event.instance_index is not None:
                 self._on_click(event.instance_index)
 
@@ -172,7 +177,7 @@ class Stage:
         index = (np.clip(np.nan_to_num(part), 0, 1) * (len(self._ramp) - 1)).astype(np.intp)
         return np.repeat(self._ramp[index][:, None], 2, axis=1)
 
-    def _obstacle(self, name: str, obstacle: Obstacle, shift: tuple[float, float, float]) -> Any:
+    def _obstacle(self, name: str, obstacle: Obstacle, shift: Array) -> Any:
         """As what can be seen of it; None for a kind that has no shape here."""
         numbers = obstacle.to_dict()
         scene, grey = self._client.scene, (190, 190, 190)
@@ -187,17 +192,8 @@ class Stage:
             return scene.add_box(name, color=grey, dimensions=tuple(sizes), position=place)
         if numbers["kind"] == "plane":
             place = np.pad(np.array(numbers["point"]), (0, 3 - obstacle.dimension)) + shift
-            return scene.add_grid(name, width=4, height=4, cell_size=0.1, plane="xz", position=place)
+            return scene.add_grid(name, width=4, height=4, cell_size=0.1, plane="xz", position=place, fade_distance=1.5)
         return None
-
-
-def _middle(system: MassSpringSystem) -> Array:
-    """What is looked at [m], shape (3,): the masses' middle, or below an edge that they hang from."""
-    low, high = system.positions.min(axis=0), system.positions.max(axis=0)
-    middle = (low + high) / 2
-    if high[1] - low[1] < 0.3 * system.size and system.fixed.any():
-        middle[1] -= 0.35 * system.size
-    return np.pad(middle, (0, 3 - system.dimension))
 
 
 def _strains_to_show(system: MassSpringSystem) -> float:

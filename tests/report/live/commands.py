@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import shlex
+import tomllib
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from click.testing import CliRunner
 
@@ -39,6 +41,12 @@ def ends_of(line: str, folder: Path) -> Mapping[str, State]:
         assert trajectory is not None
         last[stepper.name] = trajectory.states()[-1]
     return last
+
+
+def begins(line: str, folder: Path) -> Any:
+    """Where the masses are at first in the file of a command [m]."""
+    file = folder / shlex.split(line)[2]
+    return tomllib.loads(file.read_text(encoding="utf-8"))["system"]["positions"]
 
 
 def run(line: str) -> str:

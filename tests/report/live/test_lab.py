@@ -4,73 +4,22 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from random import Random
 
 import numpy as np
 import pytest
 
 from reference.catalogue import find
-from reference.changes import Change
 from reference.errors import InputError
 from reference.scenes import find as find_scene
 from reference.simulate import simulate
-from reference.state import Array, State
 from report.live.controls import suggestion
 from report.live.lab import Lab
 from report.live.parameters import PRESETS
-from report.live.reproduction import Stretch, reproduction
 from report.live.stepping import EngineStepping
-from tests.report.live.commands import ends, run
-
-#: Of a scheme every bit is the same; an engine that is given its present state again rounds it once.
-ROUNDING = 1e-12
-
-#: What is moved, and how far.
-MOVES = {"stiffness": (100, 300), "mass": (0.015, 0.03), "drag": (0, 0.1), "gravity": (1, 20), "damping": (0, 0.02)}
-
-
-@pytest.fixture
-def labs() -> Iterator[list[Lab]]:
-    """Labs that are ended afterwards."""
-    made: list[Lab] = []
-    yield made
-    for lab in made:
-        lab.end()
-
-
-def open_lab(labs: list[Lab], scene: str = "string", steppers: Sequence[str] = ("kick_drift",), **settings: str) -> Lab:
-    """A lab that is ended after the test."""
-    labs.append(Lab(scene, steppers, settings))
-    return labs[-1]
-
-
-def apart(one: State, other: State) -> float:
-    """The largest difference of a position [m] or velocity [m/s]."""
-    return max(
-        float(np.abs(one.positions - other.positions).max()), float(np.abs(one.velocities - other.velocities).max())
-    )
-
-
-def go_on(lab: Lab, steps: int) -> None:
-    """So many steps, in frames, or until something stops."""
-    for _ in range(0, steps, 20):
-        lab.advance(20)
-
-
-def move_at_random(lab: Lab, seed: int, moves: int = 12) -> list[Change]:
-    """Move sliders at random between frames; what was moved, and when."""
-    random, made = Random(seed), []
-    for _ in range(moves):
-        lab.advance(random.randint(1, 30))
-        name = random.choice(list(MOVES))
-        value = random.uniform(*MOVES[name])
-        lab.set_parameter(name, value)
-        made.append(Change(lab.stretch.steps * lab.dt, name, value))
-    lab.advance(20)
-    return made
+from tests.report.live.commands import ends
+from tests.report.live.labs import ROUNDING, apart, go_on, move_at_random, open_lab
 
 
 @pytest.mark.parametrize(
@@ -87,109 +36,6 @@ def test_a_scheme_does_what_a_plain_run_does(labs: list[Lab], scene: str, name: 
     assert apart(world.state, plain) == 0
     late = [replace(change, time=change.time + lab.dt) for change in made]
     assert apart(world.state, simulate(system, find(name), lab.dt, steps * lab.dt, late).states()[-1]) > 1e-6
-
-
-@pytest.mark.parametrize("name", ["pymunk_springs", "mujoco_tendons", "mujoco_tendons_rk4"])
-def test_an_engine_does_what_its_run_by_command_does(labs: list[Lab], tmp_path: Path, name: str) -> None:
-    """Changed on the fly, in a process of its own, beside a scheme."""
-    lab = open_lab(labs, "string", [name, "heun"])
-    move_at_random(lab, 2)
-    last = ends(lab.reproduction(), tmp_path)
-    for world in lab.worlds:
-        assert apart(world.state, last[world.name]) <= ROUNDING
-
-
-def disturb_with_dt(lab: Lab) -> None:
-    """Another step, midway."""
-    lab.set_dt(0.7e-3)
-
-
-def disturb_by_drag(lab: Lab) -> None:
-    """A mass dragged about and let go."""
-    for place in ((0.9, 0.1), (1.0, 0.2), (0.8, 0.3)):
-        lab.grab(6, np.array(place))
-        lab.advance(7)
-    lab.release()
-
-
-def hold(lab: Lab) -> None:
-    """A mass on the cursor, which is not let go."""
-    lab.grab(3, np.array([0.3, 0.1]))
-
-
-def disturb_by_pin(lab: Lab) -> None:
-    """A mass pinned, the anchor let go."""
-    lab.toggle_pin(4)
-    lab.advance(5)
-    lab.toggle_pin(0)
-
-
-def disturb_by_stepper(lab: Lab) -> None:
-    """Other steppers take over, and one comes in besides."""
-    lab.set_steppers(["rk4", "pymunk_springs", "euler"])
-
-
-@pytest.mark.parametrize(
-    "disturb", [disturb_with_dt, disturb_by_drag, hold, disturb_by_pin, disturb_by_stepper], ids=lambda f: f.__name__
-)
-def test_the_command_comes_to_the_present_state(labs: list[Lab], tmp_path: Path, disturb: object) -> None:
-    """After what a command cannot say it is given a file; every stepper ends where it is seen, to rounding."""
-    lab = open_lab(labs, "string", ["heun", "mujoco_tendons"])
-    lab.advance(40)
-    before = [world.state for world in lab.worlds]
-    disturb(lab)  # type: ignore[operator]
-    assert np.abs(without_cursor(lab, 0) - before[0].positions).max() < 0.4
-    lab.advance(25)
-    lab.set_parameter("stiffness", 180.0)
-    lab.advance(10)
-    last = ends(lab.reproduction(), tmp_path)
-    for world in lab.worlds:
-        assert apart(world.state, last[world.name]) <= ROUNDING, world.name
-
-
-def without_cursor(lab: Lab, i: int) -> Array:
-    """Positions of a world's own masses [m]."""
-    return lab.worlds[i].state.positions[: len(lab.own.masses)]
-
-
-def test_the_command_line_itself_runs_it(labs: list[Lab], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both as a scene with changes, and from a file."""
-    lab = open_lab(labs, "string", ["kick_drift"], masses="4")
-    lab.advance(30)
-    lab.set_parameter("stiffness", 150.0)
-    lab.advance(30)
-    (line,) = lab.reproduction().commands
-    assert line.startswith("springlab compare string --stepper=kick_drift --dt=0.001 --duration=0.06 --set=masses=4")
-    assert "kick_drift" in run(line)
-    lab.set_dt(2e-3)
-    lab.advance(3)
-    found = lab.reproduction()
-    monkeypatch.chdir(tmp_path)
-    for name, text in found.files.items():
-        Path(name).write_text(text)
-    assert "kick_drift" in run(found.commands[0])
-
-
-def test_many_changes_go_into_a_file(labs: list[Lab], tmp_path: Path) -> None:
-    """And those of one number for each spring, where springs differ: there a slider is a multiple."""
-    lab = open_lab(labs, "bridge", ["heun"])
-    lab.advance(3)
-    lab.set_parameter("stiffness", 0.5)
-    lab.advance(3)
-    found = lab.reproduction()
-    assert list(found.files) == ["bridge-live.toml"]
-    assert apart(lab.worlds[0].state, ends(found, tmp_path)["heun"]) <= ROUNDING * lab.own.size
-    np.testing.assert_allclose(lab.own.stiffness, 0.5 * find_scene("bridge").system({}).stiffness, rtol=1e-15)
-
-
-def test_a_forgotten_change_is_seen(labs: list[Lab], tmp_path: Path) -> None:
-    """Shown to fail: the command of a stretch without its changes comes to another state."""
-    lab = open_lab(labs)
-    lab.advance(20)
-    lab.set_parameter("stiffness", 150.0)
-    lab.advance(40)
-    forgetful: Stretch = replace(lab.stretch, changes=())
-    assert apart(lab.worlds[0].state, ends(reproduction(forgetful), tmp_path)["kick_drift"]) > 1e-6
 
 
 def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:
@@ -210,15 +56,16 @@ def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:
 def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
     """Going on from there gives what came before again; the parameters of then are back, and the command knows."""
     lab = open_lab(labs, "string", ["heun", "pymunk_springs"])
-    seen = []
+    seen, clocks = [], []
     for i in range(60):
         if i == 30:
             lab.set_parameter("stiffness", 100.0)
         lab.advance(16)
         seen.append((lab.time, [world.state for world in lab.worlds]))
-    lab.rewind(0.016 * 40)
+        clocks.append(lab.clock)
+    lab.rewind(lab.clock - clocks[20])
     at = next(i for i, (time, _) in enumerate(seen) if time == lab.time)
-    assert at < 25
+    assert at == 20
     assert lab.own.stiffness[0] == 200.0
     lab.advance(16)
     assert lab.time == seen[at + 1][0]
@@ -226,6 +73,57 @@ def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
         assert apart(world.state, state) <= ROUNDING
     last = ends(lab.reproduction(), tmp_path)
     assert apart(lab.worlds[0].state, last["heun"]) <= ROUNDING
+
+
+def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: list[Lab]) -> None:
+    """A truck crosses: from half-way, it crosses the second half twice, to the last bit the same."""
+    lab = open_lab(labs, "crossing")
+    for _ in range(40):
+        lab.advance(10)
+    clock = lab.clock
+    for _ in range(40):
+        lab.advance(10)
+    end = lab.worlds[0].state
+    lab.rewind(lab.clock - clock)
+    assert lab.time == pytest.approx(0.4)
+    lab.advance(400)
+    assert apart(lab.worlds[0].state, end) == 0
+
+
+@pytest.mark.parametrize("seconds", [0.0, 0.01, 0.5])
+def test_a_mass_may_be_held_now_or_in_the_past(labs: list[Lab], seconds: float) -> None:
+    """Whenever one goes back to: what is done there is done to what was held then, and played on, nothing is."""
+    lab = open_lab(labs, "string", ["heun", "rk4"])
+    for held in (False, True, False, True):
+        if held:
+            lab.grab(5, np.array([0.6, 0.2]))
+        for _ in range(30):
+            lab.advance(2)
+        if not held:
+            continue
+        lab.rewind(seconds)
+        lab.toggle_pin(3)
+        assert lab.grabbed is None
+        lab.advance(2)
+        assert {len(world.state.positions) for world in lab.worlds} == {11}
+        lab.grab(5, np.array([0.6, 0.1]))
+        lab.advance(20)
+        lab.rewind(1e-3)
+        lab.play()
+        assert lab.grabbed is None
+        lab.advance(2)
+
+
+def test_a_limit_is_that_of_the_scene_that_is_open(labs: list[Lab]) -> None:
+    """Of the one before it nothing is said, while the new one is not known yet."""
+    lab = open_lab(labs, "spring")
+    lab.wait_for_predictions()
+    before = lab.predictions["kick_drift"].limit
+    lab.open("string")
+    known = lab.predictions.get("kick_drift")
+    assert known is None or known.limit != before
+    lab.wait_for_predictions()
+    assert lab.predictions["kick_drift"].limit == pytest.approx(10.11e-3, rel=1e-3)
 
 
 @pytest.mark.parametrize("scene", ["string", "cloth"])

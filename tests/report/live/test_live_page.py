@@ -1,146 +1,85 @@
-"""The live page in headless Chromium: what people do with it, and what they see. With `--full`.
+"""The live page in headless Chromium, which draws WebGL by the processor alone here: what nobody should be without.
 
-Chromium draws WebGL by the processor alone here: that takes minutes.
+Every page here has asked for nothing from elsewhere, and had no error in its console, when it is left.
 """
 
 from __future__ import annotations
 
-import re
-import socket
-import subprocess
-import sys
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
+import numpy as np
 import pytest
 
 from report.live.scenes import names
-from tests.report.live.commands import ends_of
-from tests.report.live.visit import ROOT, Visitor, browser, server
-
-#: What viser's own page has to say against itself when something is dragged; nothing comes of it.
-THEIRS = ("Unable to preventDefault inside passive event listener invocation.",)
-
-#: Opened by the ordinary tests; the others with --full.
-FEW = ("cloth", "barrier")
+from tests.report.live.commands import begins, ends_of
+from tests.report.live.visit import Visitor
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _in_full(request: pytest.FixtureRequest) -> None:
-    """Not in the ordinary tests."""
-    if not request.config.getoption("--full"):
-        pytest.skip("--full drives the live page in a browser")
-
-
-@pytest.fixture(scope="module")
-def chromium(_in_full: None) -> Iterator[Any]:
-    """One browser for all."""
-    with browser() as found:
-        yield found
-
-
-@pytest.fixture(scope="module")
-def address(_in_full: None) -> Iterator[str]:
-    """One server for all: every viewer has a simulation of their own."""
-    with server() as (found, _):
-        yield found
-
-
-@pytest.fixture
-def visitor(chromium: Any, address: str) -> Iterator[Visitor]:
-    """A viewer, who asked for nothing from elsewhere and had no error when they leave."""
-    found = Visitor(chromium, address)
-    yield found
-    port = address.rpartition(":")[2]
-    elsewhere = [url for url in found.asked if not re.match(rf"(blob:)?http://localhost:{port}/|data:", url)]
-    found.page.close()
-    assert (elsewhere, [error for error in found.errors if error not in THEIRS]) == ([], [])
+def test_every_scene_opens_and_moves(visitor: Visitor) -> None:
+    """One after the other; none blows up at its own dt."""
+    for scene in names():
+        visitor.choose("scene", scene)
+        visitor.see(f"{scene}, t = ")
+        visitor.wait_until(0.02)
+        assert not visitor.alert.is_visible(), scene
 
 
 def test_past_the_limit_the_banner_comes_and_below_it_does_not(visitor: Visitor) -> None:
-    """Then stiffness is changed while it runs: the motion goes on, and the limit falls as one over the root of it."""
+    """By the slider, whose mark is at the limit; then stiffness is changed while it runs.
+
+    The motion goes on, and the limit falls as one over the root of the stiffness.
+    """
     limit = visitor.limit()
-    visitor.type("dt [ms]", 1.07 * limit)
+    visitor.slide_dt(beyond=4)
     visitor.alert.wait_for()
-    assert "1.07 times the predicted largest stable dt" in visitor.alert.inner_text()
-    visitor.press("Start again with dt")
+    assert 1.05 * limit < visitor.value("dt [ms]") < 1.3 * limit
+    assert "times the predicted largest stable dt" in visitor.alert.inner_text()
+    visitor.slide_dt(beyond=-10)
+    visitor.begin_again()
+    assert not visitor.alert.is_visible()
+    visitor.press("Play", exact=True)
     visitor.wait_until(0.3)
+    assert 0.5 * limit < visitor.value("dt [ms]") < 0.95 * limit
+    visitor.type("dt [ms]", 1.0)
     before = visitor.time
     visitor.type("stiffness [N/m]", 150)
-    visitor.wait_until(before + 0.5)
-    assert visitor.limit() == pytest.approx(limit * (200 / 150) ** 0.5, rel=1e-3)
+    assert visitor.limit(unlike=limit) == pytest.approx(limit * (200 / 150) ** 0.5, rel=1e-3)
+    assert visitor.time >= before
+    visitor.wait_until(before + 0.3)
     assert not visitor.alert.is_visible()
 
 
-def test_a_stepper_takes_over_and_the_command_comes_to_the_same_state(
-    visitor: Visitor, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The file of the state where it took over is downloaded; the command runs on it; it ends where the page is."""
-    visitor.wait_until(0.2)
+def test_a_stepper_takes_over_and_the_command_comes_to_the_same_state(visitor: Visitor, tmp_path: Path) -> None:
+    """From the file with the state where it took over, to rounding: to the state where the next one takes over.
+
+    The command is that of what is seen, a change of stiffness on the way included.
+    """
     visitor.choose("world 1", "rk4")
-    visitor.wait_until(0.4)
-    visitor.press("Pause")
-    with visitor.page.expect_download() as download:
-        line = visitor.command()
-    download.value.save_as(tmp_path / download.value.suggested_filename)
-    assert "--stepper=rk4" in line
+    visitor.see("rk4")
+    begin = visitor.time
+    visitor.type("stiffness [N/m]", 150)
+    visitor.wait_until(begin + 0.2)
+    visitor.pause()
+    line = visitor.command("--stepper=rk4", tmp_path)
     (state,) = ends_of(line, tmp_path).values()
+    visitor.choose("world 1", "heun")
+    visitor.see("heun")
+    seen = begins(visitor.command("--stepper=heun", tmp_path), tmp_path)
     assert state.time > 0.1
-    monkeypatch.chdir(tmp_path)
-    done = subprocess.run(
-        [sys.executable, "-m", "experiments.command_line", *line.split()[1:]],
-        env={"PYTHONPATH": str(ROOT), "PATH": "", "HOME": str(tmp_path)},
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
+    np.testing.assert_allclose(state.positions, seen, rtol=0, atol=1e-12)
 
 
 def test_a_mass_is_dragged(visitor: Visitor) -> None:
-    """By its last mass, with the mouse, while nothing else moves: then it is no run that a command can say whole."""
-    visitor.press("Pause")
-    visitor.press("Reset")
-    visitor.page.wait_for_timeout(1500)
-    assert "string-live" not in visitor.command()
-    x, y = visitor.rightmost_mass()
+    """With the mouse, while nothing else moves; then it is no run that a command alone can say."""
+    visitor.begin_again()
+    visitor.command("compare string ")
+    x, y = visitor.last_mass()
     visitor.page.mouse.move(x, y)
-    visitor.page.wait_for_timeout(300)
     visitor.page.mouse.down()
-    for i in range(1, 9):
-        visitor.page.mouse.move(x - 8 * i, y - 8 * i)
-        visitor.page.wait_for_timeout(60)
+    visitor.page.mouse.move(x - 60, y + 60, steps=6)
+    visitor.see("Mass 10 hangs on the cursor")
     visitor.page.mouse.up()
-    visitor.page.wait_for_timeout(700)
-    visitor.press("Copy command")
-    visitor.page.wait_for_function(
-        "() => document.querySelector('textarea[aria-label=command]').value.includes('string-live')"
-    )
-
-
-@pytest.mark.parametrize("scene", names())
-def test_every_scene_opens_and_moves(visitor: Visitor, request: pytest.FixtureRequest, scene: str) -> None:
-    """Some of them here; all with --full."""
-    if scene not in FEW and not request.config.getoption("--full"):
-        pytest.skip("only with --full")
-    visitor.choose("scene", scene)
-    visitor.page.wait_for_timeout(800)
-    visitor.wait_until(0.05)
-    assert not visitor.alert.is_visible()
-
-
-def test_a_port_in_use_is_one_line() -> None:
-    """And exit code 2; so is a scene nobody has."""
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        taken.listen()
-        port = taken.getsockname()[1]
-        for words, said in (
-            ([f"--port={port}"], f"port {port} at 127.0.0.1 cannot be had"),
-            (["strin"], "unknown scene"),
-        ):
-            command = [sys.executable, "-m", "experiments.command_line", "live", "--no-open", *words]
-            done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
-            assert done.returncode == 2
-            assert said in done.stderr
-            assert len(done.stderr.splitlines()) == 1
+    visitor.once(visitor.status.inner_text, lambda said: "hangs" not in said)
+    visitor.command("compare string-live.toml ")
+    visitor.press("Play", exact=True)
+    visitor.wait_until(0.1)

@@ -1,0 +1,86 @@
+"""The command `springlab live` itself: what it says in a line, and that it ends when it is told to."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+import time
+import urllib.request
+from collections.abc import Sequence
+
+import pytest
+
+from tests.report.live.visit import ROOT, command_line, server
+from tests.soak.guests import Guest
+
+
+def refused(words: Sequence[str]) -> str:
+    """The line on which it ends, with exit code 2."""
+    done = subprocess.run(command_line(*words), capture_output=True, text=True, cwd=ROOT, timeout=120)
+    assert done.returncode == 2, done.stderr
+    (line,) = done.stderr.splitlines()
+    return line
+
+
+def test_a_port_in_use_is_one_line() -> None:
+    """Whoever has it."""
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        assert f"port {port} at 127.0.0.1 cannot be had" in refused([f"--port={port}"])
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["strin"], "unknown scene 'strin': did you mean 'string'?"),
+        (["--port=70000"], "port = 70000: expected a number from 0 to 65535"),
+        (["--host=192.0.2.1"], "at 192.0.2.1 cannot be had"),
+    ],
+)
+def test_what_cannot_be_is_one_line(words: Sequence[str], said: str) -> None:
+    """192.0.2.1 is nobody's (RFC 5737)."""
+    assert said in refused(words)
+
+
+def test_open_to_all_it_says_what_that_means() -> None:
+    """And is there at every address of this machine; on loopback nothing is said."""
+    with server("--host=0.0.0.0") as (address, process):
+        (line,) = process.said  # type: ignore[attr-defined]
+        assert line.startswith("listening at 0.0.0.0: whoever can reach this machine can use the lab")
+        with urllib.request.urlopen(address.replace("localhost", "127.0.0.2")) as answer:
+            assert b"<html" in answer.read().lower()
+
+
+def test_on_loopback_alone_nothing_is_said_and_nobody_else_gets_in() -> None:
+    """127.0.0.2 is this machine's, too, but not the address that it listens at."""
+    with server() as (address, process):
+        assert process.said == []  # type: ignore[attr-defined]
+        with pytest.raises(ConnectionRefusedError):
+            socket.create_connection(("127.0.0.2", int(address.rpartition(":")[2])), timeout=5)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere there always is one")
+def test_without_a_browser_the_address_is_said() -> None:
+    """On a machine without windows; who opens it is let in."""
+    with server("--open") as (_, process):
+        assert process.stdout is not None
+        assert process.stdout.readline().startswith("no browser found here: open http://localhost:")
+
+
+def test_viewers_who_vanish_in_the_middle_of_a_frame_are_no_news() -> None:
+    """Neither to the others nor to whoever started it: the server's output has nothing more (see `server`)."""
+    with server() as (address, _):
+        stays = Guest(address)
+        for _ in range(6):
+            guest = Guest(address)
+            guest.leave(politely=False)
+        guest = Guest(address)
+        before, deadline = stays.messages, time.monotonic() + 60
+        while min(stays.messages - before, guest.messages) < 30 and time.monotonic() < deadline:
+            time.sleep(0.02)
+        assert min(stays.messages - before, guest.messages) >= 30
+        stays.leave()
+        guest.leave(politely=False)
