@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 #: Frames in a second, and how many go by between two looks at what is slow to show.
 RATE, SLOW_EVERY = 60, 12
 
+#: So much of being late is made up for [s]; more than that is lost.
+LATE = 0.1
+
 
 class Page:
     """One viewer's page, in a thread of its own until `end`.
@@ -89,7 +92,7 @@ class Page:
         self.lab.play()
 
     def _frames(self) -> None:
-        before = time.perf_counter()
+        before = due = time.perf_counter()
         while not self._ended.is_set():
             self._do_all()
             now = time.perf_counter()
@@ -99,7 +102,9 @@ class Page:
             if self.frames % SLOW_EVERY == 0:
                 self._show_slow()
             self.frames += 1
-            time.sleep(max(1 / RATE - (time.perf_counter() - now), 0.001))
+            # from one frame's due time to the next one's, as sleeping takes longer than asked
+            due = max(due + 1 / RATE, time.perf_counter() - LATE)
+            time.sleep(max(due - time.perf_counter(), 0.001))
 
     def _do_all(self) -> None:
         while True:
