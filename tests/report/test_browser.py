@@ -27,8 +27,17 @@ def browser() -> Iterator[Any]:
 @pytest.fixture(scope="module")
 def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A page with every kind of thing on it: an experiment that failed, too, and a long table."""
-    folder = tmp_path_factory.mktemp("page")
-    sections = [_section(name, folder) for name in RESULTS if name != "errata"]
+    return _page([name for name in RESULTS if name != "errata"], tmp_path_factory.mktemp("page"))
+
+
+@pytest.fixture(scope="module")
+def short(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """As it is, with one experiment that came to its end."""
+    return _page(["divergence"], tmp_path_factory.mktemp("short"))
+
+
+def _page(names: list[str], folder: Path) -> Path:
+    sections = [_section(name, folder) for name in names]
     sections.append(Section(find("errata"), failure="ArithmeticError: a long reason " + "x" * 200))
     written = folder / "index.html"
     written.write_text(page(sections), encoding="utf-8")
@@ -70,10 +79,10 @@ def test_the_page_has_no_violation_and_asks_for_nothing(browser: Any, file: Path
         ),
     ],
 )
-def test_a_page_that_is_not_so_is_caught(browser: Any, file: Path, tmp_path: Path, put: str, said: str) -> None:
+def test_a_page_that_is_not_so_is_caught(browser: Any, short: Path, tmp_path: Path, put: str, said: str) -> None:
     """Shown to fail, on the same page with one thing more."""
     spoilt = tmp_path / "spoilt.html"
-    spoilt.write_text(file.read_text(encoding="utf-8").replace("</main>", f"{put}</main>"), encoding="utf-8")
+    spoilt.write_text(short.read_text(encoding="utf-8").replace("</main>", f"{put}</main>"), encoding="utf-8")
     shown = Shown(browser, spoilt, (360, "light", "screen"))
     caught = {
         "asks for": bool(shown.requests and shown.complaints),
@@ -84,11 +93,11 @@ def test_a_page_that_is_not_so_is_caught(browser: Any, file: Path, tmp_path: Pat
     shown.page.close()
 
 
-def test_dark_is_dark_and_paper_is_white(browser: Any, file: Path) -> None:
+def test_dark_is_dark_and_paper_is_white(browser: Any, short: Path) -> None:
     """The page's paper and the ink of its figures turn round; on paper they are as by day, whatever the screen is."""
     colours = {}
     for view in ((800, "light", "screen"), (800, "dark", "screen"), (800, "dark", "print")):
-        shown = Shown(browser, file, view)
+        shown = Shown(browser, short, view)
         colours[view[1:]] = shown.page.evaluate(
             """() => [getComputedStyle(document.body).backgroundColor,
                 getComputedStyle(document.querySelector("figure svg path")).fill]"""
@@ -117,11 +126,11 @@ def test_the_keyboard_reaches_everything(browser: Any, file: Path) -> None:
     shown.page.close()
 
 
-def test_what_is_folded_is_open_on_paper(browser: Any, file: Path) -> None:
+def test_what_is_folded_is_open_on_paper(browser: Any, short: Path) -> None:
     """Every table and finding has a height there, and has none on the screen before it is opened."""
     heights = {}
     for medium in ("screen", "print"):
-        shown = Shown(browser, file, (800, "light", medium))
+        shown = Shown(browser, short, (800, "light", medium))
         heights[medium] = shown.page.evaluate(
             """() => [...document.querySelectorAll("details:not([open])")].map(d => d.getBoundingClientRect().height
                 - d.querySelector("summary").getBoundingClientRect().height)"""
