@@ -190,6 +190,8 @@ class Controls:
         blown = bool(lab.notice)
         if blown:
             self._banner.content = banner(lab.notice, "#a32a00", "alert")
+            if not self._banner.visible:  # above the part of the panel that is looked at, it would not be seen
+                self._page.say(lab.notice)
         self._banner.visible = blown
         self._suggested = suggestion(lab)
         self._again.visible = self._suggested is not None

@@ -32,6 +32,7 @@ def test_past_the_limit_the_banner_comes_and_below_it_does_not(visitor: Visitor)
     limit = visitor.limit()
     visitor.slide_dt(beyond=4)
     visitor.alert.wait_for()
+    visitor.passing.filter(has_text="blew up").wait_for()
     assert 1.05 * limit < visitor.value("dt [ms]") < 1.3 * limit
     assert "times the predicted largest stable dt" in visitor.alert.inner_text()
     visitor.slide_dt(beyond=-10)

@@ -120,8 +120,13 @@ class Visitor:
 
     @property
     def alert(self) -> Any:
-        """The banner."""
-        return self.page.get_by_role("alert").filter(has_text=re.compile("blew up|stopped"))
+        """The banner, which stays; what passes by says the same."""
+        return self.page.locator("[role=alert][style*='border-left']").filter(has_text=re.compile("blew up|stopped"))
+
+    @property
+    def passing(self) -> Any:
+        """What is said for a while, over the scene."""
+        return self.page.locator(".mantine-Notification-root")
 
     def see(self, words: str) -> None:
         """Wait until the status says so."""
