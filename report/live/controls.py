@@ -77,11 +77,9 @@ class Controls:
             run.on_click(self._heard(self._run))
             self._back = gui.add_slider("back [s]", min=0.0, max=10.0, step=0.05, initial_value=0.0)
             self._back.on_update(self._heard(lambda seconds: page.lab.rewind(seconds)))
-            self._speed = Dial(
-                self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, page.do, lambda _: self._pace()
-            )
-            self._most = gui.add_slider("steps a frame, at most", min=1, max=2000, step=1, initial_value=1000)
-            self._most.on_update(self._heard(lambda _: self._pace()))
+            Dial(self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, page.do, self._set_speed)
+            most = gui.add_slider("steps a frame, at most", min=1, max=2000, step=1, initial_value=1000)
+            most.on_update(self._heard(lambda steps: setattr(page.lab, "most_steps", int(steps))))
 
     def _add_scene(self) -> None:
         gui, page = self._gui, self._page
@@ -213,9 +211,8 @@ class Controls:
         else:
             lab.reset()
 
-    def _pace(self) -> None:
-        self._page.lab.speed = max(self._speed.value, 1e-6)
-        self._page.lab.most_steps = int(self._most.value)
+    def _set_speed(self, value: float) -> None:
+        self._page.lab.speed = max(value, 1e-6)
 
     def _choose(self) -> None:
         names = [menu.value for menu in self._worlds if menu.value != NOBODY]

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
+from reference.errors import InputError
 from report.live.moves import Later, heard
 
 if TYPE_CHECKING:
@@ -74,9 +75,12 @@ class Dial:
     def _move(self, value: float) -> None:
         if value == self.value:
             return
+        before, self.value = self.value, value
         try:
             self._on_move(value)
-            self.value = value
+        except InputError:
+            self.value = before
+            raise
         finally:
             self._put()
 

@@ -179,3 +179,17 @@ def test_eight_viewers_have_a_simulation_each_and_the_ninth_none(chromium: Any, 
         for guest in guests:
             guest.leave()
         one.see("2 viewers are here")
+
+
+def test_slower_is_slower(visitor: Visitor) -> None:
+    """At a twentieth of the speed a second shows at most a tenth of one, once that has arrived."""
+    visitor.wait_until(0.05)
+    visitor.type("speed [s of the scene in 1 s]", 0.05)
+    paces = []
+    for _ in range(20):
+        begin = visitor.time
+        visitor.page.wait_for_timeout(1000)
+        paces.append(visitor.time - begin)
+        if len(paces) > 1 and all(0 < pace < 0.1 for pace in paces[-2:]):
+            return
+    raise AssertionError(paces)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from reference.errors import InputError
+from report.live.dials import STEPS, Dial
 from report.live.leaving import LATER, Leaving
 from report.live.moves import heard
 from report.live.plots import PREFIXES, logarithms, power
@@ -31,6 +33,50 @@ def test_moves_are_done_in_their_order_with_the_value_of_then() -> None:
     for action in waiting:
         action()
     assert done == [1, 3]
+
+
+class Box:
+    """A number or a slider as viser's are to a dial: something with a value, that is moved by hand."""
+
+    def __init__(self, value: object) -> None:
+        self.value, self.client = value, "viewer"
+
+    def on_update(self, told: Callable[[object], Coroutine[object, object, None]]) -> None:
+        """Remember who is to be told."""
+        self._told = told
+
+    def move(self, value: object) -> None:
+        """As a viewer does."""
+        self.value = value
+        asyncio.run(self._told(SimpleNamespace(client="viewer", target=self)))  # type: ignore[arg-type]
+
+
+def test_a_dial_has_its_new_value_when_it_is_told_of_and_its_old_one_if_that_is_refused() -> None:
+    """Number and slider show the same, in the end; whoever looks at the dial meanwhile sees what was asked for."""
+    made: list[Box] = []
+
+    def add(*_: object, initial_value: object, **__: object) -> Box:
+        made.append(Box(initial_value))
+        return made[-1]
+
+    def moved(value: float) -> None:
+        seen.append((value, dial.value))
+        if value == 7.0:
+            raise InputError("not seven")
+
+    seen: list[tuple[float, float]] = []
+    client = SimpleNamespace(gui=SimpleNamespace(add_number=add, add_multi_slider=add))
+    waiting: list[Callable[[], None]] = []
+    dial = Dial(client, "dt [ms]", 1.0, 0.01, 100.0, waiting.append, moved)  # type: ignore[arg-type]
+    number, slider = made
+    number.move(10.0)
+    waiting.pop()()
+    assert (seen, dial.value, number.value) == ([(10.0, 10.0)], 10.0, 10.0)
+    assert slider.value == (STEPS * 3 // 4,)  # three of four decades
+    number.move(7.0)
+    with pytest.raises(InputError):
+        waiting.pop()()
+    assert (seen[-1], dial.value, number.value) == ((7.0, 7.0), 10.0, 10.0)
 
 
 @pytest.mark.parametrize("size", [3e-14, 2e-7, 5e-3, 0.7, 123.0, 4.5e4, 8e9])
