@@ -43,7 +43,7 @@ def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(tmp_path: Pa
         if i % 10 == 0:
             (folder / f"right_{i}.py").write_text(right)
     before = everything(outside), everything(MODELS), everything(folder)
-    rows = grade_class(files_of([folder]), tmp_path / "grades.csv", limits=sandbox.Limits(2, 12.0))
+    rows = grade_class(files_of([folder]), tmp_path / "grades.csv", limits=sandbox.Limits(4, 12.0, memory=2**29))
     assert (everything(outside), everything(MODELS), everything(folder)) == before
     named = {row["file"].removesuffix(".py"): (row["outcome"], row["finding"]) for row in rows}
     expected = {name: (h.outcome, h.finding) for name, h in HOSTILE.items()}
