@@ -1,4 +1,4 @@
-"""Exact solutions, each against another that knows nothing of it: closed forms, DOP853, equilibria, frequencies."""
+"""Exact solutions, each against another that knows nothing of it: closed forms, and DOP853."""
 
 from __future__ import annotations
 
@@ -10,29 +10,20 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from reference.catalogue import find
 from reference.changes import Change
-from reference.errors import InputError, SolverError
+from reference.errors import SolverError
 from reference.exact import (
     damped_oscillator,
-    equilibrium,
     exact,
-    hanging_string,
-    laguerre_frequencies,
-    squared_frequencies,
 )
 from reference.forces import SpringMotion
 from reference.scenes import find as find_scene
-from reference.simulate import simulate
 from reference.state import Array, State, Trajectory
-from reference.system import MassSpringSystem
 from tests import wrong
-from tests.reference.systems import label, moving_string, property_test, random_mesh, seeds, with_fields
+from tests.reference.solvers import Solver, solved_by, under
+from tests.reference.systems import moving_string, property_test
 
 # --- The damped oscillator ---
-
-#: Solves a system at 0, dt, 2 dt, ...: the exact solution, or a wrong one.
-Solver = Callable[[MassSpringSystem, float, int], Trajectory]
 
 
 def check_oscillator(solve: Solver, mass: float, frequency: float, ratio: float, stretch: float, speed: float) -> None:
@@ -86,16 +77,6 @@ def test_damped_oscillator_is_the_exact_solution(
 ) -> None:
     """Under-damped, critically damped and over-damped, within 1e-10 m of DOP853."""
     check_oscillator(exact, mass, frequency, ratio, stretch, speed)
-
-
-def solved_by(name: str) -> Solver:
-    """A catalogued scheme in place of the exact solution."""
-    return lambda system, dt, steps: simulate(system, find(name), dt, steps * dt)
-
-
-def under(law: wrong.Law) -> Solver:
-    """The exact solution under a wrong force law."""
-    return lambda system, dt, steps: exact(system, dt, steps, equations=wrong.under(law))
 
 
 @pytest.mark.parametrize(
@@ -225,222 +206,3 @@ def test_exact_says_when_the_solver_gives_up() -> None:
     """No step is small enough for what is not a number."""
     with pytest.raises(SolverError, match="no exact solution"):
         exact(moving_string(2), 0.01, 2, equations=NoNumbers)
-
-
-# --- Equilibrium ---
-
-
-def check_balanced(system: MassSpringSystem, rest: State, law: wrong.Law = SpringMotion.acceleration) -> None:
-    """All forces on free masses balance: to 1e-11 of the whole weight.
-
-    The stiffest spring's force rounds by k eps L = 1e-14 N times some; the weight is at least 0.1 N.
-    """
-    weight = float(system.masses.sum() * np.linalg.norm(system.gravity))
-    assert np.abs(law(SpringMotion(system), rest) * system.masses[:, None]).max() < 1e-11 * weight
-    assert not rest.velocities.any()
-
-
-@property_test
-@given(seed=seeds, masses=st.integers(1, 8))
-def test_a_hanging_string_is_in_balance(seed: int, masses: int) -> None:
-    """Each spring carries all that is below it: L_j = L0_j + (m_{j+1} + ... + m_n) g / k_j."""
-    rng = np.random.default_rng(seed)
-    per_item = {
-        "mass": rng.uniform(0.01, 0.1, masses).tolist(),
-        "rest_length": rng.uniform(0.05, 0.2, masses).tolist(),
-        "stiffness": rng.uniform(50, 500, masses).tolist(),
-    }
-    system = find_scene("string").system({"masses": masses, "x0": 0.3, "y0": -0.2, **per_item})
-    check_balanced(system, hanging_string(system))
-
-
-def test_forces_all_too_strong_balance_at_the_same_place() -> None:
-    """What is zero stays zero: this check sees where a string hangs, not how hard it pulls."""
-    system = find_scene("string").system({})
-    check_balanced(system, hanging_string(system), wrong.slightly_stronger)
-
-
-@pytest.mark.parametrize("law", [wrong.gravity_turned, wrong.one_sided], ids=label)
-def test_balance_fails_on_wrong_forces(law: wrong.Law) -> None:
-    """Under other forces it would hang elsewhere."""
-    system = find_scene("string").system({})
-    with pytest.raises(AssertionError):
-        check_balanced(system, hanging_string(system), law)
-
-
-def test_balance_fails_on_an_unstretched_string() -> None:
-    """Hanging straight down at its rest lengths, it does not carry its weight."""
-    system = find_scene("string").system({"angle": 90.0})
-    with pytest.raises(AssertionError):
-        check_balanced(system, system.start)
-
-
-@pytest.mark.parametrize("masses", [1, 2, 5, 10])
-def test_equilibrium_of_a_string_is_the_hanging_one(masses: int) -> None:
-    """Found by least energy and Newton's method from a slanted start, to 1e-11 of the size.
-
-    The softest swing resists with m g/l x_1/... ~ 0.05 N/m; forces balance to 1e-14 N.
-    """
-    system = find_scene("string").system({"masses": masses, "angle": 60.0})
-    found, straight = equilibrium(system), hanging_string(system)
-    assert np.abs(found.positions - straight.positions).max() < 1e-11 * system.size
-
-
-@pytest.mark.parametrize("seed", range(8))
-def test_equilibrium_of_any_held_mesh_is_in_balance(seed: int) -> None:
-    """Random meshes in 2D and 3D with two fixed masses."""
-    system = random_mesh(seed, 6, 2 + seed % 2, anchors=2)
-    check_balanced(system, equilibrium(system))
-
-
-def test_equilibrium_between_two_anchors_by_hand() -> None:
-    """A mass between two anchors: by symmetry in the middle, 2 k (L - L0) sin = m g.
-
-    With L = 0.5 m, anchors 0.8 m apart and so 0.3 m above it: sin = 0.6; m = 2 * 100 * (0.5 - 0.4) * 0.6 / 10.
-    """
-    system = MassSpringSystem(
-        positions=np.array([[0.0, 0.0], [0.35, -0.1], [0.8, 0.0]]),
-        springs=np.array([[0, 1], [1, 2]]),
-        masses=np.array(1.2),
-        rest_lengths=np.array(0.4),
-        stiffness=np.array(100.0),
-        gravity=np.array(10.0),
-        fixed=np.array([True, False, True]),
-    )
-    assert equilibrium(system).positions[1] == pytest.approx([0.4, -0.3], abs=1e-12)
-
-
-def test_a_falling_system_has_no_equilibrium() -> None:
-    """Nothing holds it."""
-    with pytest.raises(SolverError, match="no equilibrium: nothing holds the system"):
-        equilibrium(with_fields(find_scene("string").system({"masses": 2}), fixed=False))
-
-
-def test_a_free_system_without_gravity_relaxes() -> None:
-    """Every spring at its rest length: no forces."""
-    stretched = with_fields(moving_string(3), fixed=False, gravity=0.0)
-    relaxed = equilibrium(stretched)
-    lengths = np.linalg.norm(np.diff(relaxed.positions, axis=0), axis=1)
-    assert lengths == pytest.approx(stretched.rest_lengths, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    "system",
-    [
-        random_mesh(1, 5, 2),
-        find_scene("string").system({"stiffness": 0.0}),
-        replace(find_scene("string").system({"masses": 2}), fixed=np.array([True, False, True])),
-        replace(find_scene("string").system({"masses": 2}), gravity=np.array([1.0, -9.81])),
-    ],
-    ids=["mesh", "no stiffness", "held at both ends", "tilted gravity"],
-)
-def test_only_strings_hang_straight(system: MassSpringSystem) -> None:
-    """Any other system is refused."""
-    with pytest.raises(InputError, match="system is no string"):
-        hanging_string(system)
-
-
-# --- Small oscillations ---
-
-
-def test_frequencies_of_one_hanging_mass() -> None:
-    """Along the spring w^2 = k/m; across, the tension m g over the length L it then has: w^2 = g/L."""
-    system = find_scene("spring").system({})
-    length = 0.125 + 0.02 * 9.81 / 200.0
-    squares = squared_frequencies(system, hanging_string(system))
-    assert squares == pytest.approx([9.81 / length, 200.0 / 0.02], rel=1e-12)
-
-
-def along_frequencies(masses: int, stiffness: float, mass: float) -> Array:
-    """w^2 = 4 k/m sin^2((2j - 1) pi / (2 (2n + 1))), j = 1..n: a chain fixed at one end (Goldstein, ch. 12)."""
-    j = np.arange(1, masses + 1)
-    squares: Array = 4 * stiffness / mass * np.sin((2 * j - 1) * np.pi / (2 * (2 * masses + 1))) ** 2
-    return squares
-
-
-@pytest.mark.parametrize("masses", [1, 2, 5, 10, 30])
-def test_frequencies_along_a_hanging_string(masses: int) -> None:
-    """A straight chain of linear springs keeps the frequencies along itself, however it is stretched, to rounding.
-
-    The matrix holds k/m (1 + rounding); its eigenvalues are within some eps of the largest.
-    """
-    system = find_scene("string").system({"masses": masses, "stiffness": 1e4})
-    squares = squared_frequencies(system, hanging_string(system))
-    expected = along_frequencies(masses, 1e4, 0.02)
-    nearest = np.abs(squares[:, None] - expected).min(axis=0)
-    assert nearest.max() < 1e-12 * expected.max()
-
-
-def across_frequencies(masses: int, stiffness: float) -> Array:
-    """w^2 of a hanging string across itself: the lowest n, when it is stiff."""
-    system = find_scene("string").system({"masses": masses, "stiffness": stiffness})
-    return squared_frequencies(system, hanging_string(system))[:masses]
-
-
-def check_laguerre(frequencies: Callable[[int, float], Array], masses: int) -> None:
-    """Across, w^2 -> (g/l) x_i with x_i the zeros of the Laguerre polynomial L_n, with an error of O(1/k).
-
-    With f(k) = f + a/k + b/k^2, the differences fall tenfold from k = 1e5 to 1e6 N/m, to within b/a k ~ 1 %, and
-    (10 f(1e6) - f(1e5)) / 9 has the error b/1e11 left, and rounding of eps k/m = 1e-8 /s^2.
-    """
-    limit = laguerre_frequencies(masses, 0.125, 9.81)
-    at = {k: frequencies(masses, k) for k in (1e5, 1e6)}
-    assert (at[1e5] - limit) / (at[1e6] - limit) == pytest.approx(np.full(masses, 10.0), rel=0.01)
-    assert (10 * at[1e6] - at[1e5]) / 9 == pytest.approx(limit, rel=1e-8)
-
-
-@pytest.mark.parametrize("masses", [1, 2, 5, 10])
-def test_frequencies_across_a_stiff_string_are_laguerres(masses: int) -> None:
-    """The hanging string's eigenvalues go to Lagrange's loaded string as 1/k."""
-    check_laguerre(across_frequencies, masses)
-
-
-def lightest_at_the_tip(masses: int, stiffness: float) -> Array:
-    """The same string with its last mass halved."""
-    mass = [0.02] * (masses - 1) + [0.01]
-    system = find_scene("string").system({"masses": masses, "stiffness": stiffness, "mass": mass})
-    return squared_frequencies(system, hanging_string(system))[:masses]
-
-
-def unstretched(masses: int, stiffness: float) -> Array:
-    """Frequencies about a string that does not carry its weight."""
-    system = find_scene("string").system({"masses": masses, "stiffness": stiffness, "angle": 90.0})
-    return squared_frequencies(system, system.start)[:masses]
-
-
-@pytest.mark.parametrize("frequencies", [lightest_at_the_tip, unstretched])
-def test_laguerre_fails_on_other_strings(frequencies: Callable[[int, float], Array]) -> None:
-    """Another mass, or another place to oscillate about, has other frequencies."""
-    with pytest.raises(AssertionError):
-        check_laguerre(frequencies, 5)
-
-
-def test_laguerre_zeros_by_hand() -> None:
-    """L_1 = 1 - x and L_2 = (x^2 - 4 x + 2)/2 have the zeros 1 and 2 -+ sqrt(2)."""
-    assert laguerre_frequencies(1, 0.5, 9.81) == pytest.approx([19.62], rel=1e-14)
-    assert laguerre_frequencies(2, 1.0, 1.0) == pytest.approx([2 - np.sqrt(2), 2 + np.sqrt(2)], rel=1e-14)
-
-
-def check_small_swing(solve: Solver) -> None:
-    """Pushed across by 1e-6 m, a hanging mass swings as x0 cos(w t) with w^2 = g/L.
-
-    Terms of the third order in x0/L are 1e-15 m; the solver's tolerance is 1e-13 m: 1e-11 m is 1e-5 of the swing.
-    """
-    system = find_scene("spring").system({})
-    rest = hanging_string(system)
-    pushed = replace(system, positions=rest.positions + np.array([[0.0, 0.0], [1e-6, 0.0]]))
-    w = np.sqrt(squared_frequencies(system, rest)[0])
-    found = solve(pushed, 0.05, 20)
-    assert np.abs(found.positions[:, 1, 0] - 1e-6 * np.cos(w * found.times)).max() < 1e-11
-
-
-def test_small_swings_have_the_eigenfrequency() -> None:
-    """The eigenvalue is what is seen to move."""
-    check_small_swing(exact)
-
-
-@pytest.mark.parametrize("solve", [under(wrong.sideways), under(wrong.gravity_turned), solved_by("backward_euler")])
-def test_small_swings_fail_on_wrong_motions(solve: Solver) -> None:
-    """Other forces swing otherwise; backward Euler dies away."""
-    with pytest.raises(AssertionError):
-        check_small_swing(solve)

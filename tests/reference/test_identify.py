@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -12,74 +11,27 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import reference.identify
 from reference.catalogue import Scheme, find, schemes
 from reference.changes import Change
 from reference.exact import exact
 from reference.identify import (
-    AMPLIFIED,
     NOISE,
     TOLERANCE,
     Identification,
     Match,
     candidates,
-    candidates_for,
     identify,
-    identify_by_rounding,
     identify_run,
 )
 from reference.outcome import Outcome
 from reference.rope import ROPE_KICK_DRIFT
 from reference.scenes import find as find_scene
 from reference.state import Trajectory
-from reference.stepper import SchemeStepper, Stepper, catalogued
+from reference.stepper import SchemeStepper, catalogued
 from reference.system import MassSpringSystem
 from tests import wrong
+from tests.reference.identified import DT, PARAMETERS, SAME_AS, STEPS, Recorded, known, shifted
 from tests.reference.systems import IN_PLACE, WHOLE_STATE, label, moving_string, property_test, seeds
-
-DT, STEPS = 1e-3, 100
-
-
-#: Where theory says that two schemes are one: the catalogue's first is named. Without damping or drag there is nothing
-#: to treat implicitly; springs that give up 1 - exp(-0.03) of their rate need fewer than ten rounds.
-SAME_AS = {
-    "plain": {
-        "kick_drift_implicit_damping": "kick_drift",
-        "kick_drift_implicit_drag": "kick_drift",
-        "kick_drift_implicit_damping_and_drag": "kick_drift",
-        "kick_drift_truncated_damping": "kick_drift",
-        "drift_kick_implicit_damping": "drift_kick",
-        "drift_kick_sequential_damping": "drift_kick",
-        "drift_kick_exponential_damping": "drift_kick",
-    },
-    "dragged": {
-        "kick_drift_implicit_damping": "kick_drift",
-        "kick_drift_implicit_damping_and_drag": "kick_drift_implicit_drag",
-        "kick_drift_truncated_damping": "kick_drift",
-        "drift_kick_implicit_damping": "drift_kick",
-        "drift_kick_sequential_damping": "drift_kick",
-        "drift_kick_exponential_damping": "drift_kick",
-    },
-    "damped": {
-        "kick_drift_implicit_drag": "kick_drift",
-        "kick_drift_implicit_damping_and_drag": "kick_drift_implicit_damping",
-        "drift_kick_exponential_damping": "drift_kick_sequential_damping",
-    },
-    "both": {"drift_kick_exponential_damping": "drift_kick_sequential_damping"},
-}
-PARAMETERS: dict[str, dict[str, Any]] = {
-    "plain": {},
-    "dragged": {"drag": 0.05},
-    "damped": {"damping": 0.3},
-    "both": {"damping": 0.3, "drag": 0.05},
-}
-
-
-@cache
-def known(case: str) -> tuple[MassSpringSystem, dict[str, Trajectory]]:
-    """A moving string, and the whole catalogue's trajectories of it."""
-    system = moving_string(4, **PARAMETERS[case])
-    return system, candidates(system, DT, STEPS)
 
 
 def identified(scheme: Scheme, case: str) -> Identification:
@@ -225,20 +177,6 @@ def test_pendulum_schemes_are_identified(name: str) -> None:
 # --- Ranking ---
 
 
-@dataclass(frozen=True)
-class Recorded:
-    """A stepper that plays an outcome."""
-
-    outcome: Outcome
-    name: str = "recorded"
-    kind: str = "engine"
-    version: str | None = None
-
-    def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
-        """The outcome, whatever is asked."""
-        return self.outcome
-
-
 def test_true_motion_is_no_scheme_and_nearest_to_rk4() -> None:
     """The exact solution is not identified; the ranking is by distance, rk4 first and second orders before first."""
     system, _ = known("plain")
@@ -249,13 +187,6 @@ def test_true_motion_is_no_scheme_and_nearest_to_rk4() -> None:
     assert found.ranking[0].scheme == "rk4"
     orders = [find(m.scheme).order for m in found.ranking if m.scheme in schemes()]
     assert orders == sorted(orders, reverse=True)
-
-
-def shifted(system: MassSpringSystem, by: float, length: int = 3) -> Trajectory:
-    """A trajectory that stands still, its last mass off by so much."""
-    positions = np.repeat(system.positions[None], length, axis=0)
-    positions[1:, -1, 0] += by
-    return Trajectory(np.linspace(0.0, DT * (length - 1), length), positions, np.zeros_like(positions))
 
 
 @pytest.mark.parametrize(
@@ -294,55 +225,6 @@ def test_the_tolerance_grows_with_the_systems_size() -> None:
         system = find_scene("string").system({"masses": 2, "rest_length": length})
         found = identify(SchemeStepper(find("heun")), system, DT, 5)
         assert found.tolerance == pytest.approx(1e-12 * 2 * length)
-
-
-# --- Motion that multiplies rounding ---
-
-
-#: By Euler with steps of 2 ms, which multiplies what it makes of rounding: by 200 steps 1e-10 m, by 300 more than 1e-7.
-STRING, SLOW = find_scene("string").system({}), 2e-3
-
-
-def by_rounding(stepper: Stepper, steps: int) -> Identification:
-    """What a run on the default string is found to be, among Euler and Heun."""
-    known = {name: catalogued()[name].run(STRING, SLOW, steps).trajectory for name in ("euler", "heun")}
-    assert None not in known.values()
-    outcome = stepper.run(STRING, SLOW, steps)
-    return identify_by_rounding(stepper.name, outcome, STRING, known, SLOW, steps)  # type: ignore[arg-type]
-
-
-def nudged_euler(steps: int) -> Recorded:
-    """A run by Euler that begins with its masses an ulp or two aside."""
-    return Recorded(SchemeStepper(find("euler")).run(nudged(STRING), SLOW, steps))
-
-
-def test_what_the_motion_makes_of_rounding_is_allowed() -> None:
-    """Over 1e-12 of the size, and yet Euler: its own step takes a push of rounding as far."""
-    found = by_rounding(nudged_euler(200), 200)
-    assert found.error > TOLERANCE * STRING.size
-    assert found.identified_as == "euler"
-    assert found.error <= found.tolerance <= AMPLIFIED * STRING.size
-
-
-def test_what_is_more_than_rounding_is_not_allowed_where_rounding_is_multiplied_too() -> None:
-    """Springs stronger by a part in 1e9 are multiplied alike, and stay beyond what rounding can be."""
-    stranger = SchemeStepper(wrong.stepped(wrong.slightly_stronger, find("euler")))
-    found = by_rounding(stranger, 200)
-    assert found.ranking[0].scheme == "euler"
-    assert found.identified_as is None
-
-
-def test_where_nothing_is_left_of_the_motion_nothing_is_identified() -> None:
-    """Rounding multiplied beyond 1e-9 of the size says nothing of a scheme."""
-    found = by_rounding(nudged_euler(280), 280)
-    assert found.error > AMPLIFIED * STRING.size
-    assert found.identified_as is None
-
-
-def nudged(system: MassSpringSystem) -> MassSpringSystem:
-    """Its free masses an ulp or two of their positions aside."""
-    aside = np.random.default_rng(1).uniform(-2e-16, 2e-16, system.positions.shape)
-    return replace(system, positions=system.positions + np.where(system.fixed[:, None], 0.0, aside))
 
 
 # --- What is said ---
@@ -386,71 +268,3 @@ def test_steppers_of_rods_do_not_enter_where_there_are_none() -> None:
     """On a stretched string the catalogue has no pendulum candidates; a rope's rods are brought to their lengths."""
     _, trajectories = known("plain")
     assert set(trajectories) == {*schemes(), ROPE_KICK_DRIFT.name}
-
-
-# --- Large systems ---
-
-
-@pytest.fixture
-def all_are_large(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Every system counts as large, so that small ones can be identified both ways."""
-    monkeypatch.setattr(reference.identify, "LARGE", 0)
-
-
-@pytest.mark.usefixtures("all_are_large")
-@pytest.mark.parametrize("case", PARAMETERS)
-@pytest.mark.parametrize("scheme", schemes().values(), ids=label)
-def test_on_large_systems_schemes_are_identified_as_on_small_ones(scheme: Scheme, case: str) -> None:
-    """As itself or as the one that theory says is the same there, though few are followed to the end."""
-    system, _ = known(case)
-    recorded = Recorded(SchemeStepper(scheme).run(system, DT, STEPS))
-    found = identify(recorded, system, DT, STEPS)
-    assert found.identified_as == SAME_AS[case].get(scheme.name, scheme.name)
-    assert found.error <= 1e-12 * system.size
-
-
-@pytest.mark.usefixtures("all_are_large")
-def test_on_large_systems_only_what_a_run_can_be_is_followed() -> None:
-    """Of a run by Heun, that is Heun; the catalogue's own run is not run again, and is itself."""
-    system, _ = known("plain")
-    stepper = SchemeStepper(find("heun"))
-    outcome = stepper.run(system, DT, STEPS)
-    assert list(candidates_for([(Recorded(outcome), outcome)], system, DT, STEPS)) == ["heun"]
-    own = candidates_for([(stepper, outcome)], system, DT, STEPS)
-    assert own["heun"] is outcome.trajectory
-
-
-@pytest.mark.usefixtures("all_are_large")
-def test_who_only_has_a_schemes_name_is_not_taken_at_its_word() -> None:
-    """A run by rk4 whose stepper calls itself Heun is rk4."""
-    system, _ = known("plain")
-    outcome = SchemeStepper(find("rk4")).run(system, DT, STEPS)
-    assert identify(Recorded(outcome, name="heun"), system, DT, STEPS).identified_as == "rk4"
-
-
-@pytest.mark.usefixtures("all_are_large")
-def test_on_large_systems_a_stranger_gets_the_nearest() -> None:
-    """Wrong by a part in 1e9: not identified, and Heun is the nearest."""
-    system, _ = known("both")
-    stranger = SchemeStepper(wrong.stepped(wrong.slightly_stronger, find("heun")))
-    found = identify(stranger, system, DT, STEPS)
-    assert found.identified_as is None
-    assert found.ranking[0].scheme == "heun"
-
-
-@pytest.mark.usefixtures("all_are_large")
-def test_on_large_systems_what_shows_late_is_still_seen() -> None:
-    """Damping that is switched on after 50 steps: until then two schemes are the same, and the search goes on."""
-    system, _ = known("plain")
-    changes = (Change(0.05, "damping", 0.3),)
-    stepper = SchemeStepper(find("kick_drift_implicit_damping"))
-    recorded = Recorded(stepper.run(system, DT, STEPS, changes))
-    assert identify(recorded, system, DT, STEPS, changes).identified_as == "kick_drift_implicit_damping"
-
-
-@pytest.mark.usefixtures("all_are_large")
-def test_on_large_systems_what_left_nothing_or_blew_up_at_once_is_not_identified() -> None:
-    """As on small ones."""
-    system, _ = known("plain")
-    for outcome in (Outcome("crashed", "killed"), Outcome("diverged", "gone", shifted(system, 1e9))):
-        assert identify(Recorded(outcome), system, DT, STEPS).ranking == ()

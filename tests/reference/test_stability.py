@@ -28,7 +28,7 @@ from reference.stability import (
 from reference.state import Array
 from tests import wrong
 from tests.reference.systems import label, random_mesh, with_fields
-from tests.reference.test_schemes import STEP_MATRICES
+from tests.reference.test_step_matrices import STEP_MATRICES
 
 #: Limits are found to 1e-7 of themselves; where two eigenvalues meet on the unit circle, a margin of 1e-9 in their
 #: modulus makes some 1e-9 in dt. Where they cross it flatly it makes more.
