@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 
 import numpy as np
 
@@ -29,22 +28,17 @@ SHORTER = (1, 4, 16, 64)
 
 def experiments_of(setup: Setup) -> list[Experiment]:
     """The questions to a scene, the one about dt first."""
-
-    @cache
-    def advised() -> Result | Exception:
-        try:
-            return advice_words.answer(setup, told[-1])
-        except Exception as error:  # which is raised below: whoever asks again does not wait for it again
-            return error
-
-    told: list[Progress] = [lambda _: None]
+    found: list[Result | Exception] = []
 
     def ask(progress: Progress) -> Result:
-        told.append(progress)
-        answer = advised()
-        if isinstance(answer, Exception):
-            raise answer
-        return answer
+        if not found:
+            try:
+                found.append(advice_words.answer(setup, progress))
+            except Exception as error:  # raised below: whoever asks again does not wait for it again
+                found.append(error)
+        if isinstance(found[0], Exception):
+            raise found[0]
+        return found[0]
 
     questions = [
         ("advice", "Which dt", f"With which dt is {setup.name} stable, in each engine?", ask),

@@ -94,6 +94,16 @@ class Mistake:
     another: bool = False
 
 
+def mistake(name: str, words: str, hint: str, **knobs: object) -> Mistake:
+    """A mistake, with the knobs that make it."""
+    return Mistake(name, words, hint, knobs)
+
+
+def mistakes(name: str, words: str, hint: str, *ways: Mapping[str, object]) -> tuple[Mistake, ...]:
+    """One mistake that is made in several ways, each with its knobs."""
+    return tuple(Mistake(name, words, hint, knobs) for knobs in ways)
+
+
 @dataclass(frozen=True, eq=False)
 class Exercise:
     """One exercise. Its texts stand beside it: text.md, starter.py.

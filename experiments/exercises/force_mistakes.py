@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from experiments.exercises.exercise import Mistake
+from experiments.exercises.exercise import mistake, mistakes
 
-
-def mistake(name: str, words: str, hint: str, **knobs: object) -> Mistake:
-    """A mistake, with the knobs that make it."""
-    return Mistake(name, words, hint, knobs)
-
+#: Of gravity, wherever it is asked for.
+EXAMPLE_GRAVITY = (
+    "numbers_of_the_example",
+    "Your gravity is always 9.81 m/s^2.",
+    "From where do you have it? The Moon has another.",
+)
 
 #: In one dimension as in two.
 OF_A_SPRING = (
@@ -112,18 +113,12 @@ OF_A_STRING = (
         "Let a spring hang straight down: which part of its force is not zero?",
         direction="swapped",
     ),
-    mistake(
+    *mistakes(
         "degrees",
         "You take cos and sin of an angle in degrees.",
         "In which unit do cos and sin expect an angle?",
-        direction="degrees",
-    ),
-    mistake(
-        "degrees",
-        "You take cos and sin of an angle in degrees.",
-        "In which unit do cos and sin expect an angle?",
-        direction="degrees",
-        below="own side",
+        {"direction": "degrees"},
+        {"direction": "degrees", "below": "own side"},
     ),
     mistake(
         "anchor_missing",
@@ -134,35 +129,20 @@ OF_A_STRING = (
     mistake(
         "anchor_at_origin", "You take the anchor for the origin.", "Where is the anchor? It is given.", anchor="origin"
     ),
-    mistake(
+    *mistakes(
         "anchor_off_by_one",
         "Your second mass hangs on the anchor too, in place of on the first.",
         "At which number does your loop turn from the anchor to its neighbours?",
-        anchor="second",
+        {"anchor": "second"},
+        {"anchor": "second, from above"},
     ),
-    mistake(
-        "anchor_off_by_one",
-        "Your second mass hangs on the anchor too, in place of on the first.",
-        "At which number does your loop turn from the anchor to its neighbours?",
-        anchor="second, from above",
-    ),
-    mistake(
+    *mistakes(
         "last_link_wraps",
         "Your last mass has a spring to the first: there is none below it.",
         "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
-        last="wraps",
-    ),
-    mistake(
-        "last_link_wraps",
-        "Your last mass has a spring to the first: there is none below it.",
-        "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
-        last="ring",
-    ),
-    mistake(
-        "last_link_wraps",
-        "Your last mass has a spring to the first: there is none below it.",
-        "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
-        last="rolls",
+        {"last": "wraps"},
+        {"last": "ring"},
+        {"last": "rolls"},
     ),
     mistake(
         "last_link_skipped",
@@ -231,9 +211,7 @@ OF_A_STRING = (
         weight="both axes",
     ),
     mistake(
-        "numbers_of_the_example",
-        "Your gravity is always 9.81 m/s^2.",
-        "From where do you have it? The Moon has another.",
+        *EXAMPLE_GRAVITY,
         weight="m 9.81",
     ),
     mistake("weight_along_x", "Your weight pulls along x.", "Which column of an array is y?", weight="along x"),

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from experiments.exercises.exercise import Mistake
-from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.exercise import Mistake, mistake
 
 
 def _another(name: str, words: str, **knobs: object) -> Mistake:

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Exercise, Question
-from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
 
 #: What students predict: functions without arguments, and of which step.
 FUNCTIONS = {
@@ -120,14 +119,26 @@ EXERCISE = Exercise(
     tolerance=5e-3,
     files=files,
     mistakes=(
-        *(
-            mistake("root_forgotten", "You take k/m for the frequency.", "What is the unit of k/m?", **k)
-            for k in SQUARE
+        *mistakes(
+            "root_forgotten",
+            "You take k/m for the frequency.",
+            "What is the unit of k/m?",
+            *SQUARE,
         ),
-        *(mistake("upside_down", "You take the root of m/k for the frequency.", STIFFER, **k) for k in UPSIDE_DOWN),
+        *mistakes(
+            "upside_down",
+            "You take the root of m/k for the frequency.",
+            STIFFER,
+            *UPSIDE_DOWN,
+        ),
         mistake("milliseconds", "Your steps are in milliseconds.", "Which unit was asked for?", unit=1e3),
-        mistake("grams", "You take the mass for grams.", "In which unit is the mass that you were given?", grams=1e-3),
-        mistake("grams", "You take the mass for grams.", "In which unit is the mass that you were given?", grams=1e3),
+        *mistakes(
+            "grams",
+            "You take the mass for grams.",
+            "In which unit is the mass that you were given?",
+            {"grams": 1e-3},
+            {"grams": 1e3},
+        ),
         mistake(
             "limit_of_one",
             "Your limit for kick-drift is that of dt w = 1.",

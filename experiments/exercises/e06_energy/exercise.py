@@ -6,8 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Exercise, Question
-from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
+from experiments.exercises.force_mistakes import EXAMPLE_GRAVITY
 from experiments.exercises.links import random_string
 from experiments.exercises.on_strings import elsewhere
 from reference.state import Array
@@ -168,9 +168,7 @@ EXERCISE = Exercise(
             height="from the anchor",
         ),
         mistake(
-            "numbers_of_the_example",
-            "Your gravity is always 9.81 m/s^2.",
-            "From where do you have it? The Moon has another.",
+            *EXAMPLE_GRAVITY,
             height="m 9.81 y",
         ),
         mistake("sideways", "You take x for the height.", "Which axis points up?", height="m g x"),
@@ -212,14 +210,13 @@ EXERCISE = Exercise(
             "By how much does a spring get longer when its end moves 1 mm along it?",
             rate="sloppy",
         ),
-        *(
-            mistake(
-                "power_halved",
-                "There is a half in your power.",
-                "Power is force times velocity. From where would a half come?",
-                half=half,
-            )
-            for half in ((0.5, 1.0), (1.0, 0.5), (0.5, 0.5))
+        *mistakes(
+            "power_halved",
+            "There is a half in your power.",
+            "Power is force times velocity. From where would a half come?",
+            {"half": (0.5, 1.0)},
+            {"half": (1.0, 0.5)},
+            {"half": (0.5, 0.5)},
         ),
     ),
 )

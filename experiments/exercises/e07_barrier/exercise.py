@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Exercise, Mistake, Question
-from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.exercise import Exercise, Mistake, Question, mistake, mistakes
 from reference.state import Array
 
 
@@ -109,9 +108,12 @@ EXERCISE = Exercise(
             {"velocity": "tangential"},
             True,
         ),
-        *(
-            mistake("stopped", "Your masses stop.", "What does a smooth surface do to a velocity along it?", velocity=v)
-            for v in ("stopped", "stopped, inwards")
+        *mistakes(
+            "stopped",
+            "Your masses stop.",
+            "What does a smooth surface do to a velocity along it?",
+            {"velocity": "stopped"},
+            {"velocity": "stopped, inwards"},
         ),
         mistake(
             "bounces",
@@ -125,23 +127,19 @@ EXERCISE = Exercise(
             "What of a velocity is left at the surface?",
             velocity="kept",
         ),
-        *(
-            mistake(
-                "normal_part_kept",
-                "You keep the part along the normal, and take the tangential one.",
-                "Which way does a mass go that slides?",
-                velocity=v,
-            )
-            for v in ("normal", "normal, inwards")
+        *mistakes(
+            "normal_part_kept",
+            "You keep the part along the normal, and take the tangential one.",
+            "Which way does a mass go that slides?",
+            {"velocity": "normal"},
+            {"velocity": "normal, inwards"},
         ),
-        *(
-            mistake(
-                "always_one_way",
-                "All your masses slide the same way about the circle, whichever way they came.",
-                "What becomes of the sign of a velocity whose size you take?",
-                velocity=v,
-            )
-            for v in ("clockwise", "anticlockwise")
+        *mistakes(
+            "always_one_way",
+            "All your masses slide the same way about the circle, whichever way they came.",
+            "What becomes of the sign of a velocity whose size you take?",
+            {"velocity": "clockwise"},
+            {"velocity": "anticlockwise"},
         ),
         mistake(
             "whole_speed_kept",
@@ -174,17 +172,12 @@ EXERCISE = Exercise(
             "Where is the nearest place that is allowed?",
             place="kept",
         ),
-        mistake(
+        *mistakes(
             "centre_forgotten",
             "You put masses on a circle about the origin.",
             "Where is the circle's centre?",
-            place="origin",
-        ),
-        mistake(
-            "centre_forgotten",
-            "You put masses on a circle about the origin.",
-            "Where is the circle's centre?",
-            centre="origin",
+            {"place": "origin"},
+            {"centre": "origin"},
         ),
         mistake(
             "straight_up",
@@ -225,14 +218,12 @@ EXERCISE = Exercise(
         mistake(
             "box", "You take the square about the circle for the circle.", "What does Pythagoras say?", where="box"
         ),
-        *(
-            mistake(
-                "not_normalised",
-                "Your normal is not of length 1.",
-                "How long is the vector from the centre to a mass?",
-                normal=normal,
-            )
-            for normal in ("gap", "gap, along")
+        *mistakes(
+            "not_normalised",
+            "Your normal is not of length 1.",
+            "How long is the vector from the centre to a mass?",
+            {"normal": "gap"},
+            {"normal": "gap, along"},
         ),
     ),
 )

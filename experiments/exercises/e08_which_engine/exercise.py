@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Exercise, Mistake, Question
-from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.exercise import Exercise, Mistake, Question, mistake, mistakes
 from experiments.exercises.links import namespace, random_string
 from experiments.exercises.stepping import DT, step
 
@@ -118,14 +117,12 @@ EXERCISE = Exercise(
             for a, b in combinations(KNOWN, 2)
             if not any({a, b} == set(mistake.knobs["swap"]) for mistake in ALIKE)
         ),
-        *(
-            mistake(
-                "letters_off_by_one",
-                "Your names are right, but one letter off.",
-                "Which file is the first?",
-                shifted=by,
-            )
-            for by in (1, -1)
+        *mistakes(
+            "letters_off_by_one",
+            "Your names are right, but one letter off.",
+            "Which file is the first?",
+            {"shifted": 1},
+            {"shifted": -1},
         ),
         mistake("letters_reversed", "Your names are right, but from E to A.", "Which file is the first?", order=-1),
     ),

@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Exercise, Question
-from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
 from reference.system import IntArray
 
 
@@ -172,23 +171,18 @@ EXERCISE = Exercise(
             numbering="too few",
         ),
         mistake("counted_from_one", "You count masses from 1.", "Which number has the first mass?", first=1),
-        mistake(
+        *mistakes(
             "joined_to_the_next_row",
             "The last mass of each row is joined to the first of the next.",
             "Which masses have no neighbour on the right?",
-            ends="next row",
+            {"ends": "next row"},
+            {"ends": "both to the next row"},
         ),
         mistake(
             "bend_to_the_next_row",
             "The last two masses of each row have bend springs to the first two of the next.",
             "Which masses have no next but one on the right?",
             ends="bend to the next row",
-        ),
-        mistake(
-            "joined_to_the_next_row",
-            "The last mass of each row is joined to the first of the next.",
-            "Which masses have no neighbour on the right?",
-            ends="both to the next row",
         ),
         mistake(
             "rows_are_rings",

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.bridges import some_bridge
-from experiments.exercises.exercise import Exercise, Question
-from experiments.exercises.force_mistakes import mistake
+from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
+from experiments.exercises.force_mistakes import EXAMPLE_GRAVITY
 from experiments.exercises.links import namespace
 from experiments.exercises.on_strings import MOON
 from reference.state import Array
@@ -166,9 +166,7 @@ EXERCISE = Exercise(
             load="mean",
         ),
         mistake(
-            "numbers_of_the_example",
-            "Your gravity is always 9.81 m/s^2.",
-            "From where do you have it? The Moon has another.",
+            *EXAMPLE_GRAVITY,
             load="m 9.81",
         ),
         mistake(
@@ -189,14 +187,13 @@ EXERCISE = Exercise(
             "In which unit is the stiffness given: N, or N/m?",
             material="EA",
         ),
-        *(
-            mistake(
-                "not_normalised",
-                "The directions of your members are not of length 1.",
-                "How long is the vector from joint to joint?",
-                **dict.fromkeys(where, "gap"),
-            )
-            for where in (("in_joints",), ("in_stiffness",), ("in_joints", "in_stiffness"))
+        *mistakes(
+            "not_normalised",
+            "The directions of your members are not of length 1.",
+            "How long is the vector from joint to joint?",
+            {"in_joints": "gap"},
+            {"in_stiffness": "gap"},
+            {"in_joints": "gap", "in_stiffness": "gap"},
         ),
         mistake("weight_without_g", "Your loads are masses, not weights.", "What is the unit of a load?", load="m"),
         mistake("half_the_weight", "Your loads are half of the weights.", "What hangs on a joint?", load="m g/2"),
