@@ -21,6 +21,7 @@ from reference.scenes import find
 from reference.simulate import simulate
 from reference.stepper import SchemeStepper
 from report.readme import README, with_engine_table
+from tests import wrong
 
 CONTRIBUTING = Path(__file__).parents[1] / "CONTRIBUTING.md"
 
@@ -65,15 +66,23 @@ def test_the_scheme_of_the_recipe_is_catalogued_of_its_order_and_identified(foll
     assert identify(SchemeStepper(scheme), find("string").system({}), 1e-3, 100).identified_as == "midpoint"
 
 
-def test_the_scene_of_the_recipe_swings_as_theory_says(follow: Any) -> None:
-    """Its stretch is s cos(w t) with w^2 = 2 k / m: velocity Verlet is within s (w t) (w dt)^2 / 24 of that."""
-    follow("scene")
+def check_swing(scheme: Scheme) -> None:
+    """The stretch is s cos(w t) with w^2 = 2 k / m: velocity Verlet is within s (w t) (w dt)^2 / 24 of that, times 2."""
     setup = find("dumbbell").setup({"mass": 0.2})
     rate, stretch = np.sqrt(2 * 40.0 / 0.2), 0.05
-    x = simulate(setup.system, catalogue.find("velocity_verlet"), setup.dt, setup.duration).positions
+    x = simulate(setup.system, scheme, setup.dt, setup.duration).positions
     found = x[-1, 1, 0] - x[-1, 0, 0] - 0.5
     allowed = stretch * rate * setup.duration * (rate * setup.dt) ** 2 / 24
     assert found == pytest.approx(stretch * np.cos(rate * setup.duration), abs=2 * allowed)
+
+
+def test_the_scene_of_the_recipe_swings_as_theory_says(follow: Any) -> None:
+    """And by wrong integrators it does not."""
+    follow("scene")
+    check_swing(catalogue.find("velocity_verlet"))
+    for scheme in (wrong.heun_without_half, wrong.verlet_with_one_force, catalogue.find("euler")):
+        with pytest.raises(AssertionError):
+            check_swing(scheme)
 
 
 def test_the_engine_of_the_recipe_is_what_it_claims(follow: Any) -> None:

@@ -18,7 +18,7 @@ from reference.catalogue import Scheme, schemes
 from reference.errors import InputError
 from reference.probe import measured_limit, random_growth
 from reference.scenes import find
-from reference.stability import Limit, spring_equilibrium, stability_limit
+from reference.stability import Limit, spring_equilibrium, stability_limit, step_jacobian
 from reference.stepper import SchemeStepper
 from tests import wrong
 from tests.experiments.terminal import springlab
@@ -96,6 +96,17 @@ def test_random_pushes_find_no_limit_where_there_is_none() -> None:
     limit, reason = measured_limit(lambda h, n: growth_of(np.array([[1, h], [-h, 1.0]]), n), 1.0, 1e-4)
     assert limit is None
     assert "unstable" in reason
+
+
+def test_slow_growth_beside_fast_decay_is_seen_in_longer_runs() -> None:
+    """Euler of a string with damped springs: fast modes decay, slow ones grow at any dt (predicted), by 1e-4 in a step.
+
+    In a run that is long enough for the limits of others a random push has not grown yet.
+    """
+    rest, euler = spring_equilibrium(find("string").system({"damping": 0.1})), catalogue.find("euler")
+    assert "unstable at any dt" in stability_limit(euler, rest).reason
+    limit, reason = measured_limit(lambda h, n: growth_of(step_jacobian(euler, rest, h), n), 0.005, 1e-4)
+    assert (limit, reason.partition(":")[0]) == (None, "unstable at any dt that was tried")
 
 
 def test_findings_are_made_from_the_numbers() -> None:

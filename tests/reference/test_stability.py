@@ -15,6 +15,7 @@ from reference.scenes import find as find_scene
 from reference.simulate import simulate
 from reference.stability import (
     Equilibrium,
+    LinearMotion,
     explicit_damping_limit,
     fastest_rate,
     growth,
@@ -259,15 +260,38 @@ def test_jacobian_of_one_spring_is_its_step_matrix(scheme: Scheme) -> None:
     assert np.abs(across).max() < 1e-10
 
 
-@pytest.mark.parametrize(
-    "scheme", [s for s in schemes().values() if not s.springs_only or s.kind == "in_place"], ids=label
-)
-def test_exact_jacobians_are_what_differences_say(scheme: Scheme) -> None:
-    """Schemes that need accelerations only are linearised exactly; told to need more, they are differenced."""
+LINEARISED = [s for s in schemes().values() if not s.springs_only or s.kind == "in_place" or s.solves]
+
+
+def check_linearised(scheme: Scheme) -> None:
+    """On a string, in all directions; differences are right to some 1e-11 of a push that becomes a push."""
     rest = string_rest(4, damping=0.1, drag=0.05)
     exactly = step_jacobian(scheme, rest, 3e-3)
-    differenced = step_jacobian(replace(scheme, springs_only=True, kind="engine_scheme"), rest, 3e-3)
+    differenced = step_jacobian(replace(scheme, springs_only=True, kind="engine_scheme", solves=False), rest, 3e-3)
     assert np.abs(exactly - differenced).max() < 1e-9
+
+
+@pytest.mark.parametrize("scheme", LINEARISED, ids=label)
+def test_exact_jacobians_are_what_differences_say(scheme: Scheme) -> None:
+    """Schemes that need accelerations only, or solve linear equations, are linearised exactly; told not to be, not."""
+    check_linearised(scheme)
+
+
+@pytest.mark.parametrize("name", ["backward_euler", "implicit_midpoint"])
+def test_linearised_jacobians_fail_with_other_equations(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """Newton's method with springs that are a millionth too stiff finds the same solution of a linear motion.
+
+    With such accelerations it finds another.
+    """
+    right = LinearMotion.jacobians
+    monkeypatch.setattr(
+        LinearMotion, "jacobians", lambda motion, state: tuple(1.000001 * b for b in right(motion, state))
+    )
+    check_linearised(find(name))
+    acceleration = LinearMotion.acceleration
+    monkeypatch.setattr(LinearMotion, "acceleration", lambda motion, state: 1.000001 * acceleration(motion, state))
+    with pytest.raises(AssertionError):
+        check_linearised(find(name))
 
 
 def check_frequencies(scheme: Scheme) -> None:
