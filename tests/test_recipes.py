@@ -67,7 +67,7 @@ def test_the_scheme_of_the_recipe_is_catalogued_of_its_order_and_identified(foll
 
 
 def check_swing(scheme: Scheme) -> None:
-    """The stretch is s cos(w t) with w^2 = 2 k / m: velocity Verlet is within s (w t) (w dt)^2 / 24 of that, times 2."""
+    """The stretch is s cos(w t) with w^2 = 2 k / m: velocity Verlet is within twice s (w t) (w dt)^2 / 24."""
     setup = find("dumbbell").setup({"mass": 0.2})
     rate, stretch = np.sqrt(2 * 40.0 / 0.2), 0.05
     x = simulate(setup.system, scheme, setup.dt, setup.duration).positions
