@@ -1,7 +1,7 @@
 """What an engine is to the lab, and which engines there are.
 
-An adapter is a file of this folder with a tuple ENGINES of frozen dataclasses that satisfy Engine; adding one touches
-nothing else. Adapters import NumPy only at module level, their engine inside `start`.
+An adapter is a file of this folder, or of one below it, with a tuple ENGINES of frozen dataclasses that satisfy Engine;
+adding one touches nothing else. Adapters import NumPy only at module level, their engine inside `start`.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import Protocol
 import engines
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
+from reference.registry import Registry
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -66,8 +67,9 @@ class Simulation(Protocol):
 class Engine(Protocol):
     """One engine with one choice of settings. Implementations are frozen dataclasses: they travel between processes.
 
-    One whose steps cost much more than masses and springs may have `quick_up_to` besides: the number of masses it steps
-    some hundred times within half a minute. `compare` leaves it out beyond, unless it is asked for by name.
+    One whose steps cost much more than masses and springs may have `interactive_up_to` besides, the largest system for
+    interactive use: so many masses it steps some hundred times within half a minute. `compare` leaves it out beyond,
+    unless it is asked for by name.
     """
 
     @property
@@ -177,12 +179,23 @@ def installed_version(package: str) -> str | None:
         return None
 
 
+def _files() -> list[str]:
+    """Every module of this folder and those below it."""
+    return [found.name for found in pkgutil.walk_packages(engines.__path__, "engines.") if not found.ispkg]
+
+
 @cache
 def registry() -> Mapping[str, Engine]:
-    """All engines by name. Imports the adapters (cheap) but none of the engines."""
-    adapters = [m.name for m in pkgutil.iter_modules(engines.__path__)]
-    modules = [importlib.import_module(f"engines.{name}") for name in adapters]
-    return {engine.name: engine for module in modules for engine in getattr(module, "ENGINES", ())}
+    """All engines by name. Imports the adapters (cheap) but none of the engines.
+
+    Raises:
+        InputError: where two engines have one name.
+    """
+    known = Registry[Engine]("engine")
+    for file in _files():
+        for engine in getattr(importlib.import_module(file), "ENGINES", ()):
+            known.enter(engine.name, engine, file)
+    return known.all()
 
 
 def find(name: str) -> Engine:

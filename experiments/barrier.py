@@ -20,15 +20,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from engines.isolation import EngineStepper
+from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress, side_by_side
-from experiments.steppers import all_steppers, installed_engines
+from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.steppers import all_steppers, installed_engines
 from reference.conserved import energy
+from reference.lecture.slide_17 import CircleAsMeant
 from reference.obstacles import Circle
 from reference.outcome import Outcome
 from reference.scenes import find
-from reference.slide_17 import CircleAsMeant
 from reference.state import Trajectory
 from reference.stepper import Stepper
 from reference.system import MassSpringSystem
@@ -236,6 +236,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

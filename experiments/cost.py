@@ -16,25 +16,26 @@ from time import perf_counter
 
 import numpy as np
 
-from engines.isolation import EngineStepper, isolated
-from experiments.comparison import finite
-from experiments.environment import processor
+from engines.process.isolation import EngineStepper, isolated
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress
-from experiments.steppers import all_steppers
-from experiments.timing import Speeds, Timing, engine_cost, least, seconds_per_step
-from reference.catalogue import Scheme
+from experiments.runs.comparison import finite
+from experiments.runs.environment import processor
+from experiments.runs.side_by_side import Progress
+from experiments.runs.steppers import all_steppers
+from experiments.runs.timing import Speeds, Timing, engine_cost, least, seconds_per_step
+from reference.compiled.kernels import advance, arrays_of, compiled, lists, loops_for
+from reference.compiled.tracing import why_not_compiled
 from reference.errors import SolverError
-from reference.exact import exact
 from reference.forces import SpringMotion
-from reference.kernels import advance, arrays_of, compiled, lists, loops_for
-from reference.motion import Motion
+from reference.motion import EquationsOf
 from reference.outcome import Outcome
 from reference.scenes import find
+from reference.schemes.catalogue import Scheme
 from reference.simulate import simulate
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
+from reference.theory.exact import exact
 
 #: How long the string swings [s], and the steps [s] that this is cut into.
 DURATION = 0.48
@@ -118,7 +119,7 @@ def string(masses: int = MASSES[0]) -> MassSpringSystem:
 
 def scheme(stepper: SchemeStepper) -> Cost:
     """A scheme's cost: its kernel's, or that of stepping in Python."""
-    if stepper.scheme.springs_only:
+    if why_not_compiled(stepper.scheme):
         try:
             timings = least([partial(_time_in_python, stepper.scheme, dt) for dt in DTS])
         except SolverError as error:
@@ -170,7 +171,7 @@ def _time_in_python(scheme: Scheme, dt: float) -> Timing:
     return Timing(perf_counter() - begin, trajectory.positions[-1])
 
 
-def points(timings: Sequence[Timing], equations: Callable[[MassSpringSystem], Motion]) -> list[Point]:
+def points(timings: Sequence[Timing], equations: EquationsOf) -> list[Point]:
     """Runs of DTS as points, the error taken from the true motion of a string of springs, or of rods."""
     found = []
     for dt, timing in zip(DTS, timings, strict=True):
@@ -182,7 +183,7 @@ def points(timings: Sequence[Timing], equations: Callable[[MassSpringSystem], Mo
 
 
 @cache
-def truth(equations: Callable[[MassSpringSystem], Motion]) -> Array:
+def truth(equations: EquationsOf) -> Array:
     """Where the string is at the end [m]; that of rods where an engine's segments are rigid."""
     return exact(string(), DURATION, 1, equations=equations).positions[-1]
 
@@ -301,6 +302,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-from experiments.comparison import Comparison, Run, compare, finite
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress
-from experiments.steppers import default_steppers
+from experiments.runs.comparison import Comparison, Run, compare, finite
+from experiments.runs.side_by_side import Progress
+from experiments.runs.steppers import default_steppers
 from reference.scenes import Setup, find
 from reference.state import Array
 
@@ -93,6 +93,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

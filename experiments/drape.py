@@ -22,8 +22,8 @@ import numpy as np
 
 from engines.engine import Engine, demands, registry, version
 from experiments.experiment import Experiment, Result, Table
-from experiments.runner import answer, current
-from experiments.runs import Progress
+from experiments.runs.runner import answer, current
+from experiments.runs.side_by_side import Progress
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.scenes.drape import STANDARD_GRAVITY, disc
@@ -74,8 +74,8 @@ def cloth(bending_length: float, spacing: float, sample: int) -> tuple[MassSprin
 
 def hung(bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
     """A cloth that has come to rest: its positions (n, 3) [m], how long it took [s], and its shadow."""
-    from reference.catalogue import find as find_scheme
-    from reference.kernels import Kernel
+    from reference.compiled.kernels import Kernel
+    from reference.schemes.catalogue import find as find_scheme
 
     system, dt = cloth(bending_length, spacing, sample)
     kernel, time = Kernel(system, find_scheme("kick_drift")), 0.0
@@ -224,6 +224,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -15,20 +15,22 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Equations, Progress, identify_start, scheme_of, side_by_side
-from experiments.steppers import all_steppers
+from experiments.runs.comparison import finite
+from experiments.runs.side_by_side import Progress, identify_start, scheme_of, side_by_side
+from experiments.runs.steppers import all_steppers
 from reference.conserved import angular_momentum, energy, momentum
-from reference.exact import hanging_string
-from reference.identify import candidates
+from reference.identification import candidates
+from reference.motion import EquationsOf
 from reference.outcome import Outcome, first_torn
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
-from reference.stability import Equilibrium, equilibrium, step_jacobian
 from reference.state import Array, State, Trajectory
 from reference.stepper import EQUATIONS, SchemeStepper, Stepper
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import Equilibrium, equilibrium_of
+from reference.theory.equilibrium import hanging_string
+from reference.theory.step_map import step_jacobian
 
 #: What an energy does in the long run.
 Kind = Literal["bounded", "growing", "decaying"]
@@ -105,7 +107,7 @@ class Bench:
     """
 
     system: MassSpringSystem
-    at_rest: Mapping[Equations, Equilibrium]
+    at_rest: Mapping[EquationsOf, Equilibrium]
     known: Mapping[str, Trajectory]
     free: MassSpringSystem
 
@@ -126,7 +128,7 @@ def result_of(rows: Sequence[Row]) -> Result:
 def bench() -> Bench:
     """Both strings, ready."""
     system = find("string").system(STRING)
-    at_rest = {equations: equilibrium(equations, system) for equations in EQUATIONS}
+    at_rest = {equations: equilibrium_of(equations, system) for equations in EQUATIONS}
     return Bench(system, at_rest, candidates(system, DT, IDENTIFYING_STEPS), free_string(system))
 
 
@@ -331,6 +333,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -11,16 +11,18 @@ from __future__ import annotations
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress
-from reference import catalogue
-from reference.exact import exact, hanging_string
-from reference.identify import identify
-from reference.lecture import Links, StringConstants, derivatives, force_from_next, listings
+from experiments.runs.side_by_side import Progress
+from reference.identification import identify
+from reference.lecture.listings import Links, StringConstants, derivatives, force_from_next, listings
+from reference.lecture.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.scenes import find
+from reference.schemes import catalogue
 from reference.simulate import simulate
-from reference.slide_17 import CircleAsMeant, CircleAsPrinted
-from reference.stability import spring_equilibrium, stability_limit
 from reference.state import Array
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.equilibrium import hanging_string
+from reference.theory.exact import exact
+from reference.theory.limits import stability_limit
 
 #: The step of the order measurement [s], halved twice.
 DT, DURATION = 1e-3, 0.1
@@ -167,6 +169,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -13,17 +13,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress
-from reference.catalogue import Scheme
-from reference.catalogue import find as find_scheme
-from reference.exact import exact, hanging_string
+from experiments.runs.comparison import finite
+from experiments.runs.side_by_side import Progress
 from reference.scenes import find
+from reference.schemes.catalogue import Scheme
+from reference.schemes.catalogue import find as find_scheme
 from reference.simulate import simulate
-from reference.stability import growth, spring_equilibrium
 from reference.state import Array, Trajectory
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.equilibrium import hanging_string
+from reference.theory.exact import exact
+from reference.theory.limits import growth
 
 SCHEMES = ("euler", "heun")
 DT, DURATION, DRAG = 1e-3, 1.2, 0.02
@@ -201,6 +203,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engines.isolation import EngineStepper
+from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress, side_by_side
-from experiments.steppers import all_steppers
+from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.steppers import all_steppers
 from reference.changes import Driven, whole_steps
 from reference.outcome import Outcome
 from reference.scenes import find
@@ -145,7 +145,7 @@ def _coordinate(system: MassSpringSystem) -> int:
 
 def natural_frequencies() -> Array:
     """Those that the sweep passes [Hz]."""
-    from reference.exact import squared_frequencies
+    from reference.theory.modes import squared_frequencies
 
     system = shaken_bridge().system
     own = np.sqrt(squared_frequencies(system, system.start)) / (2 * np.pi)
@@ -284,6 +284,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -14,12 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress
+from experiments.runs.side_by_side import Progress
 from reference.conserved import energy
-from reference.exact import exact, hanging_string
 from reference.scenes import find
 from reference.state import Array, Trajectory
 from reference.system import MassSpringSystem
+from reference.theory.equilibrium import hanging_string
+from reference.theory.exact import exact
 
 #: On every mass [N s/m]: more, the report's usual one, and less.
 DRAGS = (0.1, 0.02, 0.004)
@@ -125,6 +126,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

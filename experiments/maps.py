@@ -11,12 +11,12 @@ from functools import partial
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.map_arguments import axes_for, system_maker
-from experiments.runs import Progress
+from experiments.runs.side_by_side import Progress
+from experiments.runs.steppers import all_steppers
 from experiments.stability_map import StabilityMap, stability_map
-from experiments.steppers import all_steppers
 from reference.errors import InputError
 from reference.state import Array
+from report.commands.map_arguments import axes_for, system_maker
 
 #: Stepper, masses of the string, second axis beside dt and its range, points along each axis (`stability --map` itself
 #: takes more).
@@ -98,6 +98,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -15,15 +15,15 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any, Literal
 
-from engines.isolation import isolated
-from engines.supervisor import supervisor
-from experiments.cluster import PORTION
+from engines.process.isolation import isolated
+from engines.process.supervisor import supervisor
 from experiments.experiment import Experiment, Result, Table
-from experiments.job import Job
-from experiments.runs import Progress
-from experiments.steppers import all_steppers, installed_engines
-from experiments.store import Store
-from experiments.sweeps import Sweep
+from experiments.runs.cluster import PORTION
+from experiments.runs.side_by_side import Progress
+from experiments.runs.steppers import all_steppers, installed_engines
+from experiments.runs.store import Store
+from experiments.runs.sweeps import Sweep
+from experiments.runs.task import Job
 from reference.stepper import Stepper
 
 #: The sweep, and the cores it is thought to run on.
@@ -222,6 +222,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

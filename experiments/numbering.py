@@ -13,17 +13,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from engines.isolation import EngineStepper
-from engines.pymunk_springs import PymunkSprings
-from experiments.comparison import finite
+from engines.process.isolation import EngineStepper
+from engines.pymunk.springs import PymunkSprings
 from experiments.experiment import Experiment, Result, Table
-from experiments.renaming import CHANGES, Renamed, differences
-from experiments.runner import answer, current
-from experiments.runs import Progress
-from experiments.steppers import default_steppers
-from reference.catalogue import Scheme
-from reference.identify import TOLERANCE
+from experiments.runs.comparison import finite
+from experiments.runs.permutation import CHANGES, Renamed, differences
+from experiments.runs.runner import answer, current
+from experiments.runs.side_by_side import Progress
+from experiments.runs.steppers import default_steppers
+from reference.identification import TOLERANCE
 from reference.scenes import find
+from reference.schemes.catalogue import Scheme
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
 
@@ -163,7 +163,7 @@ def gauss_seidel(system: MassSpringSystem, dt: float) -> float:
     they do to one another's lengthening rates; with its damping D the diagonal is 1 / (m' (1 - exp(-dt c / m'))), m' a
     spring's effective mass. Springs in line do most to one another. (Golub and Van Loan, *Matrix Computations*, 11.2.)
     """
-    from reference.damping_schemes import effective_masses, spring_directions
+    from reference.schemes.implicit_damping import effective_masses, spring_directions
 
     count, (a, b) = np.arange(len(system.springs)), system.springs.T
     rates = np.zeros((len(system.springs), *system.positions.shape))
@@ -268,6 +268,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -13,20 +13,21 @@ from functools import partial
 
 import numpy as np
 
-from engines.isolation import EngineStepper
-from experiments.comparison import finite
+from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.ladder import engine_ladder
-from experiments.runs import Equations, Progress, identify_start, scheme_of, side_by_side
-from experiments.steppers import all_steppers
-from reference.exact import TOLERANCE, exact
+from experiments.runs.comparison import finite
+from experiments.runs.side_by_side import Progress, identify_start, scheme_of, side_by_side
+from experiments.runs.step_size_series import engine_ladder
+from experiments.runs.steppers import all_steppers
 from reference.forces import SpringMotion
-from reference.identify import candidates
+from reference.identification import candidates
+from reference.motion import EquationsOf
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.state import Array, State, Trajectory
 from reference.stepper import EQUATIONS, SchemeStepper, Stepper
 from reference.system import MassSpringSystem
+from reference.theory.exact import TOLERANCE, exact
 
 #: When errors are looked at [s], and after how many steps: dt from 4 ms to 1/16 ms. The largest dt w is 0.77.
 DURATION = 0.064
@@ -63,7 +64,7 @@ class Bench:
 
     name: str
     system: MassSpringSystem
-    true: Mapping[Equations, State]
+    true: Mapping[EquationsOf, State]
     known: Mapping[str, Trajectory]
 
     @property
@@ -278,6 +279,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -9,14 +9,14 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from experiments.comparison import finite
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress, side_by_side
-from experiments.steppers import installed_engines
-from reference.catalogue import find as find_scheme
-from reference.identify import LARGE, Identification, candidates_for, identify_run
+from experiments.runs.comparison import finite
+from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.steppers import installed_engines
+from reference.identification import LARGE, Identification, candidates_for, identify_run
 from reference.outcome import Outcome
 from reference.scenes import Scene, Setup, scenes
+from reference.schemes.catalogue import find as find_scheme
 from reference.simulate import simulate
 from reference.state import Trajectory
 from reference.stepper import Stepper, catalogued
@@ -201,6 +201,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -13,22 +13,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from engines.engine import Engine, registry
-from engines.isolation import isolated
-from experiments.environment import processor
+from engines.process.isolation import isolated
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs import Progress
+from experiments.runs.environment import processor
+from experiments.runs.side_by_side import Progress
+from experiments.runs.timing import adapter_overhead
 from experiments.speed_meshes import LARGE, cases, peak_per_mass, string
-from experiments.timing import adapter_overhead
 from experiments.tuned import TunedHeun
-from reference import catalogue
+from reference.compiled.kernels import Kernel
+from reference.compiled.loops import LANES
+from reference.compiled.sweep import sweep
 from reference.errors import Unsupported
 from reference.forces import SpringMotion
-from reference.kernels import Kernel
-from reference.loops import LANES
 from reference.outcome import Outcome
 from reference.scenes import find
+from reference.schemes import catalogue
 from reference.state import State
-from reference.sweep import sweep
 from reference.system import MassSpringSystem
 
 DT = 1e-5
@@ -155,13 +155,14 @@ def _time_sweep(systems: int, masses: int, threads: int, steps: int = 200) -> Ti
 def time_numpy(masses: int = 20) -> Timing:
     """Heun as the scheme's own function on whole arrays, as a student runs it."""
     system = string(masses)
-    motion, heun = SpringMotion(system), catalogue.find("heun").step
+    motion = SpringMotion(system)
+    heun = catalogue.find("heun").on(motion)
     steps = 2_000
 
     def stepping() -> None:
         state: State = motion.start
         for _ in range(steps):
-            state = heun(motion, state, DT)
+            state = heun(state, DT)
 
     ours = min(_seconds(stepping) for _ in range(ROUNDS))
     speed = masses * steps / ours
@@ -230,6 +231,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

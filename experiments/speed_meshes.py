@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
-from reference import catalogue
-from reference.kernels import Kernel
+from reference.compiled.kernels import Kernel
 from reference.obstacles import Sphere
 from reference.scenes import find
+from reference.schemes import catalogue
 from reference.system import MassSpringSystem
 
 #: From so many masses on, a process's memory is that of the system.

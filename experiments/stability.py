@@ -13,33 +13,26 @@ from typing import Any
 import numpy as np
 
 from engines.engine import Engine
-from engines.isolation import EngineStepper
-from engines.limits import limit_of_engine
+from engines.measured_limit import limit_of_engine
+from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runner import current
-from experiments.runs import Progress
-from experiments.steppers import all_steppers
-from reference.catalogue import Scheme
+from experiments.runs.runner import current
+from experiments.runs.side_by_side import Progress
+from experiments.runs.steppers import all_steppers
 from reference.errors import InputError, SolverError
-from reference.identify import Identification, candidates_for, identify_run
+from reference.identification import Identification, candidates_for, identify_run
+from reference.limit import Limit
+from reference.measured_stability import GROWN, PUSH, mode_growth
 from reference.outcome import Outcome
 from reference.pendulum import why_no_pendulum
-from reference.probe import GROWN, PUSH, mode_growth
 from reference.scenes import find
-from reference.stability import (
-    Equilibrium,
-    Limit,
-    equilibrium,
-    fastest_rate,
-    find_limit,
-    pendulum_equilibrium,
-    spring_equilibrium,
-    stability_limit,
-    step_jacobian,
-)
+from reference.schemes.catalogue import Scheme
 from reference.state import Array, State, Trajectory
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import Equilibrium, equilibrium_of, pendulum_equilibrium, spring_equilibrium
+from reference.theory.limits import fastest_rate, find_limit, stability_limit
+from reference.theory.step_map import step_jacobian
 
 #: An engine's limit, and the spectral radii of its step below and above it.
 Measured = tuple[Limit, tuple[float, float] | None]
@@ -130,7 +123,7 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
 
 def _scheme_row(stepper: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Row:
     if stepper.on_rods:
-        rest = equilibrium(stepper.equations, system)
+        rest = equilibrium_of(stepper.equations, system)
     predicted, measured = stability_limit(stepper.scheme, rest), measure_scheme(stepper.scheme, rest)
     return Row(stepper.name, stepper.kind, system, predicted, measured)
 
@@ -156,13 +149,13 @@ def _growth_of_mode(scheme: Scheme, rest: Equilibrium, dt: float) -> float:
         x, v = rest.state.positions.copy(), rest.state.velocities.copy()
         x[rest.free] += push[:count].reshape(shape)
         v[rest.free] += push[count:].reshape(shape) / dt
-        state, offsets = State(0.0, x, v), list[Array]()
+        state, offsets, step = State(0.0, x, v), list[Array](), scheme.on(rest.motion)
         while len(offsets) <= MODE_STEPS:
             moved = (state.positions - rest.state.positions)[rest.free]
             offsets.append(np.concatenate([moved, dt * state.velocities[rest.free]], axis=None))
             if not np.abs(moved).max() <= GROWN * PUSH * rest.scale:  # the rest would say no more
                 break
-            state = scheme.step(rest.motion, state, dt)
+            state = step(state, dt)
     except (SolverError, np.linalg.LinAlgError):
         return np.inf
     return mode_growth(np.array(offsets), left)
@@ -197,7 +190,7 @@ def _predict(identification: Identification, system: MassSpringSystem, rest: Equ
 def rest_of_scheme(named: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Equilibrium | Limit:
     """Where a scheme's system is at rest, with rods if it steps rods; where there is none, no limit and why."""
     try:
-        return equilibrium(named.equations, system) if named.on_rods else rest
+        return equilibrium_of(named.equations, system) if named.on_rods else rest
     except (InputError, SolverError) as error:
         return Limit(None, f"{named.name} has no rest to be predicted about: {error}")
 
@@ -294,6 +287,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

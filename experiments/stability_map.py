@@ -9,20 +9,22 @@ from pathlib import Path
 
 import numpy as np
 
-from engines.isolation import EngineStepper
-from engines.limits import growths_of_engine
-from experiments.runs import Progress
+from engines.measured_limit import growths_of_engine
+from engines.process.isolation import EngineStepper
+from experiments.runs.side_by_side import Progress
 from experiments.stability import IDENTIFYING_STEPS, at_rest_and_pushed, rest_of_engine
-from reference.catalogue import Scheme
+from reference.compiled.sweep import CHUNK, sweep
+from reference.compiled.tracing import why_not_compiled
 from reference.errors import InputError
-from reference.identify import identify
+from reference.identification import identify
+from reference.measured_stability import GROWN, PUSH
 from reference.outcome import Outcome
-from reference.probe import GROWN, PUSH
-from reference.stability import equilibrium, fastest_rate, spring_equilibrium, stability_limit
+from reference.schemes.catalogue import Scheme
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper, catalogued
-from reference.sweep import CHUNK, sweep
 from reference.system import PARAMETERS, MassSpringSystem
+from reference.theory.equilibria import equilibrium_of, spring_equilibrium
+from reference.theory.limits import fastest_rate, stability_limit
 
 #: Points along each axis: of a scheme that can be swept, of an engine (and any other scheme), of the prediction.
 SWEPT, ENGINE, PREDICTED = 256, 16, 25
@@ -110,7 +112,7 @@ def stability_map(
     # In the middle of the plane, where nothing that an axis is about is switched off.
     middle = {axis.name: (axis.low + axis.high) / 2 for axis in (x, y) if axis.name != "dt"}
     known = _scheme_of(stepper, system_at(middle))
-    swept = isinstance(stepper, SchemeStepper) and not stepper.scheme.springs_only and not stepper.on_rods
+    swept = isinstance(stepper, SchemeStepper) and not stepper.on_rods and why_not_compiled(stepper.scheme) is None
     count = resolution or (SWEPT if swept else ENGINE)
     xs, ys = x.values(count), y.values(count)
     points = [{x.name: float(a), y.name: float(b)} for b in ys for a in xs]
@@ -242,7 +244,7 @@ def _boundary(known: SchemeStepper, system_at: SystemAt, x: Axis, y: Axis) -> Ar
     found = []
     for value in other.values(PREDICTED):
         system = system_at({other.name: float(value)})
-        limit = stability_limit(known.scheme, equilibrium(known.equations, system))
+        limit = stability_limit(known.scheme, equilibrium_of(known.equations, system))
         if limit.dt is not None:
             found.append((limit.dt, value) if x.name == "dt" else (value, limit.dt))
     return np.array(found).reshape(-1, 2)
@@ -257,7 +259,7 @@ def _predicted_field(
     for j, b in enumerate(ys):
         for i, a in enumerate(xs):
             system = system_at({x.name: float(a), y.name: float(b)})
-            limit = stability_limit(known.scheme, equilibrium(known.equations, system))
+            limit = stability_limit(known.scheme, equilibrium_of(known.equations, system))
             never = 0.0 if limit.growth is not None else 10.0
             field[j, i] = never if limit.dt is None else min(limit.dt / dt, 10.0)
     return xs, ys, field

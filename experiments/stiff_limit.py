@@ -8,14 +8,14 @@ from __future__ import annotations
 import numpy as np
 
 from engines.engine import find as find_engine
-from engines.isolation import EngineStepper
-from experiments.comparison import finite
+from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runner import answer
-from experiments.runs import Progress
-from reference.exact import exact
+from experiments.runs.comparison import finite
+from experiments.runs.runner import answer
+from experiments.runs.side_by_side import Progress
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
+from reference.theory.exact import exact
 
 STIFFNESSES = (2e2, 2e3, 2e4, 2e5, 2e6)
 DT, DURATION = 1e-3, 0.5
@@ -74,6 +74,6 @@ EXPERIMENT = Experiment(
 )
 
 if __name__ == "__main__":
-    from experiments.console import main
+    from report.commands.terminal import main
 
     main(EXPERIMENT)

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 
 from reference.errors import SolverError
+from reference.jit import compiled
+from reference.spring_law import force_by_rate, force_by_stretch, spring_force
 from reference.state import Array, State
-from reference.system import MassSpringSystem
+from reference.system import BoolArray, IntArray, MassSpringSystem
 
 #: Up to this many unknowns a dense solve is quicker than a sparse one.
 DENSE_UP_TO = 200
@@ -56,27 +57,29 @@ class Blocks:
 def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Blocks]:
     """The exact derivatives of the forces at a state, by positions [N/m] and by velocities [N s/m].
 
-    For a spring of length L along u, with w the velocity of its second mass less that of its first,
-    f = (k (L - L0) + c u.w) u, so
+    For a spring of length L along u, with w the velocity of its second mass less that of its first and F the force
+    of the law of a spring, f = F(L - L0, u.w) u, so with the law's derivatives
 
-        df/dw = c u u^T
-        df/dx = k u u^T + (f.u / L) (1 - u u^T) + (c / L) u (w - (u.w) u)^T.
+        df/dw = F_rate u u^T
+        df/dx = F_stretch u u^T + (F / L) (1 - u u^T) + (F_rate / L) u (w - (u.w) u)^T.
     """
     a, b = system.springs.T
-    gap = state.positions[b] - state.positions[a]
+    separation = state.positions[b] - state.positions[a]
     w = state.velocities[b] - state.velocities[a]
-    length = np.linalg.norm(gap, axis=1)
-    u = gap / length[:, None]
-    lengthening = np.einsum("si,si->s", u, w)
-    force = system.stiffness * (length - system.rest_lengths) + system.damping * lengthening
+    length = np.linalg.norm(separation, axis=1)
+    u = separation / length[:, None]
+    rate = np.einsum("si,si->s", u, w)
+    stretch = length - system.rest_lengths
+    force = spring_force(system.stiffness, stretch, system.damping, rate)
+    by_rate = force_by_rate(system.damping)
     along = _outer(u, u)
     across = np.eye(system.dimension) - along
-    turning = _outer(u, w - lengthening[:, None] * u)
-    by_velocity = system.damping[:, None, None] * along
+    turning = _outer(u, w - rate[:, None] * u)
+    by_velocity = by_rate[:, None, None] * along
     by_position = (
-        system.stiffness[:, None, None] * along
+        force_by_stretch(system.stiffness, stretch)[:, None, None] * along
         + (force / length)[:, None, None] * across
-        + (system.damping / length)[:, None, None] * turning
+        + (by_rate / length)[:, None, None] * turning
     )
     nothing = np.zeros(len(system.masses))
     return Blocks(by_position, nothing), Blocks(by_velocity, nothing + system.drag)
@@ -168,7 +171,7 @@ def _by_iteration(system: MassSpringSystem, blocks: Blocks, right: Array) -> Arr
 
     def product(v: Array) -> Array:
         out = np.empty(shape)
-        momentum_kept(v.reshape(shape), system.springs, blocks.springs, weights, free, out)
+        _matrix_vector_product(v.reshape(shape), system.springs, blocks.springs, weights, free, out)
         return out.ravel()
 
     momentum = np.where(free[:, None], system.masses[:, None] * right, 0.0).ravel()
@@ -180,8 +183,9 @@ def _by_iteration(system: MassSpringSystem, blocks: Blocks, right: Array) -> Arr
     return size * found.reshape(shape) if left <= REMAINDER else None
 
 
-@njit(cache=True)
-def momentum_kept(v, springs, blocks, weights, free, out):  # type: ignore[no-untyped-def]
+def matrix_vector_product(
+    v: Array, springs: IntArray, blocks: Array, weights: Array, free: BoolArray, out: Array
+) -> None:
     """Write (M - B) v to out, for fixed masses without springs. The weights are M and what B has of masses."""
     for i in range(len(v)):
         for axis in range(v.shape[1]):
@@ -196,6 +200,9 @@ def momentum_kept(v, springs, blocks, weights, free, out):  # type: ignore[no-un
                 out[a, axis] -= force
             if free[b]:
                 out[b, axis] += force
+
+
+(_matrix_vector_product,) = compiled(matrix_vector_product)
 
 
 def _outer(u: Array, w: Array) -> Array:

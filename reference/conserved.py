@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from reference.spring_law import elastic_energy
 from reference.state import Array, State
 from reference.system import MassSpringSystem
 
 
 def energy(system: MassSpringSystem, state: State) -> float:
-    """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + sum k (L - L0)^2/2 - sum m g.x."""
+    """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + that of the law of a spring - sum m g.x."""
     a, b = system.springs.T
     stretch = np.linalg.norm(state.positions[b] - state.positions[a], axis=1) - system.rest_lengths
     kinetic = 0.5 * system.masses @ (state.velocities**2).sum(axis=1)
-    elastic = 0.5 * system.stiffness @ stretch**2
+    elastic = elastic_energy(system.stiffness, stretch).sum()
     weight = system.masses @ (state.positions @ system.gravity)
     return float(kinetic + elastic - weight)
 

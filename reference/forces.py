@@ -1,81 +1,118 @@
 """The forces on a mesh of springs, and so its equations of motion: the lecture's slides 4-5 and 9-10, on any mesh.
 
-A spring pulls the two masses it joins together with the force
+A spring pulls the two masses it joins together with the force that the law of a spring gives (`spring_law`), and a mass
+feels its springs, its weight m g, and the drag -Cd v. Every spring is computed once; then each mass sums the forces of
+its own springs in their order. A mass alone (`acceleration_of`) is given exactly the bits it has within the whole. A
+spring of no length, which has no direction, gives forces that are not numbers, and so a run that diverges.
 
-    F = k (length - rest length) + c (rate at which it lengthens)
-
-and a mass feels its springs, its weight m g, and the drag -Cd v. The kernels are compiled by Numba and cached on disk.
-Every spring is computed once; then each mass sums the pulls of its own springs in their order. A mass alone
-(`acceleration_of`) is given exactly the bits it has within the whole. A spring of no length, which has no direction,
-gives forces that are not numbers (Numba's "numpy" error model), and so a run that diverges.
+The functions at the top are compiled (`jit`): they are loops over numbers.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from reference.assembly import Blocks, spring_blocks
+from reference.jit import compiled
+from reference.spring_law import spring_force
 from reference.state import Array, Slope, State, Trajectory
-from reference.system import IntArray, MassSpringSystem
+from reference.system import BoolArray, IntArray, MassSpringSystem
 
 
-@njit(cache=True, error_model="numpy")
-def spring_force(stiffness, stretch, damping, lengthening):  # type: ignore[no-untyped-def]
-    """The force law [N]: k times how much longer than at rest, plus c times how fast it lengthens."""
-    return stiffness * stretch + damping * lengthening
-
-
-@njit(cache=True, error_model="numpy")
-def spring_pull(j, x, v, springs, rest_lengths, stiffness, damping, pull):  # type: ignore[no-untyped-def]
-    """Write the force of spring j on its first mass [N] to pull[j]; on its second mass it is the opposite."""
+def force_of_spring(
+    j: int, x: Array, v: Array, springs: IntArray, rest_lengths: Array, stiffness: Array, damping: Array, forces: Array
+) -> None:
+    """Write the force of spring j on its first mass [N] to forces[j]; on its second mass it is the opposite."""
     a, b = springs[j, 0], springs[j, 1]
     dimension = x.shape[1]
     squares = 0.0
     for axis in range(dimension):
-        gap = x[b, axis] - x[a, axis]
-        pull[j, axis] = gap
-        squares += gap * gap
+        separation = x[b, axis] - x[a, axis]
+        forces[j, axis] = separation
+        squares += separation * separation
     length = np.sqrt(squares)
-    lengthening = 0.0
+    rate = 0.0
     for axis in range(dimension):
-        pull[j, axis] /= length
-        lengthening += pull[j, axis] * (v[b, axis] - v[a, axis])
-    force = spring_force(stiffness[j], length - rest_lengths[j], damping[j], lengthening)
+        forces[j, axis] /= length
+        rate += forces[j, axis] * (v[b, axis] - v[a, axis])
+    force = spring_force(stiffness[j], length - rest_lengths[j], damping[j], rate)
     for axis in range(dimension):
-        pull[j, axis] *= force
+        forces[j, axis] *= force
 
 
-@njit(cache=True, error_model="numpy")
-def mass_acceleration(i, v, pull, masses, drag, gravity, fixed, first, spring, sign, out):  # type: ignore[no-untyped-def]
-    """Write the acceleration of mass i [m/s^2] to out[i], from its weight, its springs' pulls and its drag."""
+def acceleration_of_mass(
+    i: int,
+    v: Array,
+    forces: Array,
+    masses: Array,
+    drag: float,
+    gravity: Array,
+    fixed: BoolArray,
+    first: IntArray,
+    spring: IntArray,
+    sign: Array,
+    out: Array,
+) -> None:
+    """Write the acceleration of mass i [m/s^2] to out[i], from its weight, the forces of its springs and its drag."""
     for axis in range(out.shape[1]):
         force = masses[i] * gravity[axis]
         for entry in range(first[i], first[i + 1]):
-            force += sign[entry] * pull[spring[entry], axis]
+            force += sign[entry] * forces[spring[entry], axis]
         force -= drag * v[i, axis]
         out[i, axis] = 0.0 if fixed[i] else force / masses[i]
 
 
-@njit(cache=True, error_model="numpy")
-def all_accelerations(  # type: ignore[no-untyped-def]
-    x, v, springs, rest_lengths, stiffness, damping, masses, drag, gravity, fixed, first, spring, sign, pull, out
-):
+def all_accelerations(
+    x: Array,
+    v: Array,
+    springs: IntArray,
+    rest_lengths: Array,
+    stiffness: Array,
+    damping: Array,
+    masses: Array,
+    drag: float,
+    gravity: Array,
+    fixed: BoolArray,
+    first: IntArray,
+    spring: IntArray,
+    sign: Array,
+    forces: Array,
+    out: Array,
+) -> None:
     """Springs first, each once; then every mass sums its own."""
     for j in range(len(springs)):
-        spring_pull(j, x, v, springs, rest_lengths, stiffness, damping, pull)
+        force_of_spring(j, x, v, springs, rest_lengths, stiffness, damping, forces)
     for i in range(len(masses)):
-        mass_acceleration(i, v, pull, masses, drag, gravity, fixed, first, spring, sign, out)
+        acceleration_of_mass(i, v, forces, masses, drag, gravity, fixed, first, spring, sign, out)
 
 
-@njit(cache=True, error_model="numpy")
-def one_acceleration(  # type: ignore[no-untyped-def]
-    i, x, v, springs, rest_lengths, stiffness, damping, masses, drag, gravity, fixed, first, spring, sign, pull, out
-):
+def one_acceleration(
+    i: int,
+    x: Array,
+    v: Array,
+    springs: IntArray,
+    rest_lengths: Array,
+    stiffness: Array,
+    damping: Array,
+    masses: Array,
+    drag: float,
+    gravity: Array,
+    fixed: BoolArray,
+    first: IntArray,
+    spring: IntArray,
+    sign: Array,
+    forces: Array,
+    out: Array,
+) -> None:
     """The springs of mass i, then mass i."""
     for entry in range(first[i], first[i + 1]):
-        spring_pull(spring[entry], x, v, springs, rest_lengths, stiffness, damping, pull)
-    mass_acceleration(i, v, pull, masses, drag, gravity, fixed, first, spring, sign, out)
+        force_of_spring(spring[entry], x, v, springs, rest_lengths, stiffness, damping, forces)
+    acceleration_of_mass(i, v, forces, masses, drag, gravity, fixed, first, spring, sign, out)
+
+
+*_, _all_accelerations, _one_acceleration = compiled(
+    spring_force, force_of_spring, acceleration_of_mass, all_accelerations, one_acceleration
+)
 
 
 class SpringMotion:
@@ -89,9 +126,9 @@ class SpringMotion:
         self.system = system
         self.start = system.start
         self._masses_and_weight = (system.masses, system.drag, system.gravity, system.fixed, *springs_of_masses(system))
-        self._law = (system.springs, system.rest_lengths, system.stiffness)
+        self._springs = (system.springs, system.rest_lengths, system.stiffness)
         self._none = np.zeros(len(system.springs))
-        self._pull = np.empty((len(system.springs), system.dimension))
+        self._forces = np.empty((len(system.springs), system.dimension))
 
     def acceleration(self, state: State, damping: bool = True) -> Array:
         """Accelerations of all masses [m/s^2], shape (n, d), as a new array; zero for fixed masses.
@@ -100,15 +137,15 @@ class SpringMotion:
             damping: False leaves out the damping of the springs, for schemes that treat it apart. Drag stays in.
         """
         out = np.empty_like(state.positions)
-        law = (*self._law, self.system.damping if damping else self._none)
-        all_accelerations(state.positions, state.velocities, *law, *self._masses_and_weight, self._pull, out)
+        springs = (*self._springs, self.system.damping if damping else self._none)
+        _all_accelerations(state.positions, state.velocities, *springs, *self._masses_and_weight, self._forces, out)
         return out
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Acceleration of mass i alone [m/s^2], shape (d,): all the lecture's per-link function sees."""
         out = np.empty_like(state.positions)
-        law = (*self._law, self.system.damping)
-        one_acceleration(i, state.positions, state.velocities, *law, *self._masses_and_weight, self._pull, out)
+        springs = (*self._springs, self.system.damping)
+        _one_acceleration(i, state.positions, state.velocities, *springs, *self._masses_and_weight, self._forces, out)
         return out[i]
 
     def slope(self, state: State) -> Slope:

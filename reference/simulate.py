@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from reference.catalogue import Scheme
 from reference.changes import Change, changes_by_step, whole_steps
 from reference.forces import SpringMotion
-from reference.motion import Motion
+from reference.motion import EquationsOf
 from reference.obstacles import keep_out
+from reference.schemes.catalogue import Scheme
 from reference.state import State, Trajectory
 from reference.system import MassSpringSystem
 
@@ -21,11 +21,9 @@ def simulate(
     dt: float,
     duration: float,
     changes: Sequence[Change] = (),
-    equations: Callable[[MassSpringSystem], Motion] = SpringMotion,
+    equations: EquationsOf = SpringMotion,
 ) -> Trajectory:
     """The trajectory of a system under a scheme, with parameters that may change on the fly (slide 12).
-
-    The state advances as a whole; then masses inside obstacles are pushed out (slide 17), and that is the new state.
 
     Args:
         dt: the step [s].
@@ -39,23 +37,33 @@ def simulate(
     Raises:
         InputError: for a dt or duration that is not a positive number; for rods with obstacles (`pendulum`).
         SolverError: if the scheme is implicit and finds no solution.
+        Unsupported: where the scheme needs what the equations do not give.
     """
     steps = whole_steps(dt, duration)
     pending = changes_by_step(changes, dt)
     motion = equations(system)
     state = motion.start
     states = [state]
+    step = scheme.on(motion)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for i in range(steps):
             for change in pending.get(i, ()):
                 system = system.with_parameter(change.parameter, change.value)
                 motion = equations(system)
-            state = scheme.step(motion, state, dt)
-            x, v = state.positions, state.velocities
-            if system.obstacles:
-                x, v = keep_out(system.obstacles, system.fixed[:, None], x, v)
-            state = State((i + 1) * dt, x, v)
+                step = scheme.on(motion)
+            state = projected(system, step(state, dt), (i + 1) * dt)
             states.append(state)
             if not (np.isfinite(state.positions).all() and np.isfinite(state.velocities).all()):
                 break
         return motion.trajectory(states)
+
+
+def projected(system: MassSpringSystem, state: State, time: float) -> State:
+    """The end of every step: masses inside obstacles are put out of them (slide 17), and it is a time [s] on the clock.
+
+    What a multistep scheme remembers stays as it is.
+    """
+    x, v = state.positions, state.velocities
+    if system.obstacles:
+        x, v = keep_out(system.obstacles, system.fixed[:, None], x, v)
+    return State(time, x, v, state.memory)

@@ -20,11 +20,14 @@ class State:
         time: [s].
         positions: shape (n, d) [m]; for a pendulum its angles, shape (n,) [rad].
         velocities: the same shape [m/s] or [rad/s].
+        memory: what a multistep scheme keeps of earlier steps, arrays of the same shape. Empty at the start and for
+            one-step schemes; a new state has none unless it is given some.
     """
 
     time: float
     positions: Array
     velocities: Array
+    memory: tuple[Array, ...] = ()
 
     def __post_init__(self) -> None:
         if self.positions.shape != self.velocities.shape:
@@ -39,6 +42,10 @@ class State:
     def kick(self, change: Array) -> State:
         """The same positions with other velocities: what a force alone does."""
         return State(self.time, self.positions, self.velocities + change)
+
+    def remembering(self, *memory: Array) -> State:
+        """The same state with something for the next step to look back at."""
+        return State(self.time, self.positions, self.velocities, memory)
 
     def drift(self, dt: float) -> State:
         """Everything moved on for dt [s] at the velocity it has: what no force at all does."""

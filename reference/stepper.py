@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from reference import catalogue
-from reference.catalogue import Scheme
 from reference.changes import Change
+from reference.distance_constraints import RopeMotion
 from reference.errors import InputError, SolverError
 from reference.forces import SpringMotion
-from reference.motion import Motion
+from reference.motion import EquationsOf
 from reference.outcome import Outcome, outcome_of
 from reference.pendulum import PendulumMotion, why_no_pendulum
-from reference.rope import ROPE_KICK_DRIFT, RopeMotion
+from reference.schemes import catalogue
+from reference.schemes.catalogue import Scheme
+from reference.schemes.constrained import ROPE_KICK_DRIFT
 from reference.simulate import simulate
 from reference.system import MassSpringSystem
 
 #: What a system is taken for: springs, the angles of the rods they become, and the masses on those rods.
-EQUATIONS: tuple[Callable[[MassSpringSystem], Motion], ...] = (SpringMotion, PendulumMotion, RopeMotion)
+EQUATIONS: tuple[EquationsOf, ...] = (SpringMotion, PendulumMotion, RopeMotion)
 
 
 class Stepper(Protocol):
@@ -46,7 +47,7 @@ class SchemeStepper:
     """A catalogued scheme on the equations of motion of springs, or of the rods that very stiff springs become."""
 
     scheme: Scheme
-    equations: Callable[[MassSpringSystem], Motion] = SpringMotion
+    equations: EquationsOf = SpringMotion
     version: str | None = None
 
     @property
@@ -60,9 +61,9 @@ class SchemeStepper:
         return "pendulum" if self.on_rods else self.scheme.kind
 
     @property
-    def quick_up_to(self) -> int | None:
+    def interactive_up_to(self) -> int | None:
         """The scheme's."""
-        return self.scheme.quick_up_to
+        return self.scheme.interactive_up_to
 
     @property
     def on_rods(self) -> bool:
@@ -93,5 +94,5 @@ def catalogued() -> Mapping[str, SchemeStepper]:
     """Every scheme on springs, then those that can on the pendulum, then the rope's own, by name."""
     schemes = catalogue.schemes().values()
     on_springs = [SchemeStepper(s) for s in schemes]
-    on_rods = [SchemeStepper(s, PendulumMotion) for s in schemes if not s.springs_only]
+    on_rods = [SchemeStepper(s, PendulumMotion) for s in schemes if s.needs == "accelerations"]
     return {stepper.name: stepper for stepper in [*on_springs, *on_rods, SchemeStepper(ROPE_KICK_DRIFT, RopeMotion)]}

@@ -6,11 +6,11 @@ import tempfile
 from pathlib import Path
 
 from engines.engine import registry
-from experiments.console import progress
 from experiments.experiment import find
-from experiments.runner_options import STORE, chosen_runner
-from report.overview import explained
-from report.sections import all_sections
+from report.commands.runner_options import STORE, chosen_runner
+from report.commands.terminal import progress
+from report.page.overview import explained
+from report.page.sections import all_sections
 
 README = Path(__file__).parents[1] / "README.md"
 BEGIN, END = "<!-- engines: written by `python -m report.readme` -->\n", "<!-- end of engines -->"

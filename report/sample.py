@@ -6,11 +6,11 @@ import tempfile
 from dataclasses import replace
 from pathlib import Path
 
-from experiments.console import progress
 from experiments.experiment import find
-from experiments.runner_options import STORE, chosen_runner
-from report.page import page
-from report.sections import all_sections
+from report.commands.runner_options import STORE, chosen_runner
+from report.commands.terminal import progress
+from report.page.page import page
+from report.page.sections import all_sections
 
 SAMPLE = Path(__file__).parent / "sample" / "index.html"
 

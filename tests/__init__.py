@@ -2,5 +2,5 @@
 
 import os
 
-# As experiments/command_line.py does, and for the same reason; here before any test imports NumPy.
+# As report/commands/main.py does, and for the same reason; here before any test imports NumPy.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -15,9 +15,9 @@ import pytest
 from packaging.requirements import Requirement
 
 from experiments.experiment import experiments
-from reference.catalogue import schemes
-from reference.lecture import listings
+from reference.lecture.listings import listings
 from reference.scenes import scenes
+from reference.schemes.catalogue import schemes
 
 ROOT = Path(__file__).parents[1]
 
@@ -27,12 +27,16 @@ ROOMS = ("reference", "engines", "experiments", "report")
 #: Of the reference, the files that must work in a bare environment.
 BARE_REFERENCE = (
     "axes",
+    "bisection",
     "cache",
     "changes",
     "errors",
+    "growth_factor",
+    "limit",
+    "measured_stability",
     "obstacles",
     "outcome",
-    "probe",
+    "registry",
     *(f"scenes.{name}" for name in ("barrier", "cloths", "drape", "lattices", "parameters", "strings", "trusses")),
     "scenes",
     "state",
@@ -46,7 +50,7 @@ LIGHT += [f"reference.{name}" for name in BARE_REFERENCE]
 #: Those files.
 BARE = [ROOT / "reference" / f"{name.replace('.', '/')}.py" for name in BARE_REFERENCE if name != "scenes"]
 BARE.append(ROOT / "reference" / "scenes" / "__init__.py")
-BARE += sorted((ROOT / "engines").glob("*.py"))
+BARE += sorted((ROOT / "engines").rglob("*.py"))
 
 
 def modules_imported(source: str, everywhere: bool) -> Iterator[str]:

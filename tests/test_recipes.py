@@ -12,14 +12,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from engines.isolation import run_engine
-from reference import catalogue, scenes
-from reference.catalogue import Scheme, schemes
-from reference.exact import exact
-from reference.identify import identify
+from engines.process.isolation import run_engine
+from reference import scenes
+from reference.identification import identify
 from reference.scenes import find
+from reference.schemes import catalogue
+from reference.schemes.catalogue import Scheme
 from reference.simulate import simulate
 from reference.stepper import SchemeStepper
+from reference.theory.exact import exact
 from report.readme import README, with_engine_table
 from tests import wrong
 
@@ -29,7 +30,6 @@ CONTRIBUTING = Path(__file__).parents[1] / "CONTRIBUTING.md"
 @pytest.fixture
 def follow() -> Iterator[Any]:
     """The module that a recipe's code makes; what it enters into the catalogue is taken out again."""
-    before, before_scenes = dict(schemes()), dict(scenes.scenes())
     made: list[str] = []
 
     def recipe(name: str) -> ModuleType:
@@ -41,13 +41,10 @@ def follow() -> Iterator[Any]:
         exec(compile(code, f"CONTRIBUTING.md, {name}", "exec"), module.__dict__)
         return module
 
-    yield recipe
+    with catalogue._SCHEMES.as_it_is(), scenes._SCENES.as_it_is():
+        yield recipe
     for name in made:
         del sys.modules[name]
-    catalogue._SCHEMES.clear()
-    catalogue._SCHEMES.update(before)
-    scenes._SCENES.clear()
-    scenes._SCENES.update(before_scenes)
 
 
 def measured_order(scheme: Scheme) -> float:

@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from reference.catalogue import Kind, Scheme, Step
 from reference.forces import SpringMotion
-from reference.motion import Motion
+from reference.motion import Motion, MotionByMass, MotionOfSprings
+from reference.schemes.catalogue import Kind, Scheme, Step
 from reference.state import Array, State
 
 
@@ -20,7 +20,7 @@ def wrong(order: int, kind: Kind = "scheme") -> Callable[[Step], Scheme]:
     """Wrap the decorated step as a scheme that claims an order."""
 
     def wrap(step: Step) -> Scheme:
-        return Scheme(step, order, kind, springs_only=False)
+        return Scheme(step, order, kind)
 
     return wrap
 
@@ -94,7 +94,7 @@ def kick_drift_gaining_energy(motion: Motion, state: State, dt: float) -> State:
 
 
 @wrong(order=1)
-def in_order_of_number(motion: SpringMotion, state: State, dt: float) -> State:
+def in_order_of_number(motion: MotionByMass, state: State, dt: float) -> State:
     """Kick-drift, mass by mass: each looks at those before it where they have already moved to."""
     end = State(state.time + dt, state.positions.copy(), state.velocities.copy())
     for i in range(len(end.positions)):
@@ -178,10 +178,10 @@ def under(law: Law) -> type[WrongMotion]:
 def stepped(law: Law, scheme: Scheme) -> Scheme:
     """A right scheme stepping under a wrong law."""
 
-    def step(motion: SpringMotion, state: State, dt: float) -> State:
+    def step(motion: MotionOfSprings, state: State, dt: float) -> State:
         return scheme.step(under(law)(motion.system), state, dt)
 
     step.__name__ = f"{scheme.name}_with_{law.__name__}"
     step.__doc__ = law.__doc__
     # A law needs the springs: their ends, lengths and coefficients.
-    return Scheme(step, scheme.order, scheme.kind, springs_only=True)
+    return Scheme(step, scheme.order, scheme.kind, linear=False)

@@ -1,8 +1,8 @@
 """The verdict on a submission: which scheme, or which mistake, its numbers are those of; or where they depart.
 
-As in `reference.identify`, a name is given only to what reproduces every number to rounding: the right solution first,
-then each mistake of the catalogue, then every two that can be made at once. What is found otherwise (an input that was
-written to, a call that answers differently the second time) is found by looking, and told beside it.
+As in `reference.identification`, a name is given only to what reproduces every number to rounding: the right solution
+first, then each mistake of the catalogue, then every two that can be made at once. What is found otherwise (an input
+that was written to, a call that answers differently the second time) is found by looking, and told beside it.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from typing import Any, Literal
 import numpy as np
 
 from experiments.exercises import sandbox
-from experiments.exercises.departure import Departure, Lines, first_departure
+from experiments.exercises.answer_catalogue import Catalogue, answer_distance, catalogue
 from experiments.exercises.exercise import Answer, Exercise
 from experiments.exercises.faults import Finding, beside, fault_of_error, fault_of_values, not_repeated
-from experiments.exercises.known import Catalogue, answer_distance, catalogue
+from experiments.exercises.first_difference import Departure, Lines, first_departure
 from experiments.exercises.naming import SINGLE, fault_of_form, identify, told_by_the_exercise
 
 #: What a verdict says in a word.

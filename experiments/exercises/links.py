@@ -1,7 +1,7 @@
 """Links on a string, each mass hanging on the one before, as students see them: the forces, with knobs for mistakes.
 
 The physics is that of slides 4-5 and 9-10, in one dimension or two: mass i hangs by spring i below mass i - 1, the
-first below the anchor. Written for small strings, in NumPy; `tests/exercises` holds it against `reference.forces`.
+first below the anchor. Written for small strings, in NumPy; the tests hold it against `reference.forces`.
 """
 
 from __future__ import annotations

@@ -7,9 +7,9 @@ from itertools import islice, permutations
 
 import numpy as np
 
+from experiments.exercises.answer_catalogue import Catalogue, answer_distance
 from experiments.exercises.exercise import Answer, Mistake
 from experiments.exercises.faults import Finding
-from experiments.exercises.known import Catalogue, answer_distance
 
 #: Numbers in single precision are the same up to SINGLE, if nothing else is less than APART times as far.
 SINGLE, APART = 2e-5, 30.0

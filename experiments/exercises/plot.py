@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from experiments.exercises.departure import Lines
+from experiments.exercises.first_difference import Lines
 
 #: Columns and rows of the plot in the terminal.
 WIDTH, HEIGHT = 56, 9

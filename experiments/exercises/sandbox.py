@@ -26,7 +26,7 @@ from typing import IO, Any
 import numpy as np
 
 from experiments.exercises import child
-from experiments.exercises.confine import MEMORY, SECONDS
+from experiments.exercises.sandbox_layers import MEMORY, SECONDS
 
 #: A process that sleeps, or waits, is ended after so long [s].
 WALL = 20.0

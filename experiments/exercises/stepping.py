@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.links import LinkMotion
-from reference import catalogue
 from reference.motion import Motion
+from reference.schemes import catalogue
 from reference.state import Array, State
 
 Step = Callable[[Any, State, float], State]

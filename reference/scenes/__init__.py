@@ -7,31 +7,18 @@ SI units, angles in degrees. They stand in files by subject.
 
 from __future__ import annotations
 
-import importlib
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 from reference.changes import Change, Driven, changes_by_step, whole_steps
 from reference.errors import unknown_name
+from reference.registry import Registry
 from reference.scenes.parameters import PerItem, chosen, converted
 from reference.system import MassSpringSystem
-
-#: Where the scenes stand, in the order they are shown.
-_FILES = (
-    "reference.scenes.strings",
-    "reference.scenes.barrier",
-    "reference.scenes.lattices",
-    "reference.scenes.cloths",
-    "reference.scenes.drape",
-    "reference.scenes.trusses",
-    "reference.scenes.driven",
-)
-_SCENES: dict[str, Scene] = {}
 
 
 @dataclass(frozen=True)
@@ -135,12 +122,27 @@ class Setup:
             self.system.with_parameter(change.parameter, change.value)
 
 
+#: Where the scenes stand, in the order they are shown.
+_SCENES = Registry[Scene](
+    "scene",
+    (
+        "reference.scenes.strings",
+        "reference.scenes.barrier",
+        "reference.scenes.lattices",
+        "reference.scenes.cloths",
+        "reference.scenes.drape",
+        "reference.scenes.trusses",
+        "reference.scenes.driven",
+    ),
+)
+
+
 def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., MassSpringSystem | Driven]], Any]:
-    """Enter the decorated function into the scenes."""
+    """Enter the decorated function into the scenes. Raises InputError where its name is taken."""
 
     def enter(build: Callable[..., MassSpringSystem | Driven]) -> Callable[..., MassSpringSystem | Driven]:
         entry = Scene(build, dt, duration, slides)
-        _SCENES[entry.name] = entry
+        _SCENES.enter(entry.name, entry, build.__module__)
         return build
 
     return enter
@@ -148,19 +150,9 @@ def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., Ma
 
 def scenes() -> Mapping[str, Scene]:
     """All scenes by name."""
-    for file in _FILES:
-        importlib.import_module(file)
-    # By file, whichever was imported first: sorting is stable, and keeps the order within each.
-    return MappingProxyType(dict(sorted(_SCENES.items(), key=lambda entry: _place(entry[1]))))
-
-
-def _place(entry: Scene) -> int:
-    module = entry.build.__module__
-    return _FILES.index(module) if module in _FILES else len(_FILES)
+    return _SCENES.all()
 
 
 def find(name: str) -> Scene:
     """The scene of that name. Raises InputError, with a suggestion, where there is none."""
-    if name not in scenes():
-        raise unknown_name("scene", name, scenes())
-    return scenes()[name]
+    return _SCENES.find(name)

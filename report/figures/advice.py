@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from experiments.advice import Advice
+from experiments.advice.advice import Advice
 from experiments.experiment import Result
 from reference.scenes import Setup
 from report.figures import COLOURS, MEASURED, PREDICTED, Picture, few_ticks, new_figure

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from experiments.comparison import Comparison, Run
 from experiments.experiment import Result
+from experiments.runs.comparison import Comparison, Run
 from reference.state import Array
 from report.figures import IDENTIFIED, Picture, look, new_figure
 from report.figures.labels import End, label_ends

@@ -8,7 +8,7 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.numbering import DAMPINGS, ROUNDS, Convergence, Row, names
-from experiments.renaming import CHANGES
+from experiments.runs.permutation import CHANGES
 from report.figures import Picture, look, new_figure
 
 #: Where no difference at all is drawn: a logarithm has no place for it.

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from report.figures import COLOURS, IDENTIFIED, MEASURED, Picture, new_figure
-from report.overview import Explained
+from report.page.overview import Explained
 
 #: Lengths that people know [m].
 KNOWN = {1e-3: "1 mm", 1e-6: "1 µm", 1e-10: "an atom", 1e-15: "a proton"}

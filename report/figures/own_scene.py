@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from experiments.experiment import Result
-from report.drawing import strain
 from report.figures import Picture, new_figure
 from report.figures.scenes import still
+from report.film.drawing import strain
 
 #: An animation of more springs would be a page for itself.
 MOST = 2000
@@ -15,7 +15,7 @@ MOST = 2000
 
 def animate(result: Result) -> str:
     """The scene as it moves, where it does and is not too large for a page."""
-    from report.animations import animated
+    from report.film.animations import animated
 
     system, motion = result.data["system"], result.data["motion"]
     if len(motion) < 2 or not 0 < len(system.springs) <= MOST:

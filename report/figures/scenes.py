@@ -11,9 +11,9 @@ from experiments.experiment import Result
 from experiments.scenes import SHOWN_BY
 from reference.state import Trajectory
 from reference.system import MassSpringSystem
-from report.drawing import Drawing, add_length, add_strain_bar, strain
 from report.figures import Picture, new_figure
-from report.film import look_at
+from report.film.drawing import Drawing, add_length, add_strain_bar, strain
+from report.film.film import look_at
 
 #: Scenes in a row.
 COLUMNS = 3
@@ -35,7 +35,7 @@ def draw(result: Result) -> Picture:
 
 def animate(result: Result) -> str:
     """Some of the scenes as they move."""
-    from report.animations import SHOWN, animated
+    from report.film.animations import SHOWN, animated
 
     motions = result.data["motions"]
     return "".join(animated(name, *motions[name]).html() for name in SHOWN if name in motions)

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from textwrap import wrap
 from typing import Any
 
-from experiments.conformance import Value
+from experiments.engine_versions.changes import same
+from experiments.engine_versions.conformance import Value
+from experiments.engine_versions.versions import Measured
 from experiments.experiment import Result
-from experiments.version_changes import same
-from experiments.versions import Measured
 from report.figures import COLOURS, Picture, new_figure
 
 #: Letters in a line of a cell and lines in a cell, at most; inches for a line, a version's column, the names' column.

@@ -6,12 +6,12 @@ from collections.abc import Callable, Coroutine
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
-from experiments.advice import rounded_down
+from experiments.advice.advice import rounded_down
 from report.live import scenes
-from report.live.dials import Dial
+from report.live.deferred_removal import Leaving
+from report.live.events import heard
 from report.live.lab import Lab
-from report.live.leaving import Leaving
-from report.live.moves import heard
+from report.live.number_slider import Dial
 from report.live.parameters import GRAVITIES, PRESETS, sliders
 from report.live.stepping import MOST_WORLDS, choices
 

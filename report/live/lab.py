@@ -9,13 +9,13 @@ import numpy as np
 
 from reference.errors import InputError
 from reference.state import Array, State
-from report.live.course import Course
 from report.live.cursor import at_rest_where_fixed, hook, on_hook, pinned, with_cursor, without_last
 from report.live.history import History
-from report.live.measures import Measures
 from report.live.parameters import own_value
+from report.live.recorder import Measures
 from report.live.reproduction import Reproduction, reproduction
 from report.live.stepping import checked
+from report.live.timeline import Course
 
 
 class Lab(Course):

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.state import Array
-from report.live.leaving import Leaving
+from report.live.deferred_removal import Leaving
 from report.live.stage import WORLD_COLOURS
 
 if TYPE_CHECKING:

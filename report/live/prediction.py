@@ -1,8 +1,8 @@
 """The largest stable dt that theory predicts, for a page that must not wait: the last question asked is answered.
 
-Small systems are pushed about their rest, by the whole Jacobian of a step (`reference.stability`). Of large ones the
-fastest mode about their start is taken alone, as one mass on one spring with the same frequency and damping: what
-limits a step is the fastest mode, and where damping is spread as masses or stiffness are, that is no approximation.
+Of small systems the whole Jacobian of a step about their equilibrium is taken (`reference.theory.step_map`). Of large
+ones the fastest mode about their start is taken alone, as one mass on one spring with the same frequency and damping:
+what limits a step is the fastest mode, and where damping is spread as masses or stiffness are, that is exact.
 """
 
 from __future__ import annotations
@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reference.assembly import assemble, spring_blocks
-from reference.catalogue import Scheme
 from reference.errors import SolverError
-from reference.stability import Equilibrium, growth, spring_equilibrium, stability_limit
+from reference.schemes.catalogue import Scheme
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import Equilibrium, spring_equilibrium
+from reference.theory.limits import growth, stability_limit
+from reference.theory.modes import fastest_mode
 from report.live.stepping import scheme_behind
 
 #: Up to so many coordinates the whole Jacobian takes less than a tenth of a second.
@@ -80,35 +81,6 @@ def _rest(scheme: Scheme, system: MassSpringSystem) -> Equilibrium:
     if scheme.kind == "in_place":
         raise SolverError(f"not predicted: it depends on the order of {coordinates} coordinates")
     return spring_equilibrium(fastest_mode(system))
-
-
-def fastest_mode(system: MassSpringSystem) -> MassSpringSystem:
-    """One mass of 1 kg on one spring that moves as the fastest mode of a system about its start.
-
-    With K phi = w^2 M phi, phi M phi = 1: its stiffness is w^2, its damping phi C phi, its drag Cd phi phi.
-    """
-    from scipy.sparse import diags_array
-    from scipy.sparse.linalg import eigsh
-
-    by_position, by_velocity = spring_blocks(system, system.start)
-    # Drag is told apart from the damping of springs.
-    by_velocity = replace(by_velocity, masses=0 * by_velocity.masses)
-    stiffness, damping = (-assemble(system, blocks, sparse=True) for blocks in (by_position, by_velocity))
-    scale = diags_array(np.repeat(system.masses[~system.fixed], system.dimension) ** -0.5)
-    start = np.random.default_rng(0).normal(size=stiffness.shape[0])
-    square, mode = eigsh(scale @ stiffness @ scale, 1, which="LA", v0=start, tol=1e-9)
-    phi = scale @ mode[:, 0]
-    return MassSpringSystem(
-        positions=np.array([[0.0, 0.0], [1.0, 0.0]]),
-        springs=np.array([[0, 1]]),
-        masses=np.array(1.0),
-        rest_lengths=np.array(1.0),
-        stiffness=np.array(max(float(square[0]), 0.0)),
-        damping=np.array(max(float(phi @ (damping @ phi)), 0.0)),
-        drag=system.drag * float(phi @ phi),
-        gravity=np.array(0.0),
-        fixed=np.array([True, False]),
-    )
 
 
 class Predictor:

@@ -70,7 +70,7 @@ def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bo
     Raises:
         InputError: for what makes no sense, and for systems too large to watch.
     """
-    from experiments.arguments import setup_for
+    from report.commands.arguments import setup_for
 
     settings = settings or {}
     setup = setup_for(name, settings=settings)

@@ -10,7 +10,7 @@ import numpy as np
 from reference.obstacles import Obstacle
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem
-from report.drawing import STRAIN_COLOURS, nice, strain
+from report.film.drawing import STRAIN_COLOURS, nice, strain
 from report.live.framing import Window, camera, side_by_side
 
 if TYPE_CHECKING:

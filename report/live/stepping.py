@@ -10,15 +10,16 @@ from typing import Protocol
 import numpy as np
 
 from engines.engine import Engine, find, registry, version
-from engines.session import EngineStopped, Session
-from reference import catalogue
-from reference.catalogue import Scheme
+from engines.process.session import EngineStopped, Session
+from reference.compiled.kernels import Kernel, loops_for
+from reference.compiled.loops import Loops
 from reference.errors import InputError, SolverError, Unsupported, unknown_name
 from reference.forces import SpringMotion
-from reference.kernels import Kernel, loops_for
-from reference.loops import Loops
 from reference.obstacles import keep_out
-from reference.state import Array, State
+from reference.schemes import catalogue
+from reference.schemes.catalogue import Scheme
+from reference.simulate import projected
+from reference.state import State
 from reference.system import MassSpringSystem, Value
 
 #: No more worlds than can be told apart by their colours.
@@ -102,23 +103,19 @@ class SchemeStepping:
                 self._kernel.advance(self._dt, steps)
                 self._state = State(time, *self._kernel.state())
             else:
-                self._state = State(time, *self._one_by_one(steps))
+                self._state = replace(self._one_by_one(steps), time=time)
         return self._state
 
-    def _one_by_one(self, steps: int) -> tuple[Array, Array]:
-        state, system = self._state, self._system
+    def _one_by_one(self, steps: int) -> State:
+        state, system, step = self._state, self._system, self._scheme.on(self._motion)
         try:
             for _ in range(steps):
-                state = self._scheme.step(self._motion, state, self._dt)
-                x, v = state.positions, state.velocities
-                if system.obstacles:
-                    x, v = keep_out(system.obstacles, system.fixed[:, None], x, v)
-                    state = State(state.time, x, v)
-                if not np.isfinite(x).all():
+                state = projected(system, step(state, self._dt), state.time + self._dt)
+                if not np.isfinite(state.positions).all():
                     break
         except (SolverError, np.linalg.LinAlgError) as error:
             raise Stopped(str(error)) from None
-        return state.positions, state.velocities
+        return state
 
     def change(self, parameter: str, value: Value) -> None:
         """See Stepping."""

@@ -1,4 +1,4 @@
-// Moves the lines of every animation on a page: report/animations.py makes what it reads.
+// Moves the lines of every animation on a page: report/film/animations.py makes what it reads.
 for (const figure of document.querySelectorAll(".motion")) {
   const data = JSON.parse(figure.querySelector("script").textContent);
   const bytes = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0)).buffer;

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from engines.engine import CAPABILITIES, Engine, demands
-from reference.identify import TOLERANCE, amplified, identify_run
+from reference.identification import TOLERANCE, amplified, identify_run
 from reference.outcome import Outcome
 from reference.stepper import catalogued
 from reference.system import MassSpringSystem
@@ -47,7 +47,7 @@ def expected(scheme: str, case: Case) -> Outcome:
 
 @cache
 def rounding(scheme: str, case: Case) -> float:
-    """What a scheme makes of rounding on a case (`reference.identify.amplified`), as a part of the size.
+    """What a scheme makes of rounding on a case (`reference.identification.amplified`), as a part of the size.
 
     On the default string against 80-bit arithmetic RK4, which there multiplies a push by 2e7 in ten steps of 0.02 s, is
     itself off by 2e-11 of the size.

@@ -13,7 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from engines.engine import Engine
-from engines.isolation import isolated, run_engine
+from engines.process.isolation import isolated, run_engine
 from reference.outcome import Outcome
 from reference.state import Array
 from reference.system import MassSpringSystem

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from engines.trials import chain, swinging
+from engines.capability_cases import chain, swinging
 from reference.changes import Change
 from reference.system import MassSpringSystem
 

@@ -6,8 +6,8 @@ from functools import cache
 
 import pytest
 
+from engines.capability_cases import for_each_capability
 from engines.engine import CAPABILITIES, Engine, demands, find
-from engines.trials import for_each_capability
 from reference.outcome import Outcome
 from reference.stepper import catalogued
 from tests.conformance.checks import check_capability, outcomes

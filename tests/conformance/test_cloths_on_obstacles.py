@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from engines.engine import Engine
-from engines.isolation import EngineStepper
-from reference.catalogue import find
+from engines.process.isolation import EngineStepper
 from reference.conserved import energy
 from reference.outcome import Outcome
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from tests.conformance import doctored
 from tests.conformance.doctored import Doctored

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from engines.engine import Engine, find
-from reference.identify import identify_run
+from reference.identification import identify_run
 from reference.outcome import Outcome
 from reference.scenes import find as find_scene
 from reference.state import Trajectory

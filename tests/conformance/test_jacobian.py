@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 from engines.engine import Engine
-from engines.isolation import isolated
-from engines.jacobian import own_jacobian, spectral_radius, step_jacobian
+from engines.process.isolation import isolated
+from engines.step_jacobian import own_jacobian, step_jacobian
+from reference.growth_factor import growth_factor
 from reference.outcome import Outcome
 from reference.scenes import find
-from reference.stability import Equilibrium, equilibrium, growth
 from reference.stepper import catalogued
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import Equilibrium, equilibrium_of
+from reference.theory.limits import growth
 
 #: Differences by pushes of 8e-7 m are themselves good to 1e-9. But an engine may solve to 1e-8 m/s only, which is 3e-4
 #: of a push in 0.02 s; so much of the radius is allowed, and schemes differ by far more.
@@ -27,13 +29,13 @@ DT, CASE = 2.5e-3, {"masses": 4, "damping": 0.05}
 def resting(scheme: str) -> tuple[Equilibrium, float]:
     """The string at rest, on springs or rods; and a dt [s] beyond the limit of most, as rods swing more slowly."""
     stepper = catalogued()[scheme]
-    return equilibrium(stepper.equations, find("string").system(CASE)), (40 if stepper.on_rods else 8) * DT
+    return equilibrium_of(stepper.equations, find("string").system(CASE)), (40 if stepper.on_rods else 8) * DT
 
 
 def radii(engine: Engine, system: MassSpringSystem, dt: float) -> tuple[float, float | None]:
     """By differences, and by the engine's own derivatives where it has them. Runs in the engine's process."""
     own = own_jacobian(engine, system, dt)
-    return spectral_radius(step_jacobian(engine, system, dt)), None if own is None else spectral_radius(own)
+    return growth_factor(step_jacobian(engine, system, dt)), None if own is None else growth_factor(own)
 
 
 def check_radius(measured: float, scheme: str) -> None:

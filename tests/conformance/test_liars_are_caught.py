@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from engines.trials import for_each_capability
+from engines.capability_cases import for_each_capability
 from tests.conformance import doctored, test_capabilities, test_changes, test_default_string
 from tests.conformance.checks import check_capability, check_change, check_follows, check_state, looks, outcomes
 from tests.conformance.doctored import Doctored, KickDrift

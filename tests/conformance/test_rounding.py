@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from engines.engine import Engine
-from reference.identify import TOLERANCE
+from reference.identification import TOLERANCE
 from reference.scenes import find
 from tests.conformance.checks import check_follows, expected, rounding
 from tests.conformance.doctored import Doctored, KickDrift

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from engines.engine import Engine, demands
-from engines.isolation import EngineStepper
-from reference.identify import candidates, identify_run
+from engines.process.isolation import EngineStepper
+from reference.identification import candidates, identify_run
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.state import Trajectory

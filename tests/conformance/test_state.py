@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from engines.capability_cases import for_each_capability
 from engines.engine import Engine, demands
-from engines.trials import for_each_capability
 from tests.conformance.checks import check_state, looks
 
 

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from engines.bullet_mesh import sorted_pairs, two_apart
-from engines.bullet_softbody import in_space
+from engines.bullet.mesh import sorted_pairs, two_apart
+from engines.bullet.softbody import in_space
 from reference.state import Array
 from reference.system import MassSpringSystem
 from tests.conformance.strings import Case

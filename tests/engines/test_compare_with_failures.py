@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 
-from engines.isolation import EngineStepper
-from experiments.comparison import compare
+from engines.process.isolation import EngineStepper
+from experiments.runs.comparison import compare
 from reference.scenes import Setup, find
 from reference.stepper import Stepper, catalogued
 from tests.conformance.doctored import Doctored
-from tests.engines import misbehaving
-from tests.engines.misbehaving import Misbehaving
+from tests.engines.process import misbehaving
+from tests.engines.process.misbehaving import Misbehaving
 
 SETUP = Setup("string", find("string").system({"masses": 3}), 1e-3, 0.05)
 

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from engines import mujoco_obstacles
 from engines.engine import find, version
-from engines.isolation import EngineStepper, isolated
+from engines.mujoco import obstacles as mujoco_obstacles
+from engines.process.isolation import EngineStepper, isolated
 from reference.obstacles import Circle
 from reference.system import MassSpringSystem
 from tests.conformance.test_obstacles import KINDS, STEPS, falling

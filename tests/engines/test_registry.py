@@ -10,10 +10,10 @@ import sys
 import pytest
 
 from engines.engine import Engine, find, registry, version
-from engines.isolation import EngineStepper
+from engines.process.isolation import EngineStepper
 from reference.errors import InputError
 from reference.scenes import find as find_scene
-from tests.engines.misbehaving import Misbehaving, Still
+from tests.engines.process.misbehaving import Misbehaving, Still
 
 HEAVY = ("pymunk", "pybullet", "mujoco", "numba", "scipy", "matplotlib", "rich", "click")
 
@@ -29,7 +29,7 @@ def imported_by(code: str) -> set[str]:
     "code",
     [
         "from engines.engine import registry, version; [version(engine) for engine in registry().values()]",
-        "import engines.isolation",
+        "import engines.process.isolation",
         "from reference.scenes import find; find('string').system({})",
     ],
 )

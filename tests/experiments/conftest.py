@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from experiments.store import Store
+from experiments.runs.store import Store
 
 
 @pytest.fixture

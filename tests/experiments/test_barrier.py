@@ -7,12 +7,12 @@ import pytest
 
 from experiments import barrier
 from experiments.barrier import DURATION, START, Slide, measure, predicted, slope
-from reference import catalogue
-from reference.lecture import listings
+from reference.lecture.listings import listings
+from reference.lecture.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.obstacles import Circle
 from reference.scenes import find
+from reference.schemes import catalogue
 from reference.simulate import simulate
-from reference.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.stepper import catalogued
 from report.figures import draw
 

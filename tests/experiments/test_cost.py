@@ -10,25 +10,26 @@ import pytest
 
 from engines.engine import find as find_engine
 from engines.engine import version
-from engines.isolation import EngineStepper
-from experiments import cost, timing
+from engines.process.isolation import EngineStepper
+from experiments import cost
 from experiments.cost import ANCHOR, DTS, MASSES, Cost, Point
-from experiments.environment import processor
-from experiments.timing import Speeds, Timing
-from reference.catalogue import Scheme, find
+from experiments.runs import timing
+from experiments.runs.environment import processor
+from experiments.runs.timing import Speeds, Timing
+from reference.compiled.kernels import advance, arrays_of
+from reference.compiled.loops import Loops
 from reference.errors import Unsupported
 from reference.forces import SpringMotion
-from reference.kernels import advance, arrays_of
-from reference.loops import Loops
 from reference.outcome import Outcome
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find
 from reference.stepper import catalogued
 from reference.system import MassSpringSystem
 from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored, KickDrift
-from tests.engines.misbehaving import Misbehaving, Segfaults
+from tests.engines.process.misbehaving import Misbehaving, Segfaults
 from tests.reference.systems import label
 
 

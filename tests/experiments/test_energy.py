@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from engines.engine import Engine, demands
-from engines.isolation import EngineStepper
+from engines.process.isolation import EngineStepper
 from experiments.energy import (
     DT,
     EVERY,
@@ -28,11 +28,11 @@ from experiments.energy import (
     result_of,
     rounding,
 )
-from reference.catalogue import Scheme, find
 from reference.conserved import angular_momentum, momentum
 from reference.outcome import first_torn
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
 from reference.state import Array, State
 from reference.stepper import SchemeStepper, Stepper, catalogued
@@ -40,7 +40,7 @@ from reference.system import MassSpringSystem
 from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored, Euler
-from tests.engines.misbehaving import Misbehaving, Segfaults
+from tests.engines.process.misbehaving import Misbehaving, Segfaults
 from tests.reference.systems import IN_PLACE, WHOLE_STATE, label
 
 TURNED_SIDEWAYS = wrong.stepped(wrong.sideways, find("kick_drift"))
@@ -219,7 +219,7 @@ def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
 
     So what MuJoCo's cable gains is not in its equations, nor in its dt.
     """
-    right = Scheme(in_momenta, 1, "scheme", springs_only=False)
+    right = Scheme(in_momenta, 1, "scheme")
     kinds = [measure(SchemeStepper(s, PendulumMotion), on).measured for s in (right, find("kick_drift"))]
     assert kinds == ["bounded", "growing"]
 

@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from engines.isolation import EngineStepper
+from engines.process.isolation import EngineStepper
 from experiments import divergence, stiff_limit
-from experiments.comparison import Comparison, compare
 from experiments.experiment import NAMES, Experiment, Result, Table, experiments, find, write_tables
+from experiments.runs.comparison import Comparison, compare
 from reference.pendulum import PendulumMotion
 from reference.scenes import Setup
 from reference.scenes import find as find_scene
@@ -23,9 +23,9 @@ from reference.stepper import Stepper, catalogued
 from reference.system import MassSpringSystem
 from tests.conformance import doctored
 from tests.conformance.doctored import Doctored
-from tests.engines import misbehaving
-from tests.engines.misbehaving import Misbehaving
-from tests.experiments.terminal import python
+from tests.engines.process import misbehaving
+from tests.engines.process.misbehaving import Misbehaving
+from tests.report.commands.terminal import python
 
 SETUP = Setup("string", find_scene("string").system({"masses": 3}), 1e-3, 0.05)
 
@@ -147,7 +147,7 @@ def test_every_experiment_is_a_script(tmp_path: Path) -> None:
     """`python -m experiments.NAME` hands its experiment to the same main: here to one that prints its name."""
     program = (
         "import runpy, sys\n"
-        "import experiments.console as console\n"
+        "import report.commands.terminal as console\n"
         "console.main = lambda experiment: print(experiment.name)\n"
         f"for name in {NAMES!r}:\n"
         "    sys.modules.pop('experiments.' + name, None)\n"
@@ -201,7 +201,7 @@ def test_errata_shows_the_barriers_rule_and_the_two_forces(errata: dict[tuple[st
 
 def test_a_script_that_cannot_write_is_one_clear_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """No traceback: `results` is a file here."""
-    from experiments.console import main
+    from report.commands.terminal import main
 
     monkeypatch.chdir(tmp_path)
     (tmp_path / "results").write_text("")

@@ -9,13 +9,16 @@ import pytest
 
 from experiments import first_order_instability as instability
 from experiments.first_order_instability import DT, Fate, fastest_mode, fate, mode_sizes, pushed
-from reference.catalogue import Scheme, find
-from reference.exact import exact, hanging_string, squared_frequencies
 from reference.motion import Motion
 from reference.scenes import find as find_scene
-from reference.stability import growth, spring_equilibrium
+from reference.schemes.catalogue import Scheme, find
 from reference.state import State, Trajectory
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.equilibrium import hanging_string
+from reference.theory.exact import exact
+from reference.theory.limits import growth
+from reference.theory.modes import squared_frequencies
 from report.figures import draw
 from tests import wrong
 from tests.reference.systems import label
@@ -116,7 +119,7 @@ def fates() -> dict[str, Fate]:
     """Euler's, Heun's, and that of a doctored Euler."""
     system = string()
     true = exact(system, DT, round(instability.DURATION / DT))
-    schemes = [find("euler"), find("heun"), Scheme(euler_in_halves, 1, "scheme", springs_only=False)]
+    schemes = [find("euler"), find("heun"), Scheme(euler_in_halves, 1, "scheme")]
     return {scheme.name: fate(system, scheme, true) for scheme in schemes}
 
 

@@ -18,14 +18,14 @@ from experiments.ground_motion import (
     predicted_sway,
     shaken_bridge,
 )
-from reference.catalogue import find
 from reference.changes import Driven
 from reference.scenes import find as find_scene
 from reference.scenes.ground_motion import GroundMotion, Sweep
+from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from reference.state import Array
 from report.figures import draw
-from tests.reference.direct_stiffness import deflection
+from tests.reference.scenes.direct_stiffness import deflection
 
 LINEAR = 0.01 * np.exp(-((SWEEP.frequency(np.arange(5001) * DT) - 1.31) ** 2) / 1e-3)
 LINE = (np.array([0.0, 12.0, 24.0]), np.array([0.0, 0.08, 0.0]))

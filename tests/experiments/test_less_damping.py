@@ -9,12 +9,12 @@ import pytest
 
 from experiments import less_damping
 from experiments.less_damping import Swing, swing
-from reference.catalogue import Scheme, find
-from reference.exact import damped_oscillator, exact
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
 from reference.state import Trajectory
 from reference.system import MassSpringSystem
+from reference.theory.exact import damped_oscillator, exact
 from report.figures import draw
 from tests import wrong
 from tests.reference.systems import label

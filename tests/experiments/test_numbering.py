@@ -9,29 +9,30 @@ import numpy as np
 import pytest
 
 from engines.engine import version
-from engines.isolation import EngineStepper, run_engine
-from engines.pymunk_springs import PymunkSprings
+from engines.process.isolation import EngineStepper, run_engine
+from engines.pymunk.springs import PymunkSprings
 from experiments import numbering
 from experiments.numbering import Convergence, Row, gauss_seidel
-from experiments.renaming import CHANGES, Renamed, differences, renamings
-from reference.catalogue import Scheme, find
-from reference.damping_schemes import effective_masses, sequential_impulses, spring_directions
+from experiments.runs.permutation import CHANGES, Renamed, differences, renamings
 from reference.forces import SpringMotion
+from reference.motion import MotionOfSprings
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find
+from reference.schemes.implicit_damping import effective_masses, sequential_impulses, spring_directions
 from reference.state import State
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
 from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored
-from tests.engines.misbehaving import Misbehaving, Segfaults
+from tests.engines.process.misbehaving import Misbehaving, Segfaults
 from tests.reference.systems import label, moving_string, random_mesh
 
 MASSES, SPRINGS, ENDS, NONE = frozenset({"masses"}), frozenset({"springs"}), frozenset({"ends"}), frozenset[str]()
 NO_PYMUNK = pytest.mark.skipif(version(PymunkSprings()) is None, reason="pymunk is not installed")
 
 
-def damped_spring_after_spring(motion: SpringMotion, state: State, dt: float) -> State:
+def damped_spring_after_spring(motion: MotionOfSprings, state: State, dt: float) -> State:
     """Kick-drift, the springs damped in one round, each looking at what those before it have left."""
     system = motion.system
     kicked = state.kick(dt * motion.acceleration(state, damping=False))
@@ -43,7 +44,7 @@ def damped_spring_after_spring(motion: SpringMotion, state: State, dt: float) ->
     return kicked.drift(dt)
 
 
-SPRING_AFTER_SPRING = Scheme(damped_spring_after_spring, 1, "scheme", springs_only=True)
+SPRING_AFTER_SPRING = Scheme(damped_spring_after_spring, 1, "scheme")
 ONE_SIDED = wrong.stepped(wrong.one_sided, find("kick_drift"))
 
 

@@ -10,18 +10,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from engines.engine import Engine
-from engines.isolation import EngineStepper
+from engines.process.isolation import EngineStepper
 from experiments.order import DTS, NEAR, STRAIGHT, STRINGS, Bench, Row, bench, fit, measure, result_of, straight
-from reference.catalogue import Scheme, find
-from reference.identify import TOLERANCE
-from reference.lecture import LectureListing, listings
+from reference.identification import TOLERANCE
+from reference.lecture.listings import LectureListing, listings
 from reference.outcome import Outcome
+from reference.schemes.catalogue import Scheme, find
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored, Euler, StifferByAMillionth
-from tests.engines.misbehaving import Misbehaving, Segfaults, Still
+from tests.engines.process.misbehaving import Misbehaving, Segfaults, Still
 from tests.reference.systems import IN_PLACE, label
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from experiments import scenes
 from experiments.experiment import Result
-from reference.identify import identify_run
+from reference.identification import identify_run
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.stepper import catalogued

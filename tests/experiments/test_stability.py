@@ -9,19 +9,22 @@ import numpy as np
 import pytest
 
 from engines.engine import Engine, demands, registry
-from engines.isolation import EngineStepper
-from experiments.map_arguments import axes_for, system_maker
+from engines.process.isolation import EngineStepper
 from experiments.stability import CASES, measure_scheme, result_of, stability_rows
 from experiments.stability_map import stability_map
-from reference import catalogue
-from reference.catalogue import Scheme, schemes
 from reference.errors import InputError
-from reference.probe import measured_limit, random_growth
+from reference.limit import Limit
+from reference.measured_stability import measured_limit, random_growth
 from reference.scenes import find
-from reference.stability import Limit, spring_equilibrium, stability_limit, step_jacobian
+from reference.schemes import catalogue
+from reference.schemes.catalogue import Scheme, schemes
 from reference.stepper import SchemeStepper
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.limits import stability_limit
+from reference.theory.step_map import step_jacobian
+from report.commands.map_arguments import axes_for, system_maker
 from tests import wrong
-from tests.experiments.terminal import springlab
+from tests.report.commands.terminal import springlab
 
 #: What the issue asks for: predicted and measured within a thousandth of each other.
 TOLERANCE = 1e-3

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from reference.changes import Change
-from reference.identify import (
+from reference.identification import (
     candidates,
 )
 from reference.outcome import Outcome

@@ -9,8 +9,8 @@ import numpy as np
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from reference.catalogue import find, schemes
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find, schemes
 from reference.system import MassSpringSystem
 
 #: For property tests: compiled kernels make the first example slow, so there is no deadline.

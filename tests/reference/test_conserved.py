@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference.catalogue import Scheme, find
 from reference.conserved import angular_momentum, energy, momentum
-from reference.exact import exact
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
 from reference.state import Array, Trajectory
 from reference.system import MassSpringSystem
+from reference.theory.exact import exact
 from tests import wrong
 from tests.reference.systems import IN_PLACE, SOLVED_TO, WHOLE_STATE, free_string, label, moving_string
 

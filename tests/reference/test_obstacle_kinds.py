@@ -11,19 +11,20 @@ import numpy as np
 import pytest
 from hypothesis import given
 
-from reference import catalogue
 from reference.axes import Axes
+from reference.distance_constraints import RopeMotion
 from reference.errors import InputError, SolverError
-from reference.exact import equilibrium, exact
+from reference.lecture.slide_17 import CircleAsPrinted
 from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere, keep_out, obstacle
 from reference.pendulum import PendulumMotion
-from reference.rope import RopeMotion
 from reference.scenes import find
+from reference.schemes import catalogue
 from reference.simulate import simulate
-from reference.slide_17 import CircleAsPrinted
 from reference.state import Array
 from reference.stepper import catalogued
 from reference.system import MassSpringSystem
+from reference.theory.equilibrium import equilibrium
+from reference.theory.exact import exact
 from tests.reference.systems import property_test, seeds
 
 OBSTACLES: list[Obstacle] = [

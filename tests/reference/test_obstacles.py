@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reference.lecture.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.obstacles import Circle
-from reference.slide_17 import CircleAsMeant, CircleAsPrinted
 from reference.state import Array
 from tests.reference.systems import property_test
 

@@ -10,20 +10,21 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference.catalogue import Scheme, find
 from reference.conserved import energy
 from reference.errors import InputError
-from reference.exact import exact, laguerre_frequencies
 from reference.pendulum import PendulumMotion, why_no_pendulum
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
 from reference.state import Array, State
 from reference.system import MassSpringSystem
+from reference.theory.exact import exact
+from reference.theory.modes import laguerre_frequencies
 from tests import wrong
 from tests.reference.systems import label, moving_string, property_test, random_mesh, seeds, with_fields
 
 #: Makes equations of motion of a system: the right ones, or wrong ones.
-Equations = Callable[[MassSpringSystem], PendulumMotion]
+EquationsOf = Callable[[MassSpringSystem], PendulumMotion]
 
 
 def hanging(masses: int, seed: int, drag: float = 0.0) -> MassSpringSystem:
@@ -67,7 +68,7 @@ class Weak(PendulumMotion):
 # --- Energy ---
 
 
-def check_energy(scheme: Scheme, equations: Equations) -> None:
+def check_energy(scheme: Scheme, equations: EquationsOf) -> None:
     """Kinetic plus potential energy of the masses is constant, by rk4 with dt = 0.1 ms to 1e-9 of what turns over.
 
     rk4 gains or loses about (dt w)^5 a step: with w < 50/s some 3e-12/72, over 1000 steps 1e-10.
@@ -86,7 +87,7 @@ def test_rk4_keeps_the_pendulums_energy() -> None:
 
 
 @pytest.mark.parametrize("equations", [Upwards, WithoutSwing, Weak], ids=label)
-def test_energy_fails_on_wrong_equations(equations: Equations) -> None:
+def test_energy_fails_on_wrong_equations(equations: EquationsOf) -> None:
     """Gravity upwards, or too weak by 1e-6, or no centrifugal terms."""
     with pytest.raises(AssertionError):
         check_energy(find("rk4"), equations)
@@ -102,7 +103,7 @@ def test_energy_fails_on_wrong_integrators(scheme: Scheme) -> None:
 # --- Newton ---
 
 
-def check_newton(equations: Equations, system: MassSpringSystem) -> None:
+def check_newton(equations: EquationsOf, system: MassSpringSystem) -> None:
     """The masses move as Newton says: m a - m g + Cd v is, on each mass, the pull of its rods, and of nothing else.
 
     From the tip: what is left on mass i, with what its lower rod hands on, lies along rod i. With th the angles, the
@@ -136,7 +137,7 @@ class Dragless(PendulumMotion):
 
 
 @pytest.mark.parametrize("equations", [Upwards, WithoutSwing, Dragless], ids=label)
-def test_newton_fails_on_wrong_equations(equations: Equations) -> None:
+def test_newton_fails_on_wrong_equations(equations: EquationsOf) -> None:
     """Each would need a rod that pushes sideways."""
     with pytest.raises(AssertionError):
         check_newton(equations, hanging(4, 1, 0.05))
@@ -145,7 +146,7 @@ def test_newton_fails_on_wrong_equations(equations: Equations) -> None:
 # --- Small swings ---
 
 
-def small_frequencies(equations: Equations, masses: int) -> Array:
+def small_frequencies(equations: EquationsOf, masses: int) -> Array:
     """The squares of the frequencies about hanging straight, from differences of the angular accelerations."""
     system = find_scene("string").system({"masses": masses, "angle": 90.0})
     motion = equations(system)
@@ -157,7 +158,7 @@ def small_frequencies(equations: Equations, masses: int) -> Array:
     return np.sort(-np.linalg.eigvals(np.array(columns).T).real)
 
 
-def check_laguerre(equations: Equations, masses: int) -> None:
+def check_laguerre(equations: EquationsOf, masses: int) -> None:
     """Squares are (g/l) x_i with x_i the zeros of L_n.
 
     Differences of fourth order are off by h^4 times the fifth derivative, which for ten rods is some 1e3 times w^2.
@@ -178,7 +179,7 @@ def test_small_swings_of_one_mass() -> None:
 
 
 @pytest.mark.parametrize("equations", [Upwards, Weak], ids=label)
-def test_laguerre_fails_on_wrong_gravity(equations: Equations) -> None:
+def test_laguerre_fails_on_wrong_gravity(equations: EquationsOf) -> None:
     """Hanging upwards there are no frequencies; a part in a million is seen."""
     with pytest.raises(AssertionError):
         check_laguerre(equations, 3)
@@ -187,7 +188,7 @@ def test_laguerre_fails_on_wrong_gravity(equations: Equations) -> None:
 # --- The stiff limit ---
 
 
-def check_stiff_limit(equations: Equations) -> None:
+def check_stiff_limit(equations: EquationsOf) -> None:
     """Strings of stiffness k come to the pendulum as 1/k: a hundredth of the distance at a hundred times the stiffness.
 
     The next term goes as 1/k of the first: from k = 2e3 to 2e5 N/m the ratio is 100 to some per cent.
@@ -207,7 +208,7 @@ def test_a_stiff_string_is_a_pendulum() -> None:
 
 
 @pytest.mark.parametrize("equations", [Upwards, WithoutSwing], ids=label)
-def test_stiff_limit_fails_on_wrong_equations(equations: Equations) -> None:
+def test_stiff_limit_fails_on_wrong_equations(equations: EquationsOf) -> None:
     """Strings come to another motion."""
     with pytest.raises(AssertionError):
         check_stiff_limit(equations)

@@ -18,11 +18,11 @@ from math import pi, sin, sqrt
 import numpy as np
 import pytest
 
-from reference.catalogue import find
-from reference.exact import hanging_string
-from reference.kernels import advance
+from reference.compiled.kernels import advance
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find
 from reference.system import MassSpringSystem
+from reference.theory.equilibrium import hanging_string
 
 GRAVITY = 9.81
 

@@ -11,11 +11,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference.catalogue import Scheme, find, schemes
 from reference.changes import Change, changes_by_step, whole_steps
 from reference.errors import InputError
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find, schemes
 from reference.simulate import simulate
 from reference.state import Trajectory
 from reference.system import MassSpringSystem

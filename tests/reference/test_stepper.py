@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from reference.catalogue import find, schemes
 from reference.changes import Change
 from reference.pendulum import PendulumMotion
-from reference.rope import ROPE_KICK_DRIFT
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find, schemes
+from reference.schemes.constrained import ROPE_KICK_DRIFT
 from reference.simulate import simulate
 from reference.stepper import SchemeStepper, catalogued
 from tests.reference.systems import moving_string
@@ -16,7 +16,7 @@ from tests.reference.systems import moving_string
 
 def test_every_scheme_is_a_stepper_and_those_that_can_swing_rods_are_two() -> None:
     """Springs first, in the catalogue's order; each with the scheme's kind, or `pendulum`; the rope's is last."""
-    on_rods = [f"pendulum_{name}" for name, scheme in schemes().items() if not scheme.springs_only]
+    on_rods = [f"pendulum_{name}" for name, scheme in schemes().items() if scheme.needs == "accelerations"]
     on_rods.append(ROPE_KICK_DRIFT.name)
     assert list(catalogued()) == [*schemes(), *on_rods]
     assert [name for name, stepper in catalogued().items() if stepper.on_rods] == on_rods

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference.catalogue import Scheme, find
 from reference.forces import SpringMotion
+from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
 from tests import wrong
 from tests.reference.systems import IN_PLACE, SOLVED_TO, WHOLE_STATE, label, moving_string

@@ -9,7 +9,7 @@ import pytest
 
 from experiments.experiment import NAMES
 from report.figures import draw
-from tests.report.canned import RESULTS, engines_that_run, stiff_limit
+from tests.report.page.canned import RESULTS, engines_that_run, stiff_limit
 
 ALL = [(name, case) for name, cases in RESULTS.items() for case in cases]
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from engines.engine import demands, registry
-from experiments.arguments import parse_changes, parse_settings, setup_for
 from experiments.experiment import NAMES
-from experiments.steppers import all_steppers
+from experiments.runs.steppers import all_steppers
 from reference.scenes import scenes
+from report.commands.arguments import parse_changes, parse_settings, setup_for
 
 SLIDES = Path(__file__).parents[2] / "report" / "docs" / "slides.md"
 COMMANDS = re.findall(r"`springlab ([^`]+)`", SLIDES.read_text(encoding="utf-8"))

@@ -16,7 +16,7 @@ import numpy as np
 
 from reference.outcome import Outcome
 from reference.state import Trajectory
-from tests.engines import misbehaving
+from tests.engines.process import misbehaving
 
 #: How many runs end badly.
 SHARE = 0.2

@@ -12,9 +12,9 @@ from pathlib import Path
 
 import click
 
-from experiments.job import Job
-from experiments.runner_options import chosen_runner
-from tests.engines import misbehaving
+from experiments.runs.task import Job
+from report.commands.runner_options import chosen_runner
+from tests.engines.process import misbehaving
 
 #: [s]: much longer than anybody waits.
 LONG = 30.0

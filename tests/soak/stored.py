@@ -8,8 +8,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from experiments.answers import decode, encode
-from experiments.store import read_arrays
+from experiments.runs.result_codec import decode, encode
+from experiments.runs.store import read_arrays
 from tests.soak import faults
 from tests.soak.sweep import job_of
 

@@ -12,10 +12,10 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
-from experiments.cluster import DaskCrew
-from experiments.job import Job
-from experiments.runner import LocalCrew, Runner
-from experiments.store import Store
+from experiments.runs.cluster import DaskCrew
+from experiments.runs.runner import LocalCrew, Runner
+from experiments.runs.store import Store
+from experiments.runs.task import Job
 from tests.soak import faults
 
 

@@ -17,12 +17,12 @@ import psutil
 import pytest
 
 from engines.engine import version
-from engines.isolation import EngineStepper
-from experiments import cluster
-from experiments.cluster import DaskCrew, do_there
-from experiments.sweeps import Sweep
+from engines.process.isolation import EngineStepper
+from experiments.runs import cluster
+from experiments.runs.cluster import DaskCrew, do_there
+from experiments.runs.sweeps import Sweep
 from reference.errors import InputError
-from tests.engines.misbehaving import Misbehaving, Still
+from tests.engines.process.misbehaving import Misbehaving, Still
 from tests.soak.children import SOON, check_all_end, family, start, start_sweep
 from tests.soak.conftest import Size
 from tests.soak.stored import check_accounted_for, check_same, kept_in, rows

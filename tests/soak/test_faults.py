@@ -10,10 +10,10 @@ from random import Random
 
 import pytest
 
-from engines.supervisor import KILLS, supervisor
-from experiments.job import Job
-from experiments.runner import LocalCrew, Runner
-from experiments.store import Store, outcome_of_answer
+from engines.process.supervisor import KILLS, supervisor
+from experiments.runs.runner import LocalCrew, Runner
+from experiments.runs.store import Store, outcome_of_answer
+from experiments.runs.task import Job
 from reference.outcome import Outcome
 from tests.soak import faults
 from tests.soak.children import Killer

@@ -14,9 +14,9 @@ from random import Random
 
 import pytest
 
-from experiments.job import Job
-from experiments.runner import Done, Runner
-from tests.engines import misbehaving
+from experiments.runs.runner import Done, Runner
+from experiments.runs.task import Job
+from tests.engines.process import misbehaving
 from tests.soak.children import check_all_end, family, start
 from tests.soak.conftest import Size
 from tests.soak.stored import kept_in
@@ -28,7 +28,7 @@ RUNS = 60
 PATIENCE = 3.0
 
 SWEEP = (
-    *(sys.executable, "-m", "experiments.command_line", "sweep", "string"),
+    *(sys.executable, "-m", "report.commands.main", "sweep", "string"),
     *("--stepper", "heun", "--over", f"stiffness=100:200:{RUNS}", "--duration", "0.2", "--json"),
 )
 

@@ -10,11 +10,11 @@ from typing import Any
 
 from click.testing import CliRunner
 
-from experiments.arguments import parse_changes, parse_settings, setup_for
-from experiments.steppers import find_steppers
+from experiments.runs.steppers import find_steppers
 from reference.changes import whole_steps
 from reference.state import State
-from report.compare_command import compare_command
+from report.commands.arguments import parse_changes, parse_settings, setup_for
+from report.commands.compare import compare_command
 from report.live.reproduction import Reproduction
 
 

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reference.catalogue import find
 from reference.errors import InputError
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from report.live.controls import suggestion
 from report.live.lab import Lab

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from reference.errors import InputError
-from report.live.dials import STEPS, Dial
-from report.live.leaving import LATER, Leaving
-from report.live.moves import heard
+from report.live.deferred_removal import LATER, Leaving
+from report.live.events import heard
+from report.live.number_slider import STEPS, Dial
 from report.live.plots import PREFIXES, logarithms, power
 
 
@@ -101,7 +101,7 @@ def test_of_logarithms_nothing_is_below_rounding() -> None:
 def test_what_goes_is_hidden_first(monkeypatch: pytest.MonkeyPatch) -> None:
     """And removed once, when it has been for long enough."""
     clock, removed = [100.0], []
-    monkeypatch.setattr("report.live.leaving.time.monotonic", lambda: clock[0])
+    monkeypatch.setattr("report.live.deferred_removal.time.monotonic", lambda: clock[0])
     part = SimpleNamespace(visible=True, remove=lambda: removed.append(clock[0]))
     leaving = Leaving()
     leaving.hide(part)

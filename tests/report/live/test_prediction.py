@@ -7,9 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reference.catalogue import find
 from reference.scenes import find as find_scene
-from reference.stability import explicit_damping_limit, spring_equilibrium, stability_limit, string_mode
+from reference.schemes.catalogue import find
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.limits import explicit_damping_limit, stability_limit
+from reference.theory.modes import string_mode
 from report.live.prediction import Predictor, fastest_mode, predict
 
 

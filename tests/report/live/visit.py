@@ -35,7 +35,7 @@ SCENE = {"x": 355, "y": 0, "width": 520, "height": 720}
 
 def command_line(*words: str) -> list[str]:
     """`springlab live` without a browser of its own."""
-    return [sys.executable, "-m", "experiments.command_line", "live", "--no-open", *words]
+    return [sys.executable, "-m", "report.commands.main", "live", "--no-open", *words]
 
 
 @contextmanager

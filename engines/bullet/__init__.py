@@ -1,0 +1,1 @@
+"""Bullet: deformable mass-spring bodies."""

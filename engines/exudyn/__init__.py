@@ -1,0 +1,1 @@
+"""Exudyn: mass points and spring-dampers."""

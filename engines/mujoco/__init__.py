@@ -1,0 +1,1 @@
+"""MuJoCo: tendons, flexes, the composite cable and ropes."""

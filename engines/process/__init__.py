@@ -1,0 +1,1 @@
+"""A run's own process: the supervisor, its workers, environments of other versions."""

@@ -1,0 +1,127 @@
+"""The environments of other versions: each a folder in the user's cache, with its own Python, that version and NumPy.
+
+Of the lab it sees the rooms `reference` and `engines`, and nothing of what else is installed beside the lab. It is made
+by uv where there is one, else by venv and pip, and used again. What was not finished is never taken for an environment.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+
+from reference.cache import cache_folder
+from reference.errors import InputError
+
+#: The lab's rooms that an environment sees, and the folder they are in.
+ROOMS, LAB = ("reference", "engines"), Path(__file__).parents[2]
+
+#: The NumPy asked for: the newest that goes with the engine, up to the one running here; or else, where the engine then
+#: cannot be imported, one from before NumPy 2, which engines made for it do not always say they need.
+NUMPY = (f"numpy<={np.__version__}", "numpy<2")
+
+#: In a folder's name: it is not finished.
+UNFINISHED = ".unfinished-"
+
+
+def environment(package: str, version: str) -> Path:
+    """The Python of the environment with a version of a package, made now if there is none.
+
+    Raises:
+        InputError: where that version cannot be had; with the reason, shortened.
+    """
+    if not re.fullmatch(r"\d[\w.!+-]*", version):
+        raise InputError(f"{package} version {version!r}: expected one such as 1.2.3")
+    folder = cache_folder("environments")
+    home = folder / f"{package}-{version}-{_digest()}"
+    with _locked(folder / f"{home.name}.lock"):
+        for dead in _dead(folder, home):
+            shutil.rmtree(dead, ignore_errors=True)
+        if not home.exists():
+            unfinished = Path(tempfile.mkdtemp(prefix=f"{home.name}{UNFINISHED}", dir=folder))
+            try:
+                _make(unfinished, package, version)
+                unfinished.rename(home)
+            finally:
+                shutil.rmtree(unfinished, ignore_errors=True)
+    return _python(home)
+
+
+def numpy_version() -> str:
+    """Which NumPy an environment came to have: a task to be done there."""
+    return f"{np.__version__.split('.')[0]}.x"
+
+
+def _make(home: Path, package: str, version: str) -> None:
+    uv = shutil.which("uv")
+    python, wanted = str(_python(home)), f"{package}=={version}"
+    if uv:
+        _call(wanted, uv, "venv", "--quiet", "--clear", "--python", sys.executable, str(home))
+        install = [uv, "pip", "install", "--quiet", "--python", python]
+    else:
+        _call(wanted, sys.executable, "-m", "venv", str(home))
+        install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    for numpy in NUMPY:
+        _call(wanted, *install, wanted, numpy)
+        if subprocess.run([python, "-c", f"import {package}"], capture_output=True, cwd=home).returncode == 0:
+            break
+    (packages,) = home.glob("lib/python*/site-packages")
+    for room in ROOMS:
+        (packages / room).symlink_to(LAB / room)
+
+
+def _call(wanted: str, *words: str) -> None:
+    """Run a program. Raises InputError with what it said of what was wanted."""
+    plain = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    done = subprocess.run(words, capture_output=True, text=True, env=plain, stdin=subprocess.DEVNULL)
+    if done.returncode:
+        raise InputError(f"{wanted} cannot be had: {_reason(done.stderr or done.stdout)}")
+
+
+def _reason(said: str) -> str:
+    """What uv or pip mean, from all they say."""
+    words = " ".join(said.split())
+    meant = re.search(
+        r"Because (.*?)(?: and you require|, we can conclude)|ERROR: (No matching .*?)(?: ERROR|$)", words
+    )
+    return next(filter(None, meant.groups()))[:200] if meant else words[-200:]
+
+
+def _python(home: Path) -> Path:
+    return home / "bin" / "python"
+
+
+def _digest() -> str:
+    """Of what an environment depends on beside its package: this Python, NumPy, and where the lab is."""
+    return hashlib.sha256(f"{sys.version} {NUMPY} {LAB}".encode()).hexdigest()[:8]
+
+
+def _dead(folder: Path, home: Path) -> Iterator[Path]:
+    """What nobody is at work on or can use: begun for this home, or with a lab or a Python that is gone."""
+    for found in filter(Path.is_dir, folder.iterdir()):
+        name, unfinished, _ = found.name.partition(UNFINISHED)
+        if unfinished:
+            usable = name != home.name
+        else:
+            usable = _python(found).exists() and any(found.glob("lib/python*/site-packages/engines"))
+        if not usable:
+            yield found
+
+
+@contextmanager
+def _locked(file: Path) -> Iterator[None]:
+    """One process and thread at a time; the lock of one that is killed is gone with it."""
+    import fcntl
+
+    with file.open("w") as opened:
+        fcntl.flock(opened, fcntl.LOCK_EX)
+        yield

@@ -1,0 +1,110 @@
+"""An engine run in a process of its own: a crash, a hang or an exit is an outcome with its name, and nobody else's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol, TypeVar
+
+import numpy as np
+
+from engines.engine import Engine, version
+from engines.process.supervisor import supervisor
+from reference.changes import Change, changes_by_step
+from reference.errors import Unsupported
+from reference.outcome import Outcome, outcome_of
+from reference.state import State, Trajectory
+from reference.system import MassSpringSystem
+
+#: A run may take this long [s] before it counts as hung.
+TIME_LIMIT = 60.0
+
+#: And its process hold so much memory [bytes].
+MEMORY_LIMIT = 4 * 2**30
+
+T = TypeVar("T")
+
+
+class Isolate(Protocol):
+    """Something that does a task in a process of its own, somewhere."""
+
+    def __call__(self, task: Callable[..., T], *arguments: Any, time_limit: float = TIME_LIMIT) -> T | Outcome:
+        """See `isolated`."""
+
+
+def isolated(
+    task: Callable[..., T],
+    *arguments: Any,
+    time_limit: float = TIME_LIMIT,
+    memory_limit: float = MEMORY_LIMIT,
+    python: Path | None = None,
+) -> T | Outcome:
+    """What a task in a process of its own returns; if that ends without an answer, the outcome that says why.
+
+    The process works in a scratch folder that is removed afterwards, and what it prints is kept for the reason.
+
+    Args:
+        task: a function of a module (it travels by name); its arguments travel as pickles.
+        time_limit: [s].
+        memory_limit: [bytes].
+        python: an interpreter that can import `engines` and NumPy; left out, this one.
+    """
+    return supervisor(python).run(task, arguments, time_limit, memory_limit)
+
+
+@dataclass(frozen=True)
+class EngineStepper:
+    """An engine as a stepper: every run in a process of its own.
+
+    Attributes:
+        isolate: who sees to that.
+        pinned: the engine's version there; left out, the one installed here.
+    """
+
+    engine: Engine
+    time_limit: float = TIME_LIMIT
+    isolate: Isolate = isolated
+    pinned: str | None = None
+    kind: str = "engine"
+
+    @property
+    def name(self) -> str:
+        """The engine's name."""
+        return self.engine.name
+
+    @property
+    def version(self) -> str | None:
+        """The version of the engine's package."""
+        return self.pinned or version(self.engine)
+
+    @property
+    def interactive_up_to(self) -> int | None:
+        """How many masses the engine steps some hundred times within half a minute; None where it does not say."""
+        return getattr(self.engine, "interactive_up_to", None)
+
+    def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
+        """See reference.stepper.Stepper."""
+        if self.version is None:
+            return Outcome("unsupported", f"{self.engine.package} is not installed")
+        return self.isolate(run_engine, self.engine, system, dt, steps, tuple(changes), time_limit=self.time_limit)
+
+
+def run_engine(
+    engine: Engine, system: MassSpringSystem, dt: float, steps: int, changes: tuple[Change, ...] = ()
+) -> Outcome:
+    """Run an engine in this very process, ending early once its state is not a number."""
+    pending = changes_by_step(changes, dt)
+    try:
+        simulation = engine.start(system, dt)
+        states = [system.start]
+        for step in range(steps):
+            for change in pending.get(step, ()):
+                simulation.change(change.parameter, change.value)
+            simulation.step()
+            states.append(State((step + 1) * dt, *simulation.state()))
+            if not np.isfinite(states[-1].positions).all():
+                break
+    except Unsupported as error:
+        return Outcome("unsupported", str(error))
+    return outcome_of(system, Trajectory.of(states))

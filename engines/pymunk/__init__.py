@@ -1,0 +1,1 @@
+"""Pymunk: damped springs in the plane."""

@@ -1,0 +1,1 @@
+"""Which dt to use for a scene, in each engine."""

@@ -1,0 +1,116 @@
+"""The conformance suite as measurements: what an engine does, one row for each thing that is asked of it.
+
+Nothing in a row depends on how fast a machine is or how it rounds: a trajectory is a scheme's to rounding or it is not,
+and limits are kept to what can be measured of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+
+from engines.capability_cases import for_each_capability
+from engines.engine import demands
+from engines.process.isolation import EngineStepper
+from experiments.stability import measure_engine
+from reference.identification import candidates, identify_run
+from reference.outcome import Outcome
+from reference.scenes import find
+from reference.state import Trajectory
+from reference.stepper import catalogued
+from reference.system import MassSpringSystem
+from reference.theory.equilibria import Equilibrium, spring_equilibrium
+from reference.theory.limits import fastest_rate
+
+#: What was measured: a number, or words.
+Value = float | str
+
+#: Cases of the string: what is identified, and whose largest stable dt is measured [N s/m].
+IDENTIFIED: Mapping[str, Mapping[str, float]] = {"plain": {}, "damping": {"damping": 0.1}, "drag": {"drag": 0.02}}
+LIMITED: Mapping[str, Mapping[str, float]] = {
+    "undamped": {},
+    "damping 0.1": {"damping": 0.1},
+    "drag 0.1": {"drag": 0.1},
+}
+
+#: The step [s] and number of steps of a run.
+DT, STEPS = 1e-3, 200
+
+#: Limits are measured to this part of themselves, and kept to so many figures.
+PRECISION, FIGURES = 1e-6, 7
+
+
+def measure(stepper: EngineStepper) -> dict[str, Value]:
+    """All rows of an engine; a single one where it does not run."""
+    first = stepper.run(_string(), DT, 1)
+    if first.ending != "done":
+        return {"runs": f"{first.ending}: {first.reason}"}
+    return {
+        "runs": "yes",
+        **{f"identified, {case}": _identity(stepper, case) for case in IDENTIFIED},
+        **{f"largest stable dt [s], {case}": _limit(stepper, case) for case in LIMITED},
+        **{f"can: {name}": _capability(stepper, name) for name in _trials()},
+    }
+
+
+def _identity(stepper: EngineStepper, case: str) -> str:
+    """The scheme it is to rounding; else how far the nearest is."""
+    system = _string(**IDENTIFIED[case])
+    outcome = stepper.run(system, DT, STEPS)
+    if outcome.trajectory is None:
+        return f"{outcome.ending}: {outcome.reason}"
+    found = identify_run(stepper.name, outcome, system, _catalogue(case))
+    if found.identified_as:
+        return found.identified_as
+    return f"none; nearest {found.ranking[0].scheme} at {found.error:.0e} m"
+
+
+def _limit(stepper: EngineStepper, case: str) -> Value:
+    """Its largest stable dt [s]; else why there is none."""
+    system, rest = _hanging(case)
+    answer = measure_engine(stepper, system, rest, 1 / fastest_rate(rest), PRECISION)
+    if isinstance(answer, Outcome):
+        return f"{answer.ending}: {answer.reason}"
+    limit, _ = answer
+    return limit.reason if limit.dt is None else float(f"{limit.dt:.{FIGURES}g}")
+
+
+def _capability(stepper: EngineStepper, name: str) -> str:
+    """Whether it steps a system by the scheme it claims, or refuses it."""
+    engine, system = stepper.engine, _trials()[name]
+    outcome = stepper.run(system, DT, STEPS)
+    if outcome.ending == "unsupported":
+        return f"refused: {outcome.reason}"
+    if not engine.capabilities.issuperset(demands(system)):
+        return "broken: it is not among its capabilities, yet not refused"
+    asked = {"damping": system.damping.any(), "drag": system.drag > 0, "plain": True}
+    claim = engine.identified_as[next(what for what, is_asked in asked.items() if is_asked)]
+    found = identify_run(engine.name, outcome, system, {claim: _claimed(claim, name)})
+    return "kept" if found.identified_as == claim else f"broken: {found}"
+
+
+def _string(**settings: float) -> MassSpringSystem:
+    return find("string").system(settings)
+
+
+@cache
+def _catalogue(case: str) -> Mapping[str, Trajectory]:
+    return candidates(_string(**IDENTIFIED[case]), DT, STEPS)
+
+
+@cache
+def _hanging(case: str) -> tuple[MassSpringSystem, Equilibrium]:
+    system = _string(**LIMITED[case])
+    return system, spring_equilibrium(system)
+
+
+@cache
+def _trials() -> Mapping[str, MassSpringSystem]:
+    return for_each_capability()
+
+
+@cache
+def _claimed(scheme: str, trial: str) -> Trajectory:
+    trajectory = catalogued()[scheme].run(_trials()[trial], DT, STEPS).trajectory
+    assert trajectory is not None, f"{scheme} cannot step {trial}"
+    return trajectory

@@ -1,0 +1,100 @@
+"""Where an answer first departs from the right one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises.answer_catalogue import Catalogue, part_distance
+from experiments.exercises.exercise import Answer, Question
+from reference.state import Array
+
+
+@dataclass(frozen=True)
+class Departure:
+    """The first number that is not the right one.
+
+    Attributes:
+        about: the question, in words.
+        step: from 1 on, or 0 where the question has no steps.
+        part: which of the things returned. index: where in it; item: what its first axis counts.
+        right, given: the two numbers, or words.
+        told: whether the right one may be told.
+    """
+
+    about: str
+    step: int
+    part: str
+    item: str
+    index: tuple[int, ...]
+    right: Any
+    given: Any
+    told: bool = True
+
+    def __str__(self) -> str:
+        if self.item == "between mass":
+            place = f"between mass {self.index[0]} and mass {self.index[1]}"
+            return f"{self.about}, {place}: {self.given} spring{'s'[: self.given != 1]}, expected {self.right}"
+        place = f"{self.item} {self.index[0]}" if self.index else ""
+        at = f"[{', '.join(map(str, self.index))}]" if self.index else ""
+        where = ", ".join(filter(None, [self.about, f"step {self.step}" if self.step else "", place]))
+        expected = f"expected {_plain(self.right)}" if self.told else "which is not right"
+        return f"{where}: {self.part}{at} is {_plain(self.given)}, {expected}"
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """The right and the given numbers, over steps or masses, for a plot of where they part."""
+
+    over: str
+    what: str
+    right: Array
+    given: Array
+
+
+def first_departure(
+    known: Catalogue, given: Sequence[Answer], tolerance: float
+) -> tuple[Departure | None, Lines | None]:
+    """Where the answers first depart from the right ones, and both along what is counted there."""
+    for question, answer, right, scales in zip(known.questions, given, known.right, known.scales, strict=True):
+        for s, (step, expected) in enumerate(zip(answer, right, strict=False)):
+            for p, (part, want) in enumerate(zip(step, expected, strict=True)):
+                if part.shape != want.shape or part_distance(part, want, scales[p]) <= tolerance:
+                    continue
+                index = _first(part, want, scales[p] * tolerance)
+                told = not known.exercise.seeded
+                number = s + 1 if question.steps else 0
+                numbers = (want[index].item(), part[index].item())
+                name = question.parts[p]
+                found = Departure(question.about, number, name, question.item, index, *numbers, told)
+                return found, _lines(question, answer, right, p, index) if told else None
+    return None, None
+
+
+def _first(part: Array, want: Array, tolerance: float) -> tuple[int, ...]:
+    if part.dtype.kind == "U" or want.dtype.kind == "U":
+        differ = np.asarray(part != want)
+    else:
+        differ = ~(np.abs(part.astype(float) - want.astype(float)) <= tolerance)
+    return tuple(int(i) for i in np.argwhere(differ)[0])
+
+
+def _lines(question: Question, answer: Answer, right: Answer, p: int, index: tuple[int, ...]) -> Lines | None:
+    want = right[0][p]
+    if want.dtype.kind == "U" or (not question.steps and want.ndim == 0) or question.item == "between mass":
+        return None
+    name, axis = question.parts[p], index[1:]
+    unit = f" [{question.units[p]}]" if question.units else ""
+    if question.steps:
+        place = f"[{', '.join(map(str, index))}]" if index else ""
+        both = [[float(step[p][index]) for step in steps] for steps in (right, answer)]
+        return Lines("step", name + place + unit, np.array(both[0]), np.array(both[1]))
+    rows = [np.array([row[axis] for row in steps[0][p]], dtype=float) for steps in (right, answer)]
+    return Lines(question.item, name + (f"[:, {axis[0]}]" if axis else "") + unit, *rows)
+
+
+def _plain(value: Any) -> str:
+    return f"{value:.9g}" if isinstance(value, float) else repr(value)

@@ -1,0 +1,149 @@
+"""Many steppers on one system: how far each goes from the true motion, and which scheme each one is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from engines.engine import demands
+from engines.process.isolation import EngineStepper
+from experiments.runs.side_by_side import Progress, side_by_side
+from reference.changes import whole_steps
+from reference.errors import InputError
+from reference.identification import Identification, candidates_for, identify_by_rounding
+from reference.outcome import Outcome
+from reference.scenes import Setup
+from reference.state import Array, Trajectory
+from reference.stepper import Stepper
+from reference.system import MassSpringSystem
+from reference.theory.exact import WHY_NOT_EXACT, exact
+
+
+@dataclass(frozen=True)
+class Run:
+    """One stepper on one system.
+
+    Attributes:
+        stepper: who stepped.
+        outcome: how it ended.
+        identification: which scheme it was.
+        error: distance from the true motion at each time [m], shape (m,); None without one of the two.
+        deviation: distance from the identified scheme at each time [m], shape (m,); None where there is none.
+    """
+
+    stepper: Stepper
+    outcome: Outcome
+    identification: Identification
+    error: Array | None
+    deviation: Array | None
+
+    @property
+    def row(self) -> dict[str, Any]:
+        """The run in plain numbers and words, None for what is not a number."""
+        return {
+            "stepper": self.stepper.name,
+            "kind": self.stepper.kind,
+            "version": self.stepper.version,
+            "outcome": self.outcome.ending,
+            "reason": self.outcome.reason,
+            "error_m": finite(None if self.error is None else float(self.error.max())),
+            "identified_as": self.identification.identified_as,
+            "identification_error_m": finite(self.identification.error),
+        }
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All steppers on one system, and its true motion: None for a system with obstacles."""
+
+    setup: Setup
+    true: Trajectory | None
+    runs: tuple[Run, ...]
+
+    @property
+    def times(self) -> Array:
+        """Of all steps [s], shape (m,)."""
+        return np.array([i * self.setup.dt for i in range(whole_steps(self.setup.dt, self.setup.duration) + 1)])
+
+    @property
+    def why_no_true_motion(self) -> str | None:
+        """What there is to say where the true motion is not known, and so no run has an error."""
+        return WHY_NOT_EXACT if self.true is None else None
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The comparison as the command line's JSON has it; where the true motion is not known it says why."""
+        setup = self.setup
+        rows = [run.row for run in self.runs]
+        asked = {"scene": setup.name, "dt_s": setup.dt, "duration_s": setup.duration}
+        why = {"why_no_true_motion": self.why_no_true_motion} if self.why_no_true_motion else {}
+        return {**asked, **why, "runs": rows}
+
+
+def compare(
+    setup: Setup, steppers: Sequence[Stepper], progress: Progress = lambda _: None, patient: bool = True
+) -> Comparison:
+    """Run steppers on a setup. An engine that fails is a run with that outcome; the others still report.
+
+    Args:
+        patient: also run those that take long on so many masses.
+
+    Raises:
+        InputError: for a dt or duration that makes no sense; where the trajectories would not fit into the memory.
+    """
+    steps = whole_steps(setup.dt, setup.duration)
+    _check_room([s for s in steppers if patient or not too_slow(s, setup.system)], setup.system, steps)
+    progress("true motion")
+    true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
+
+    def task(stepper: Stepper) -> Outcome:
+        left_out = None if patient else too_slow(stepper, setup.system)
+        return left_out or stepper.run(setup.system, setup.dt, steps, setup.changes)
+
+    outcomes = list(side_by_side(steppers, task, progress))
+    progress("catalogue of schemes")
+    known = candidates_for(outcomes, setup.system, setup.dt, steps, setup.changes)
+    runs = []
+    for stepper, outcome in outcomes:
+        identification = identify_by_rounding(
+            stepper.name, outcome, setup.system, known, setup.dt, steps, setup.changes
+        )
+        named = identification.identified_as
+        trajectory = outcome.trajectory
+        error = None if trajectory is None or true is None else trajectory.distance(true)
+        deviation = None if trajectory is None or named is None else trajectory.distance(known[named])
+        runs.append(Run(stepper, outcome, identification, error, deviation))
+    return Comparison(setup, true, tuple(runs))
+
+
+def _check_room(steppers: Sequence[Stepper], system: MassSpringSystem, steps: int) -> None:
+    """Refuse what could not be kept: a trajectory of every stepper that can take the system, and the true one."""
+    import psutil
+
+    asked = demands(system)
+    able = [s for s in steppers if not isinstance(s, EngineStepper) or s.engine.capabilities.issuperset(asked)]
+    needed = (len(able) + 1) * (steps + 1) * (system.positions.nbytes + system.velocities.nbytes)
+    free = psutil.virtual_memory().available
+    if needed > free:
+        raise InputError(
+            f"{len(able)} steppers, {len(system.masses)} masses and {steps} steps take {needed / 2**30:.3g} GiB of "
+            f"memory, where {free / 2**30:.3g} are free: expected fewer of them; see --stepper and --duration"
+        )
+
+
+def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:
+    """Why a stepper is left out unless it is asked for by name, or None: it says itself how large a system may be."""
+    most, n = getattr(stepper, "interactive_up_to", None), len(system.masses)
+    if most is None or n <= most:
+        return None
+    reason = f"left out: with more than {most} masses it takes long, here are {n}; --stepper {stepper.name} runs it"
+    return Outcome("unsupported", reason)
+
+
+def finite(value: float | None) -> float | None:
+    """The number, or None if it is none: JSON has no infinity."""
+    return value if value is not None and math.isfinite(value) else None

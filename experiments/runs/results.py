@@ -1,0 +1,112 @@
+"""What is in a store, for people and other programs: rows, filtered."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sqlite3
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any, TextIO
+
+from experiments.runs.store import JSON_COLUMNS, StoreError, check_format
+from reference.errors import InputError, unknown_name
+
+#: What every row has.
+COLUMNS = ("task", "stepper", "version", "dt", "steps", "outcome", "reason")
+
+#: And where one asks for everything.
+MORE_COLUMNS = ("settings", "system", "seconds", "finished", "key", "arrays", "environment")
+
+#: What `report` keeps beside the runs it is made of: its sections as they are shown, which are no runs.
+SECTIONS = "report_section"
+
+
+def rows(store: Path, filters: Mapping[str, str], retired: bool = False) -> list[dict[str, Any]]:
+    """The runs in a store, oldest first, parameters and numbers of the answer as columns of their own.
+
+    Args:
+        filters: what columns must be equal to; numbers as numbers.
+        retired: whether to show also those that were started over.
+
+    Raises:
+        InputError: if there is no store, it is none, or nothing in it has a column that is asked for.
+    """
+    found = [_flat(row) for row in _read(store) if retired or not row["retired"]]
+    known = {name: None for row in found for name in row}
+    for name in filters:
+        if found and name not in known:
+            raise unknown_name("column", name, known)
+    return [row for row in found if all(_equal(row.get(name), value) for name, value in filters.items())]
+
+
+def parse_filters(words: Iterable[str]) -> dict[str, str]:
+    """COLUMN=VALUE as a dictionary."""
+    filters = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        if not (name and equals):
+            raise InputError(f"filter {word!r}: expected COLUMN=VALUE")
+        filters[name] = value
+    return filters
+
+
+def columns_of(found: Sequence[Mapping[str, Any]]) -> list[str]:
+    """A column for everything that any row has: what was run comes first, then how it ended and what was found."""
+    before: dict[str, None] = {}
+    after: dict[str, None] = {}
+    for row in found or [dict.fromkeys((*COLUMNS, *MORE_COLUMNS))]:
+        end = [*row].index("outcome")
+        before |= dict.fromkeys([*row][:end])
+        after |= dict.fromkeys([*row][end:])
+    return [*(before | after)]
+
+
+def write_csv(found: Sequence[Mapping[str, Any]], file: TextIO) -> None:
+    """Rows as CSV, with a column for everything that any of them has."""
+    writer = csv.DictWriter(file, columns_of(found))
+    writer.writeheader()
+    writer.writerows({name: "" if value is None else value for name, value in row.items()} for row in found)
+
+
+def _read(store: Path) -> list[sqlite3.Row]:
+    if not store.is_file():
+        raise StoreError(f"store {store}: there is none; `springlab run` and `springlab sweep` make one")
+    # In a folder that cannot be written, a store can be read only if nobody is writing to it, which is then for sure.
+    for how in ("mode=ro", "immutable=1"):
+        sql = sqlite3.connect(f"{store.resolve().as_uri()}?{how}", uri=True)
+        sql.row_factory = sqlite3.Row
+        try:
+            begun = check_format(store, sql)
+            every = sql.execute("SELECT * FROM runs ORDER BY finished, rowid").fetchall() if begun else []
+            return [row for row in every if row["task"] != SECTIONS]
+        except sqlite3.OperationalError as error:
+            problem = error
+        except sqlite3.DatabaseError as error:
+            raise StoreError(f"store {store}: is damaged, or no store of springlab's ({error})") from None
+        finally:
+            sql.close()
+    raise StoreError(f"store {store}: cannot be read ({problem})")
+
+
+def _flat(row: sqlite3.Row) -> dict[str, Any]:
+    """A row with what a sweep varied after the stepper, and the answer's numbers and words after the reason."""
+    values = dict(row)
+    parsed = {name: json.loads(values.pop(name)) for name in JSON_COLUMNS}
+    flat = {name: values[name] for name in COLUMNS[:3]} | (parsed["parameters"] or {})
+    flat |= {name: values[name] for name in COLUMNS[3:]}
+    if isinstance(parsed["answer"], dict):
+        answer = {k: v for k, v in parsed["answer"].items() if v is None or isinstance(v, str | int | float)}
+        taken = {*flat, *values}
+        flat |= {f"found_{name}" if name in taken else name: value for name, value in answer.items()}
+    flat["settings"] = json.dumps(parsed["settings"])
+    return flat | {name: values[name] for name in MORE_COLUMNS[1:]}
+
+
+def _equal(value: Any, wanted: str) -> bool:
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        try:
+            return float(wanted) == value
+        except ValueError:
+            return False
+    return str(value) == wanted if value is not None else wanted in ("", "-")

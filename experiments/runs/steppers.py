@@ -1,0 +1,46 @@
+"""Every stepper there is, by name: schemes, pendulum schemes, lecture listings, engines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from engines.engine import registry
+from engines.process.isolation import EngineStepper
+from experiments.runs.runner import answer
+from reference.errors import InputError, unknown_name
+from reference.lecture.listings import listings
+from reference.stepper import Stepper, catalogued
+
+
+def all_steppers() -> dict[str, Stepper]:
+    """All of them, in the order they are shown."""
+    engines = {name: EngineStepper(engine, isolate=answer) for name, engine in registry().items()}
+    return {**catalogued(), **listings(), **engines}
+
+
+def installed_engines() -> list[EngineStepper]:
+    """The engines there are on this machine."""
+    return [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
+
+
+def default_steppers() -> list[Stepper]:
+    """What `compare` runs if nothing is named: all but the pendulum schemes, which are another system's."""
+    return [stepper for stepper in all_steppers().values() if stepper.kind != "pendulum"]
+
+
+def find_steppers(names: Iterable[str]) -> list[Stepper]:
+    """The steppers of these names.
+
+    Raises:
+        InputError: for an unknown name, or an engine that is not installed.
+    """
+    known = all_steppers()
+    found = []
+    for name in names:
+        if name not in known:
+            raise unknown_name("stepper", name, known)
+        stepper = known[name]
+        if isinstance(stepper, EngineStepper) and stepper.version is None:
+            raise InputError(f"stepper {name!r} is not installed: expected the package {stepper.engine.package}")
+        found.append(stepper)
+    return found

@@ -1,0 +1,241 @@
+"""Where results are kept: one SQLite file, with the arrays beside it, each in a file named by its run's key.
+
+Nothing is written over and nothing is deleted. A run's arrays are in place before its row is, and a row is there whole
+or not at all: whoever is killed whenever leaves a store that opens, and in it every run that was finished.
+"""
+
+from __future__ import annotations
+
+import errno
+import json
+import sqlite3
+import threading
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from experiments.runs.environment import environment
+from experiments.runs.result_codec import decode, encode
+from experiments.runs.task import Job, digest
+from reference.errors import InputError
+from reference.outcome import Outcome
+from reference.state import Array
+
+#: The format written here. A store of a higher one is a newer springlab's.
+FORMAT = 1
+
+#: How long [s] to wait for another springlab that is writing.
+PATIENCE = 30.0
+
+SCHEMA = f"""
+CREATE TABLE IF NOT EXISTS environments (digest TEXT PRIMARY KEY, document TEXT NOT NULL);
+CREATE TABLE IF NOT EXISTS runs (
+    key TEXT NOT NULL,            -- of everything that decides the result
+    generation INTEGER NOT NULL,  -- 0, 1, ...: how often it had been started over
+    question TEXT NOT NULL,       -- of what was asked, whatever springlab answered
+    retired INTEGER NOT NULL,     -- 1 where it is to be run again, or the question has a newer answer
+    task TEXT NOT NULL, stepper TEXT, version TEXT, settings TEXT, system TEXT, parameters TEXT, dt REAL, steps INTEGER,
+    outcome TEXT NOT NULL, reason TEXT NOT NULL, answer TEXT NOT NULL, arrays TEXT,  -- their file
+    time_limit REAL NOT NULL, memory_limit REAL NOT NULL,
+    seconds REAL NOT NULL, finished TEXT NOT NULL, environment TEXT NOT NULL REFERENCES environments (digest),
+    PRIMARY KEY (key, generation)
+);
+CREATE INDEX IF NOT EXISTS questions ON runs (question);
+PRAGMA user_version = {FORMAT};
+"""
+
+#: What the system calls a place where nothing can be written.
+NO_PLACE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR)
+
+#: Columns that hold JSON.
+JSON_COLUMNS = ("settings", "parameters", "answer")
+
+
+class StoreError(InputError):
+    """A store that cannot be used, or no more. The message is one line: which, and what to do."""
+
+
+@dataclass(frozen=True)
+class Kept:
+    """An answer from the store."""
+
+    answer: Any
+
+
+class Store:
+    """A store, opened for reading and writing; made where there is none.
+
+    Args:
+        file: the SQLite file; arrays go into a folder `arrays` beside it.
+
+    Raises:
+        StoreError: if it cannot be written, is no store, or a newer springlab's. So do all methods, and for a full disk
+            or another springlab that does not stop writing: what was kept stays kept.
+    """
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        self._arrays = file.parent / "arrays"
+        self._lock = threading.Lock()
+        with self._said():
+            file.parent.mkdir(parents=True, exist_ok=True)
+            self._sql = sqlite3.connect(file, timeout=PATIENCE, isolation_level=None, check_same_thread=False)
+        try:
+            self._open()
+        except BaseException:
+            self.close()
+            raise
+
+    def find(self, job: Job) -> Kept | None:
+        """What is kept of a job; None where it is to be run: not yet, to be run again, or stopped at other limits."""
+        with self._said(), self._lock:
+            row = self._current(job)
+        if row is None:
+            return None
+        arrays = read_arrays(self._arrays, row["arrays"])
+        if arrays is None:
+            self.retire([job.key])
+            return None
+        return Kept(decode(json.loads(row["answer"]), arrays))
+
+    def keep(self, job: Job, answer: Any, seconds: float) -> None:
+        """Keep what a job answered, and how long it took [s]; where another springlab has just kept it, let that be."""
+        document, arrays = encode(answer)
+        outcome = outcome_of_answer(answer)
+        columns = job.labels | {
+            "key": job.key,
+            "question": job.question,
+            "retired": 0,
+            "outcome": outcome.ending,
+            "reason": outcome.reason,
+            "answer": document,
+            "time_limit": job.time_limit,
+            "memory_limit": job.memory_limit,
+            "seconds": seconds,
+            "finished": datetime.now(UTC).isoformat(timespec="milliseconds"),
+            "environment": self._environment,
+        }
+        columns |= {name: json.dumps(columns[name]) for name in JSON_COLUMNS}
+        with self._changing():
+            if self._current(job) is not None:
+                return
+            (columns["generation"],) = self._sql.execute(
+                "SELECT COUNT(*) FROM runs WHERE key = ?", [job.key]
+            ).fetchone()
+            columns["arrays"] = self._write(f"{job.key}-{columns['generation']}", arrays) if arrays else None
+            self._sql.execute("UPDATE runs SET retired = 1 WHERE question = ?", [job.question])
+            places = ", ".join("?" * len(columns))
+            self._sql.execute(f"INSERT INTO runs ({', '.join(columns)}) VALUES ({places})", [*columns.values()])
+
+    def retire(self, keys: Iterable[str]) -> None:
+        """Let jobs of these keys count as not yet run. Their rows and arrays stay."""
+        with self._changing():
+            self._sql.executemany("UPDATE runs SET retired = 1 WHERE key = ?", ([key] for key in keys))
+
+    def close(self) -> None:
+        """Close the file."""
+        with self._lock:
+            self._sql.close()
+
+    def _open(self) -> None:
+        """Make what is missing, and remove what a killed springlab was writing: arrays are written by one at a time."""
+        self._sql.row_factory = sqlite3.Row
+        document = environment()
+        del document["date"]
+        self._environment = digest(document)
+        with self._said():
+            check_format(self.file, self._sql)
+            # As safe as any against a process that is killed, and quick.
+            self._sql.executescript(f"PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL; {SCHEMA}")
+        with self._changing():
+            row = [self._environment, json.dumps(document)]
+            self._sql.execute("INSERT OR IGNORE INTO environments VALUES (?, ?)", row)
+            for half in self._arrays.glob("*.half"):
+                half.unlink()
+
+    def _current(self, job: Job) -> sqlite3.Row | None:
+        """The row that holds for a job: what was stopped at other limits than its own does not."""
+        row: sqlite3.Row | None = self._sql.execute(
+            "SELECT * FROM runs WHERE key = ? AND NOT retired ORDER BY generation DESC LIMIT 1", [job.key]
+        ).fetchone()
+        if row is None:
+            return None
+        other_limits = (row["time_limit"], row["memory_limit"]) != (job.time_limit, job.memory_limit)
+        return None if row["outcome"] in ("timed out", "crashed") and other_limits else row
+
+    def _write(self, name: str, arrays: Mapping[str, Array]) -> str:
+        """Arrays into a file, there whole or not at all. Its path from the folder of arrays."""
+        path = f"{name[:2]}/{name}.npz"  # a folder with a million files is slow
+        file = self._arrays / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        half = self._arrays / f"{name}.half"
+        try:
+            with half.open("wb") as opened:
+                np.savez(opened, **arrays)  # type: ignore[arg-type]
+            half.replace(file)
+        finally:
+            half.unlink(missing_ok=True)
+        return path
+
+    @contextmanager
+    def _changing(self) -> Iterator[None]:
+        """One change, seen by others whole or not at all."""
+        with self._said(), self._lock:
+            self._sql.execute("BEGIN IMMEDIATE")
+            with self._sql:
+                yield
+
+    @contextmanager
+    def _said(self) -> Iterator[None]:
+        """What SQLite and the disk have to say, in one line."""
+        try:
+            yield
+        except (sqlite3.Error, OSError) as error:
+            raise StoreError(f"store {self.file}: {_in_words(error)}") from None
+
+
+def check_format(file: Path, sql: sqlite3.Connection) -> bool:
+    """Whether there is anything in a store yet. Raises StoreError for one of a newer springlab's, or of others'."""
+    (found,) = sql.execute("PRAGMA user_version").fetchone()
+    tables = {name for (name,) in sql.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+    if tables and not {"environments", "runs"} & tables:
+        raise StoreError(f"store {file}: is no store of springlab's (it has a table {min(tables)!r})")
+    if found > FORMAT:
+        raise StoreError(f"store {file}: written by a newer springlab, in format {found}; expected {FORMAT} or less")
+    return "runs" in tables
+
+
+def read_arrays(folder: Path, path: str | None) -> dict[str, Array] | None:
+    """The arrays of a run; None where the file is gone or broken, as after a power failure."""
+    if path is None:
+        return {}
+    try:
+        with (folder / path).open("rb") as file, np.load(file) as opened:
+            return dict(opened)
+    except Exception:  # NumPy and zipfile raise nearly anything for a broken file
+        return None
+
+
+def outcome_of_answer(answer: Any) -> Outcome:
+    """How a job ended: as its answer is or says, else done."""
+    if isinstance(answer, Mapping):
+        answer = answer.get("outcome")
+    return answer if isinstance(answer, Outcome) else Outcome("done")
+
+
+def _in_words(error: Exception) -> str:
+    text = getattr(error, "strerror", None) or str(error)  # without the file's name, which might say "full"
+    if "full" in text or getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT):
+        return "the disk is full; what was kept is safe: make room, and run the same command again"
+    if "readonly" in text or "unable to open" in text or getattr(error, "errno", None) in NO_PLACE:
+        return "cannot be written; expected a folder to write in, or another place by --store"
+    if "locked" in text:
+        return f"another springlab has been writing to it for {PATIENCE:g} s; run the same command again later"
+    if "not a database" in text or "malformed" in text:
+        return f"is damaged, or no store of springlab's ({text})"
+    return text

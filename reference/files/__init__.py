@@ -1,0 +1,1 @@
+"""Files that describe what moves: scenes in TOML, meshes, accelerograms."""

@@ -1,0 +1,281 @@
+"""Scene files: a scene with its parameters, or a system written out, in TOML.
+
+    scene = "string"            # a named scene ...
+    dt = 1e-3                   # s; the scene's own where left out
+    duration = 0.5              # s
+
+    [parameters]                # ... with some of its parameters, in SI units
+    masses = 20
+    stiffness = 500.0
+
+    [[changes]]                 # and parameters that change on the fly
+    time = 0.2                  # s
+    parameter = "stiffness"
+    value = 100.0
+
+    [ground_motion]             # the ground moves, and all supports with it (`reference.scenes.ground_motion`)
+    from_frequency = 0.5        # Hz; or, in place of the numbers of a sweep, file = "record.csv" and its scale
+    to_frequency = 5.0          # Hz
+    amplitude = 1.0             # m/s^2
+    duration = 4.0              # s
+
+    [[obstacles]]               # what masses may not enter: added to the scene's own, with either form of file
+    kind = "circle"             # circle, sphere: centre [m], radius [m]; cylinder: also its axis, a direction;
+    centre = [0.5, -0.6]        # plane: point [m], normal (a direction, out of it); box: centre, half_sizes [m]
+    radius = 0.3
+
+In place of `scene` and [parameters], a table [system] has the fields of `MassSpringSystem`: positions, springs, masses,
+rest_lengths (left out: as long as the springs are at the start), stiffness, damping, drag, gravity, velocities, fixed
+(the indices of the fixed masses).
+
+Or a table [mesh] takes masses and springs from a mesh file, an OBJ or a VTK file (`reference.files.mesh_file`).
+Vertices are masses, in the file's order and counted from 0; edges of elements are springs, each once, unstretched at
+the start.
+
+    [mesh]
+    file = "blanket.obj"        # beside the scene file, or a path from there
+    scale = 0.01                # m in a unit of the mesh file; 1 where left out
+    total_mass = 0.3            # kg, shared evenly; or masses = ..., kg, one number or one for each
+    stiffness = 50.0            # N/m, of every spring
+    damping = 0.02              # N s/m, of every spring, along it; 0 where left out
+    drag = 0.0                  # N s/m, on every mass; 0 where left out
+    gravity = [0.0, 0.0, -9.81] # m/s^2; one number: downwards, along the second axis; 9.81 where left out
+    fixed = [0, 7]              # masses that never move; none where left out
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, TypeVar
+
+import msgspec
+import numpy as np
+
+from reference.changes import Change, Drive, Driven
+from reference.errors import InputError
+from reference.files.mesh_file import read_mesh
+from reference.obstacles import KINDS, Obstacle, obstacle
+from reference.scenes import Setup, find
+from reference.scenes.ground_motion import GroundMotion, Law, Sweep, read_record
+from reference.system import MassSpringSystem
+
+Numbers = float | list[float]
+
+T = TypeVar("T")
+
+
+class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
+    """The table [system]."""
+
+    positions: list[list[float]]
+    springs: list[list[int]]
+    masses: Numbers
+    stiffness: Numbers
+    rest_lengths: Numbers | None = None
+    damping: Numbers = 0.0
+    drag: float = 0.0
+    gravity: Numbers = 9.81
+    velocities: list[list[float]] | None = None
+    fixed: list[int] = []
+
+    def system(self, folder: Path | None = None) -> MassSpringSystem:
+        """The system it describes, all of it here. Raises InputError as MassSpringSystem does."""
+        n = len(self.positions)
+        for place, i in enumerate(self.fixed):
+            if not 0 <= i < n:
+                raise InputError(f"fixed[{place}] = {i}: expected a mass from 0 to {n - 1}")
+        values: dict[str, Any] = {name: getattr(self, name) for name in self.__struct_fields__}
+        values["fixed"] = np.isin(np.arange(n), self.fixed)
+        if self.velocities is None:
+            values["velocities"] = 0.0
+        if self.rest_lengths is None:
+            values["rest_lengths"] = 1.0
+            unstretched = MassSpringSystem(**values)
+            a, b = unstretched.springs.T
+            with np.errstate(over="ignore"):
+                values["rest_lengths"] = np.linalg.norm(unstretched.positions[b] - unstretched.positions[a], axis=1)
+        return MassSpringSystem(**values)
+
+
+class MeshTable(msgspec.Struct, forbid_unknown_fields=True):
+    """The table [mesh]."""
+
+    file: str
+    stiffness: float
+    masses: Numbers | None = None
+    total_mass: float | None = None
+    scale: float = 1.0
+    damping: float = 0.0
+    drag: float = 0.0
+    gravity: Numbers = 9.81
+    fixed: list[int] = []
+
+    def system(self, folder: Path) -> MassSpringSystem:
+        """The system it describes, its file looked for from a folder. Raises InputError, as `read_mesh` too."""
+        for name in ("scale", "total_mass"):
+            value = getattr(self, name)
+            if value is not None and not 0 < value < np.inf:
+                raise InputError(f"mesh.{name} = {value:g}: expected a number > 0 [{'m' if name == 'scale' else 'kg'}]")
+        if (self.masses is None) == (self.total_mass is None):
+            raise InputError("mesh: expected either masses or total_mass")
+        mesh = read_mesh(folder / self.file)
+        shared = {name: getattr(self, name) for name in ("stiffness", "damping", "drag", "gravity", "fixed")}
+        with np.errstate(over="ignore"):
+            positions = self.scale * mesh.positions
+        return SystemTable(
+            positions=positions.tolist(),
+            springs=mesh.edges.tolist(),
+            masses=(self.total_mass or 0.0) / len(mesh.positions) if self.masses is None else self.masses,
+            **shared,
+        ).system()
+
+
+class ChangeTable(msgspec.Struct, forbid_unknown_fields=True):
+    """One of the tables [[changes]]."""
+
+    time: float
+    parameter: str
+    value: Numbers
+
+
+class GroundMotionTable(msgspec.Struct, forbid_unknown_fields=True):
+    """The table [ground_motion]."""
+
+    file: str | None = None
+    scale: float | None = None
+    from_frequency: float | None = None
+    to_frequency: float | None = None
+    amplitude: float | None = None
+    duration: float | None = None
+    law: Law | None = None
+    direction: list[float] | None = None
+
+    def motion(self, folder: Path) -> Drive:
+        """What it describes: a record, or a sweep. Raises InputError, as `read_record` too."""
+        numbers = {name: getattr(self, name) for name in self.__struct_fields__ if name not in ("file", "scale")}
+        given = {name: value for name, value in numbers.items() if value is not None}
+        if self.file is not None:
+            for name in given:
+                raise InputError(f"ground_motion.{name}: expected a record or a sweep, not both")
+            return GroundMotion(read_record(folder / self.file, 1.0 if self.scale is None else self.scale))
+        if self.scale is not None:
+            raise InputError("ground_motion.scale: expected a file with it")
+        for name in ("from_frequency", "to_frequency", "amplitude", "duration"):
+            if name not in given:
+                raise InputError(f"ground_motion.{name} is missing: expected a sweep's numbers or a file")
+        if "direction" in given:
+            given["direction"] = tuple(given["direction"])
+        return _within("ground_motion", lambda: GroundMotion(Sweep(**given)))
+
+
+class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
+    """A whole scene file."""
+
+    scene: str | None = None
+    system: SystemTable | None = None
+    mesh: MeshTable | None = None
+    parameters: dict[str, Any] = {}
+    dt: float | None = None
+    duration: float | None = None
+    changes: list[ChangeTable] = []
+    obstacles: list[dict[str, Any]] = []
+    ground_motion: GroundMotionTable | None = None
+
+
+def load(path: Path, settings: Mapping[str, Any], dt: float | None = None, duration: float | None = None) -> Setup:
+    """The setup a scene file describes, with some of its scene's parameters, dt or duration [s] set otherwise.
+
+    Raises:
+        InputError: naming the file, the key path and, where it is known, the line.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"scene file {path}: {getattr(error, 'strerror', None) or 'expected UTF-8 text'}") from None
+    try:
+        content = msgspec.toml.decode(text, type=SceneFile)
+    except msgspec.ValidationError as error:
+        raise InputError(f"scene file {path}{_line(text, str(error))}: {_plain(str(error))}") from None
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise InputError(f"scene file {path}: {error}") from None
+    try:
+        setup = _setup(path, content, {}, None, None)
+    except InputError as error:
+        raise InputError(f"scene file {path}{_line(text, str(error))}: {error}") from None
+    # What is set otherwise is not the file's fault.
+    otherwise = settings or dt is not None or duration is not None
+    return _setup(path, content, settings, dt, duration) if otherwise else setup
+
+
+def _setup(
+    path: Path, content: SceneFile, settings: Mapping[str, Any], dt: float | None, duration: float | None
+) -> Setup:
+    driven = _driven(path, content, settings)
+    scene = find(content.scene) if content.scene is not None else None
+    own_dt, own_duration = (scene.dt, scene.duration) if scene else (1e-3, 0.5)
+    dt = next(value for value in (dt, content.dt, own_dt) if value is not None)
+    duration = next(value for value in (duration, content.duration, own_duration) if value is not None)
+    changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
+    setup = Setup(path.stem, driven.system, dt, duration, (*driven.changes(dt, duration), *changes))
+    setup.check()
+    return setup
+
+
+def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driven:
+    """The system, its obstacles, and what drives it."""
+    if [content.scene, content.system, content.mesh].count(None) != 2:
+        raise InputError('expected either scene = "..." or a table [system] or a table [mesh]')
+    words = find(content.scene).choices if content.scene is not None else ()
+    for name, value in content.parameters.items():
+        if name in words:
+            continue
+        numbers = value if isinstance(value, list) else [value]
+        if any(isinstance(number, bool) or not isinstance(number, int | float) for number in numbers):
+            raise InputError(f"parameters.{name} = {value!r}: expected a number or a list of numbers")
+    written_out = content.system or content.mesh
+    if written_out is not None:
+        if settings or content.parameters:
+            name = next(iter([*settings, *content.parameters]))
+            raise InputError(f"{name}: expected no parameters, the system is written out")
+        driven = Driven(written_out.system(path.parent))
+    else:
+        driven = find(content.scene or "").driven({**content.parameters, **settings})
+    system, drives = driven.system, driven.drives
+    if content.obstacles:
+        given = tuple(_obstacle(i, table) for i, table in enumerate(content.obstacles))
+        system = replace(system, obstacles=(*system.obstacles, *given))
+    if content.ground_motion is not None:
+        drives = (*drives, content.ground_motion.motion(path.parent))
+    return Driven(system, drives)
+
+
+def _obstacle(i: int, table: dict[str, Any]) -> Obstacle:
+    if "kind" not in table:
+        raise InputError(f"obstacles[{i}].kind is missing: expected one of {', '.join(KINDS)}")
+    return _within(f"obstacles[{i}]", lambda: obstacle(**table))
+
+
+def _within(table: str, make: Callable[[], T]) -> T:
+    """What is made of a table; of a mistake in it the table is named too."""
+    try:
+        return make()
+    except InputError as error:
+        raise InputError(f"{table}.{error}") from None
+
+
+def _plain(message: str) -> str:
+    """The validator's message as ours are: key path first."""
+    what, _, where = message.partition(" - at `$.")
+    return f"{where.rstrip('`')}: {what[0].lower()}{what[1:]}" if where else what[0].lower() + what[1:]
+
+
+def _line(text: str, message: str) -> str:
+    """Where the last key a message names stands in the file, as ', line N'; nothing if it does not stand there once."""
+    keys = re.findall(r"[A-Za-z_]\w*", message.partition("$.")[2] or re.split(r"[^\w.\[\]]", message)[0])
+    unknown = re.search(r"unknown (?:field|parameter[^:]*) [`'](\w+)[`']", message)
+    key = unknown[1] if unknown else keys[-1] if keys else ""
+    lines = [i for i, line in enumerate(text.splitlines(), 1) if key and re.match(rf"\s*{key}\s*=", line)]
+    return f", line {lines[0]}" if len(lines) == 1 else ""

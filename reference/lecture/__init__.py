@@ -1,0 +1,1 @@
+"""The lecture's own algorithms, executed, and its barrier as it is printed."""

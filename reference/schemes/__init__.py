@@ -1,0 +1,1 @@
+"""The schemes, one function each: from a whole state to the next. Right ones, engines' own, deliberately wrong ones."""

@@ -1,0 +1,1 @@
+"""What theory says of systems and schemes: exact motions, equilibria, modes, step maps, stability limits."""

@@ -1,0 +1,152 @@
+"""The step map: how a scheme's step answers a small perturbation of an equilibrium.
+
+One step is a map z -> Phi(z) of the whole state z = (positions, dt velocities). About an equilibrium a perturbation dz
+becomes J dz, with J the Jacobian of Phi. This asks nothing about how a step is made: in-place variants have a J like
+any other. What a multistep scheme remembers is part of z.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reference.assembly import Blocks, assemble, spring_blocks
+from reference.forces import SpringMotion
+from reference.schemes.catalogue import Scheme
+from reference.state import Array, Slope, State
+from reference.system import MassSpringSystem
+from reference.theory.equilibria import Equilibrium
+
+
+def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
+    """J over the free positions, dt x velocities, and what a multistep scheme remembers: exactly where that can be had.
+
+    About an equilibrium of springs a scheme that is `linear` is given the linearised equations of motion and the
+    identity matrix in place of a state, and its own function returns J. Others are differenced.
+    """
+    exact = isinstance(rest.motion, SpringMotion) and scheme.linear
+    return _by_linear_motion(scheme, rest, dt) if exact else _by_differences(scheme, rest, dt)
+
+
+class LinearMotion:
+    """The equations of motion about an equilibrium, linearised: of many small pushes at once, one per column.
+
+    States have shape (n, d, columns), pushes from the equilibrium and their velocities.
+    """
+
+    def __init__(self, system: MassSpringSystem, equilibrium: State) -> None:
+        self.system, self._equilibrium = system, equilibrium
+        free = np.repeat(~system.fixed, system.dimension)
+        mass = np.repeat(system.masses, system.dimension)[free, None]
+        self._by_position, self._by_velocity = (np.zeros((len(free), len(free))) for _ in range(2))
+        by_position, by_velocity = spring_blocks(system, equilibrium)
+        self._by_position[np.ix_(free, free)] = assemble(system, by_position, sparse=False) / mass
+        self._by_velocity[np.ix_(free, free)] = assemble(system, by_velocity, sparse=False) / mass
+        self._drag = np.where(system.fixed, 0.0, system.drag / system.masses)[:, None, None]
+
+    def acceleration(self, state: State, damping: bool = True) -> Array:
+        """Of all masses; without the damping of the springs if so asked."""
+        if damping:
+            return self._of_rows(slice(None), state).reshape(state.positions.shape)
+        moved = self._by_position @ state.positions.reshape(len(self._by_position), -1)
+        return np.asarray(moved.reshape(state.positions.shape) - self._drag * state.velocities)
+
+    def placed(self, state: State) -> State:
+        """Where springs have their directions: at rest, whatever the pushes."""
+        return self._equilibrium
+
+    def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
+        """The derivatives of the forces by positions [N/m] and velocities [N s/m], at rest whatever the pushes."""
+        return spring_blocks(self.system, self._equilibrium)
+
+    def acceleration_of(self, i: int, state: State) -> Array:
+        """Of mass i alone."""
+        d = state.positions.shape[1]
+        return self._of_rows(slice(i * d, i * d + d), state)
+
+    def slope(self, state: State) -> Slope:
+        """(1, x', x'')."""
+        return Slope(1.0, state.velocities, self.acceleration(state))
+
+    def _of_rows(self, rows: slice, state: State) -> Array:
+        x, v = (q.reshape(len(self._by_position), -1) for q in (state.positions, state.velocities))
+        return self._by_position[rows] @ x + self._by_velocity[rows] @ v
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a whole state is one vector z: free positions, dt x velocities, dt x what is remembered.
+
+    Attributes:
+        rest: about which it is told.
+        dt: the step [s].
+        remembered: how many arrays the scheme remembers.
+    """
+
+    rest: Equilibrium
+    dt: float
+    remembered: int
+
+    @property
+    def block(self) -> int:
+        """How many numbers of z are positions."""
+        return self.rest.state.positions[self.rest.free].size
+
+    @property
+    def size(self) -> int:
+        """Of z."""
+        return (2 + self.remembered) * self.block
+
+    def state(self, z: Array, about: State) -> State:
+        """The state z away from another one; z is one vector, or many as columns."""
+        parts = z.reshape(2 + self.remembered, *self.rest.state.positions[self.rest.free].shape, *z.shape[1:])
+        whole = [np.array(q) for q in (about.positions, about.velocities, *about.memory)]
+        for array, part, unit in zip(whole, parts, self._units, strict=True):
+            array[self.rest.free] += part / unit
+        return State(0.0, whole[0], whole[1], tuple(whole[2:]))
+
+    def vector(self, state: State) -> Array:
+        """The reverse, of one state or of many, as columns."""
+        whole = (state.positions, state.velocities, *state.memory)
+        parts = [unit * q[self.rest.free] for q, unit in zip(whole, self._units, strict=True)]
+        return np.concatenate([part.reshape(self.block, -1) for part in parts])
+
+    @property
+    def _units(self) -> list[float]:
+        """Of what is remembered nobody knows the unit, and none matters to eigenvalues."""
+        return [1.0, *[self.dt] * (1 + self.remembered)]
+
+
+def _layout(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:
+    """How states are vectors, and the state at rest with all that a scheme remembers of having been there."""
+    if scheme.one_step:
+        return Layout(rest, dt, 0), rest.state
+    memory = scheme.on(rest.motion)(rest.state, dt).memory
+    return Layout(rest, dt, len(memory)), rest.state.remembering(*memory)
+
+
+def _by_linear_motion(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
+    assert isinstance(rest.motion, SpringMotion)
+    layout, _ = _layout(scheme, rest, dt)
+    nothing = np.zeros((*rest.state.positions.shape, layout.size))
+    state = layout.state(np.eye(layout.size), State(0.0, nothing, nothing, (nothing,) * layout.remembered))
+    return layout.vector(scheme.on(LinearMotion(rest.motion.system, rest.state))(state, dt))
+
+
+def _by_differences(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
+    """Central differences of fourth order.
+
+    Their truncation goes as the fourth power of the perturbation and their rounding as its inverse; at the fifth root
+    of rounding both are about 1e-12.
+    """
+    layout, settled = _layout(scheme, rest, dt)
+    small = np.finfo(float).eps ** 0.2 * rest.scale
+    step = scheme.on(rest.motion)
+
+    def after(z: Array) -> Array:
+        return layout.vector(step(layout.state(z, settled), dt))[:, 0]
+
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        columns = [8 * (after(z) - after(-z)) - (after(2 * z) - after(-2 * z)) for z in small * np.eye(layout.size)]
+    return np.stack(columns, axis=1) / (12 * small)

@@ -1,0 +1,183 @@
+"""The command `springlab exercise`: list, start, check, gradescope."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import shutil
+import sys
+import textwrap
+from collections import Counter
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from report.commands.terminal import plain, progress, show_table
+
+if TYPE_CHECKING:
+    from experiments.exercises.exercise import Exercise
+    from experiments.exercises.submission import Submission
+
+key_option = click.option(
+    "--key", envvar="SPRINGLAB_EXERCISE_KEY", help="The teacher's secret: what is hidden hangs on it."
+)
+
+
+@click.group("exercise")
+def exercise_command() -> None:
+    """Exercises for students, and a checker that names the mistake."""
+
+
+@exercise_command.command("list")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+def list_command(as_json: bool) -> None:
+    """All exercises, with minutes and learning goals."""
+    from experiments.exercises.exercise import exercises
+
+    columns = ["exercise", "name", "title", "minutes", "goals", "mistakes known"]
+    rows = [
+        [e.number, e.name, e.title, e.minutes, e.goals, len({m.name for m in e.mistakes})] for e in exercises().values()
+    ]
+    if as_json:
+        click.echo(json.dumps([dict(zip(columns, row, strict=True)) for row in rows], indent=2))
+    else:
+        show_table("", columns, rows)
+
+
+@exercise_command.command("start")
+@click.argument("exercise")
+@click.argument("folder", required=False, type=click.Path(path_type=Path, file_okay=False))
+@click.option("--seed", default="example", help="Yours, where an exercise gives everybody other numbers.")
+@key_option
+def start_command(exercise: str, folder: Path | None, seed: str, key: str | None) -> None:
+    """Write EXERCISE into FOLDER: its text, and the file to begin with."""
+    from rich.console import Console
+    from rich.markdown import Markdown
+
+    from experiments.exercises.exercise import find
+    from experiments.exercises.handout import hand_out
+
+    found = find(exercise)
+    written = hand_out(found, folder or Path(found.name), seed, key)
+    Console().print(Markdown(found.text))
+    for file in written:
+        click.echo(f"written: {file}")
+    click.echo(f"Then: springlab exercise check {written[0]}")
+
+
+@exercise_command.command("check")
+@click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option("--exercise", help="Which it is; what the file says where left out.")
+@key_option
+@click.option(
+    "--csv", "table", type=click.Path(path_type=Path, dir_okay=False), help="Grades of a class; goes on from there."
+)
+@click.option("--jobs", type=click.IntRange(min=1), help="Submissions at once; as many as there are cores.")
+@click.option("--plot/--no-plot", default=True, help="Draw where a file departs, beside it.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+def check_command(
+    files: tuple[Path, ...],
+    exercise: str | None,
+    key: str | None,
+    table: Path | None,
+    jobs: int | None,
+    plot: bool,
+    as_json: bool,
+) -> None:
+    """Check FILES, and say what they are: the scheme, or the mistake. A folder is a class.
+
+    Exit code 1 where something is not right.
+    """
+    from experiments.exercises.exercise import find
+    from experiments.exercises.submission import files_of, read
+
+    chosen = find(exercise) if exercise else None
+    found = files_of(files)
+    if table is not None or len(found) > 1:
+        sys.exit(_check_class(found, chosen, key, table, jobs, as_json))
+    sys.exit(_check_one(found[0][0], read(*found[0], chosen), key, plot, as_json))
+
+
+def _check_one(path: Path, submission: Submission, key: str | None, plot: bool, as_json: bool) -> int:
+    from experiments.exercises.grading import grade, row_of
+    from experiments.exercises.plot import as_png, in_terminal
+    from experiments.exercises.words import paragraphs
+    from reference.errors import InputError
+
+    if submission.keyed and key is None:
+        raise InputError(f"{submission.name} was started with a key: only whoever has it can check the answers")
+    with progress("check") as tell:
+        tell(submission.name)
+        given = grade(submission, key)
+    if as_json:
+        row: dict[str, Any] = row_of(submission, given, key)
+        findings = [{"name": f.name, "words": f.words, "hint": f.hint} for f in given.verdict.findings]
+        click.echo(json.dumps({**row, "findings": findings, "deviation": given.verdict.error}, indent=2))
+        return int(not given.verdict.right)
+    click.echo("\n".join(map(_wrapped, paragraphs(submission, given))))
+    lines = given.verdict.lines
+    if lines is not None:
+        click.echo("\n" + in_terminal(lines))
+        if plot:
+            picture = path.with_suffix(".check.png")
+            as_png(lines, picture, given.verdict.name)
+            click.echo(f"written: {picture}")
+    return int(not given.verdict.right)
+
+
+def _wrapped(line: str) -> str:
+    """A line of words as wide as the terminal, if it is one."""
+    if not sys.stdout.isatty():
+        return line
+    width = min(shutil.get_terminal_size().columns, 100)
+    return textwrap.fill(line, width, subsequent_indent="  ", drop_whitespace=True)
+
+
+def _check_class(
+    files: list[tuple[Path, str]],
+    exercise: Exercise | None,
+    key: str | None,
+    table: Path | None,
+    jobs: int | None,
+    as_json: bool,
+) -> int:
+    import tempfile
+
+    from experiments.exercises import sandbox
+    from experiments.exercises.grading import grade_class
+
+    missing = [name for name in ("limits", "landlock", "seccomp") if name not in sandbox.walls()]
+    if missing:
+        words = f"on this machine submissions run without {', '.join(missing)}: see report/docs/exercises.md"
+        click.echo(f"springlab: {words}", err=True)
+    with tempfile.TemporaryDirectory() as folder, progress("check") as tell:
+        rows = grade_class(files, table or Path(folder) / "grades.csv", exercise, key, jobs, tell)
+    if as_json:
+        click.echo(json.dumps(rows, indent=2))
+    else:
+        shown = ["file", "exercise", "public", "hidden", "score", "outcome", "finding"]
+        show_table("", shown, [[plain(row[c]) for c in shown] for row in rows])
+    seeds = Counter((row["exercise"], row["seed"]) for row in rows if row["seed"])
+    for (number, seed), count in seeds.items():
+        if count > 1:
+            click.echo(f"Exercise {number}: {count} files have the seed {seed}.")
+    if table is not None:
+        click.echo(f"written: {table}", err=as_json)
+    return int(any(row["outcome"] != "right" for row in rows))
+
+
+@exercise_command.command("gradescope")
+@click.argument("exercise")
+@click.option(
+    "-o", "--out", type=click.Path(path_type=Path, dir_okay=False), default=Path("autograder.zip"), show_default=True
+)
+@key_option
+def gradescope_command(exercise: str, out: Path, key: str | None) -> None:
+    """Write the zip that Gradescope runs EXERCISE by. Without a key, it gets one of its own."""
+    from experiments.exercises.exercise import find
+    from experiments.exercises.gradescope import write_zip
+
+    found = find(exercise)
+    write_zip(found, key or secrets.token_hex(16), out)
+    click.echo(f"written: {out}")

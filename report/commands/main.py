@@ -1,0 +1,100 @@
+"""The command line `springlab`: which commands there are, and where each one lives.
+
+Commands are imported when they are called, so that `springlab --help` answers at once.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+
+import click
+
+#: Matrices are small here, and processes run beside one another: more threads for each would wait for one another, at
+#: twice the time. NumPy asks for it when it is imported, here and in every process that is started.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+#: Command, its module and function, and what `--help` says of it without importing it.
+COMMANDS = {
+    "list": ("report.commands.identify:show_list", "Scenes, schemes, engines and experiments."),
+    "compare": (
+        "report.commands.compare:compare_command",
+        "Run many steppers on one scene: how far from the truth, and why.",
+    ),
+    "identify": ("report.commands.identify:identify_command", "Say which scheme a stepper is."),
+    "stability": ("report.commands.report:stability_command", "Predict and measure the largest stable dt; map growth."),
+    "live": ("report.commands.live:live_command", "Open a page where scenes run and everything can be changed."),
+    "sweep": ("report.commands.sweep:sweep_command", "Run steppers over a grid of parameters; nothing is lost."),
+    "results": ("report.commands.sweep:results_command", "Show or export what is in the store."),
+    "versions": (
+        "report.commands.versions:versions_command",
+        "Say what versions of an engine do, and what each changed.",
+    ),
+    "run": ("report.commands.report:run_command", "Run experiments, and write their figures and tables."),
+    "exercise": ("report.commands.exercise:exercise_command", "Exercises, and a checker that names the mistake."),
+    "report": ("report.commands.report:report_command", "Write the report: every experiment on one page."),
+}
+
+
+class LazyGroup(click.Group):
+    """A group that imports a command when it is called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The commands in the order above."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command, imported now; None for an unknown one."""
+        if cmd_name not in COMMANDS:
+            return None
+        module, function = COMMANDS[cmd_name][0].split(":")
+        command: click.Command = getattr(importlib.import_module(module), function)
+        return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does, with a suggestion for a command nobody has."""
+        if args and args[0] not in COMMANDS:
+            from reference.errors import unknown_name
+
+            ctx.fail(str(unknown_name("command", args[0], COMMANDS)))
+        return super().resolve_command(ctx, args)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The commands with their one line each, from the table."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
+
+
+@click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="springlab", message="%(prog)s %(version)s")
+def springlab() -> None:
+    """The lab that explains physics engines: it finds the scheme that each one steps by."""
+
+
+def main() -> None:
+    """Entry point: bad input is one line and exit code 2, never a traceback."""
+    from report.commands.terminal import in_one_line
+
+    code = 0
+
+    def call() -> None:
+        nonlocal code
+        try:
+            code = springlab.main(standalone_mode=False, prog_name="springlab") or 0
+        except click.exceptions.Exit as ending:
+            code = ending.exit_code
+        except click.Abort:
+            print("springlab: interrupted", file=sys.stderr)
+            code = 130
+        except click.ClickException as error:
+            print(f"springlab: {error.format_message()}", file=sys.stderr)
+            code = 2
+
+    sys.exit(in_one_line(call) or code)
+
+
+if __name__ == "__main__":
+    main()

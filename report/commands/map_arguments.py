@@ -1,0 +1,76 @@
+"""What the axes of a map are, from the command line's words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from experiments.stability_map import Axis, SystemAt
+from reference.errors import InputError, unknown_name
+from reference.system import PARAMETERS, MassSpringSystem
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.limits import fastest_rate
+from report.commands.arguments import setup_for
+
+
+def system_maker(scene: str, settings: Mapping[str, str], dt: float | None = None) -> tuple[SystemAt, float]:
+    """A function from the axes' values to the scene's system with these set, and dt [s], by default the scene's."""
+    setup = setup_for(scene, dt, settings=settings)
+
+    def system_at(values: Mapping[str, float]) -> MassSpringSystem:
+        system = setup.system
+        if "masses" in values:
+            system = setup_for(scene, settings={**settings, "masses": f"{values['masses']:.0f}"}).system
+        for name, value in values.items():
+            if name != "masses":
+                system = system.with_parameter(name, value)
+        return system
+
+    return system_at, setup.dt
+
+
+def axes_for(names: tuple[str, str], ranges: Sequence[str], system: MassSpringSystem) -> tuple[Axis, Axis]:
+    """The two axes, with the ranges that were given or those that show the limits of most schemes.
+
+    Raises:
+        InputError: for an unknown axis, the same one twice, or a range that is none.
+    """
+    known = ("dt", "masses", *PARAMETERS)
+    for name in names:
+        if name not in known:
+            raise unknown_name("map axis", name, known)
+    if names[0] == names[1]:
+        raise InputError(f"--map {names[0]} {names[1]}: expected two different axes")
+    given = dict(_range(word) for word in ranges)
+    for name in given:
+        if name not in names:
+            raise InputError(f"--range {name}: expected one of the map's axes, {names[0]} or {names[1]}")
+    x, y = (Axis(name, *(given.get(name) or _usual_range(name, system))) for name in names)
+    return x, y
+
+
+def _range(word: str) -> tuple[str, tuple[float, float]]:
+    name, _, values = word.partition("=")
+    low, _, high = values.partition(":")
+    try:
+        return name, (float(low), float(high))
+    except ValueError:
+        raise InputError(f"--range {word!r}: expected KEY=LOW:HIGH with two numbers") from None
+
+
+def _usual_range(name: str, system: MassSpringSystem) -> tuple[float, float]:
+    """From next to nothing to about twice what the system has, or to where most schemes have given up."""
+    fastest = fastest_rate(spring_equilibrium(system))
+    if name == "dt":
+        return 0.05 / fastest, 3.5 / fastest
+    if name == "masses":
+        return 1.0, 40.0
+    now = {
+        "mass": float(system.masses[-1]),
+        "rest_length": float(system.rest_lengths[0]),
+        "stiffness": float(system.stiffness[0]),
+        "gravity": float(-system.gravity[1]) or 9.81,
+        # As much as damps the fastest mode critically: 2 m w of one mass.
+        "damping": 0.5 * float(system.masses[-1]) * fastest,
+        "drag": 0.5 * float(system.masses[-1]) * fastest,
+    }[name]
+    return (0.0, now) if name in ("damping", "drag") else (0.05 * now, 2 * now)

@@ -1,0 +1,122 @@
+"""The command that measures versions of engines: versions."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from dataclasses import asdict
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from reference.errors import InputError
+from report.commands.terminal import RESULTS, progress, show_table
+
+if TYPE_CHECKING:
+    from experiments.engine_versions.versions import Measured, Subject
+
+
+@click.command("versions")
+@click.argument("engine", required=False)
+@click.argument("versions", nargs=-1, metavar="[VERSION]...")
+@click.option("--all", "all_kept", is_flag=True, help="All versions in the baseline.")
+@click.option("--check", is_flag=True, help="Compare with the baseline; exit code 1, with the differences, if any.")
+@click.option("--update-baseline", "update", is_flag=True, help="Write the baseline that the project keeps.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.option(
+    "--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "versions", show_default=True
+)
+def versions_command(
+    engine: str | None,
+    versions: tuple[str, ...],
+    all_kept: bool,
+    check: bool,
+    update: bool,
+    as_json: bool,
+    out: Path,
+) -> int:
+    """Say what versions of ENGINE do, each in an environment of its own, and what each changed.
+
+    ENGINE is a package, such as mujoco, or one engine of `springlab list`. Without ENGINE: all that are in the
+    baseline. Environments are made in the user's cache folder at first need, from the package index, and kept there; a
+    version that the index has no wheel of for this Python is compiled, which takes minutes.
+    """
+    from experiments.engine_versions.versions import measure_versions
+
+    if engine is None and not (all_kept or check):
+        raise InputError("versions: expected ENGINE and VERSION..., or --all, or --check")
+    measured = []
+    with progress("versions") as tell:
+        for subject, wanted in _wanted(engine, versions, all_kept or check):
+            named = bool(versions) and not check
+            measured.append((subject, measure_versions(subject, wanted, tell, patient=not named)))
+    if update:
+        from experiments.engine_versions.baseline import write
+
+        for _, found in measured:
+            print(f"written: {write(found)}", file=sys.stderr)
+    return _compare(measured, as_json) if check else _show(measured, as_json, out)
+
+
+def _wanted(engine: str | None, versions: Sequence[str], kept: bool) -> list[tuple[Subject, list[str]]]:
+    """What is to be measured; with `kept`, only what the baseline has."""
+    from experiments.engine_versions.baseline import kept_versions, packages
+    from experiments.engine_versions.versions import find_subject
+
+    subjects = [find_subject(name) for name in ([engine] if engine else packages())]
+    return [(s, kept_versions(s, versions) if kept or not versions else list(versions)) for s in subjects]
+
+
+def _compare(measured: Sequence[tuple[Subject, Measured]], as_json: bool) -> int:
+    from experiments.engine_versions.baseline import deviations, unknown_engines
+
+    for subject, _ in measured:
+        for name in unknown_engines(subject):
+            print(f"not compared: {name}, of which the baseline has nothing; see --update-baseline", file=sys.stderr)
+    lines = [line for subject, found in measured for line in deviations(subject, found)]
+    count = sum(len(of_name) for _, found in measured for rows in found.rows.values() for of_name in rows.values())
+    if as_json:
+        click.echo(json.dumps({"measurements": count, "differences": lines}, indent=2))
+    else:
+        click.echo("\n".join(lines) or f"{count} measurements are as in the baseline.")
+    return int(bool(lines))
+
+
+def _show(measured: Sequence[tuple[Subject, Measured]], as_json: bool, out: Path) -> int:
+    from experiments.engine_versions.changes import result_of
+    from experiments.experiment import write_tables
+    from report.figures import draw
+
+    documents = {}
+    for _, found in measured:
+        result = result_of(found)
+        files = [*write_tables(result, out), out / f"{found.package}.svg", out / f"{found.package}.json"]
+        documents[found.package] = _document(found)
+        files[-2].write_text(draw("versions", result).svg(), encoding="utf-8")
+        files[-1].write_text(json.dumps(documents[found.package], indent=2) + "\n", encoding="utf-8")
+        if as_json:
+            continue
+        for line in [*result.findings, *(f"not done: {failure}" for failure in result.failures)]:
+            click.echo(line)
+        changed = result.tables[0]
+        if changed.rows:
+            show_table("", changed.columns, changed.rows)
+        click.echo(f"written: {', '.join(map(str, files))}")
+    if as_json:
+        click.echo(json.dumps(documents, indent=2))
+    return 0
+
+
+def _document(found: Measured) -> dict[str, Any]:
+    """What was measured of a package, and what changed, as JSON has it."""
+    from experiments.engine_versions.changes import changes
+
+    pairs = [
+        {"from": old, "to": new, **asdict(change)}
+        for old, new in pairwise(found.rows)
+        for change in changes(found.rows[old], found.rows[new])
+    ]
+    return {"versions": dict(found.rows), "changes": pairs, "missing": dict(found.missing)}

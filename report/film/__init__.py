@@ -1,0 +1,1 @@
+"""Pictures of systems: drawings, animations, films, contact sheets."""

@@ -1,0 +1,187 @@
+"""A comparison as moving pictures: the reference scheme and the engines side by side, at the same times."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from experiments.runs.comparison import Comparison, Run
+from experiments.runs.side_by_side import Progress
+from reference.changes import changes_by_step
+from reference.errors import InputError
+from reference.identification import TOLERANCE
+from reference.outcome import Outcome
+from reference.scenes import Setup
+from reference.state import Array, Trajectory
+from reference.system import MassSpringSystem
+from report.film.contact_sheet import Shot, contact_sheet
+from report.film.drawing import FEW, Look, scale_of
+from report.film.obstacle_image import backdrop
+from report.film.view import View, Window, box_of, outside, view_of, window_around
+
+#: Frames in a second, and how many an animation has at most.
+RATE, MOST_FRAMES = 25, 750
+
+#: The scheme the engines are seen beside.
+REFERENCE = "heun"
+
+
+def shots(comparison: Comparison, names: Sequence[str] = ()) -> list[Shot]:
+    """The runs to be seen, those with the same motion to rounding as one: of these names, or reference and engines.
+
+    What crashed, timed out or is unsupported has no motion, and is not there.
+    """
+    wanted = [r for r in comparison.runs if r.outcome.trajectory is not None]
+    wanted = [r for r in wanted if r.stepper.name in names] if names else [r for r in wanted if _is_shown(r)]
+    near = TOLERANCE * comparison.setup.system.size
+    groups: list[list[Run]] = []
+    for run in wanted:
+        alike = (g for g in groups if _apart(g[0].outcome, run.outcome) <= near)
+        group = next(alike, None)
+        if group is None:
+            groups.append([run])
+        else:
+            group.append(run)
+    return [Shot(tuple(r.stepper.name for r in g), _caption(g[0]), g[0].outcome) for g in groups]
+
+
+def _is_shown(run: Run) -> bool:
+    return run.stepper.kind == "engine" or run.stepper.name == REFERENCE
+
+
+def _apart(one: Outcome, other: Outcome) -> float:
+    """How far two motions are apart at most [m]: infinite where one ends before the other."""
+    assert one.trajectory is not None
+    assert other.trajectory is not None
+    return float(one.trajectory.distance(other.trajectory).max())
+
+
+def _caption(run: Run) -> str:
+    if run.identification.identified_as is not None:
+        return f"identified as {run.identification.identified_as}"
+    nearest = f"; nearest {run.identification.ranking[0].scheme}" if run.identification.ranking else ""
+    return f"not identified{nearest}"
+
+
+def frame_steps(setup: Setup, steps: int, slow: float = 1.0) -> list[int]:
+    """Which steps are shown, RATE of them in a second of the film, which is `slow` times as long as the motion.
+
+    Raises:
+        InputError: for a `slow` that is no number > 0, and for more than MOST_FRAMES.
+    """
+    if not 0 < slow < np.inf:
+        raise InputError(f"slow = {slow:g}: expected a finite number > 0")
+    count = setup.duration * slow * RATE
+    if count > MOST_FRAMES:
+        seconds = setup.duration * slow
+        raise InputError(
+            f"an animation of {seconds:g} s: expected at most {MOST_FRAMES / RATE:g} s; take a shorter --duration, or "
+            f"--slow {MOST_FRAMES / RATE / setup.duration:.2g}"
+        )
+    shown = max(2, round(count) + 1)
+    return np.linspace(0, steps, shown).round().astype(int).tolist()
+
+
+def parameters_at(setup: Setup, steps: Sequence[int]) -> list[MassSpringSystem]:
+    """The system as it is at each of some steps, in their order: parameters may change on the fly."""
+    pending = sorted(changes_by_step(setup.changes, setup.dt).items())
+    system, found = setup.system, []
+    for step in steps:
+        while pending and pending[0][0] < step:
+            for change in pending.pop(0)[1]:
+                system = system.with_parameter(change.parameter, change.value)
+        found.append(system)
+    return found
+
+
+def look_at(system: MassSpringSystem, motions: Sequence[Trajectory]) -> Look:
+    """A view, a window and a scale of strain for the first motion: others are seen so far as they go no further.
+
+    Steady, so that a motion that blows up makes nothing of the others.
+    """
+    model = motions[0].positions
+    view = view_of(model)
+    boxes = [box_of(view.project(motion.positions)[0]) for motion in motions]
+    window = window_around(boxes)
+    depth = view.project(model)[1]
+    depths = (float(depth.min()), float(depth.max()))
+    return Look(view, window, scale_of(system, model), depths, backdrop(system.obstacles, view, window))
+
+
+def leaves(motion: Trajectory, view: View, window: Window) -> float | None:
+    """The first time at which a mass is outside of the window, or is no number [s]."""
+    gone = outside(view.project(motion.positions)[0], window).any(axis=1)
+    return float(motion.times[np.argmax(gone)]) if gone.any() else None
+
+
+@dataclass(frozen=True, eq=False)
+class Film:
+    """Panels side by side, at some steps.
+
+    Attributes:
+        setup: what moves.
+        shots: the panels.
+        steps: which are shown.
+        look: what the panels have in common.
+        true: the true motion, to be seen behind the others; None where it is not known or would be too much.
+    """
+
+    setup: Setup
+    shots: Sequence[Shot]
+    steps: Sequence[int]
+    look: Look
+    true: Trajectory | None = None
+
+    def positions(self, shot: Shot, step: int) -> Array:
+        """Where a panel's masses are at a step [m], shape (n, d); not a number once its motion has ended."""
+        motion = shot.motion.positions
+        return motion[step] if step < len(motion) else np.full_like(motion[0], np.nan)
+
+    def frames(self, progress: Progress) -> Iterator[Array]:
+        """The pictures, each of shape (h, w, 3), of bytes; h and w are even."""
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+        behind = "" if self.true is None else "; broad and grey: the true motion"
+        sheet = contact_sheet(
+            self.setup.system, self.shots, self.look, f"{self.setup.name}, dt = {self.setup.dt:g} s{behind}"
+        )
+        canvas = FigureCanvasAgg(sheet.figure)
+        systems = parameters_at(self.setup, self.steps)
+        for i, (step, system) in enumerate(zip(self.steps, systems, strict=True)):
+            progress(f"{i} of {len(self.steps)} frames")
+            time = step * self.setup.dt
+            sheet.clock.set_text(f"t = {time:.3f} s")
+            true = None if self.true is None else self.true.positions[step]
+            for shot, drawing, note in zip(self.shots, sheet.drawings, sheet.notes, strict=True):
+                drawing.show(self.positions(shot, step), system, true)
+                note.set_visible(shot.left is not None and time >= shot.left)
+            canvas.draw()
+            yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
+
+
+def film(comparison: Comparison, names: Sequence[str] = (), slow: float = 1.0) -> Film:
+    """A comparison's film: see `shots` for who is in it, `frame_steps` for its frames.
+
+    What it is framed by is the true motion where that is known, or else the first run that did not blow up.
+
+    Raises:
+        InputError: where no run has left a motion.
+    """
+    shown = shots(comparison, names)
+    if not shown:
+        raise InputError(f"nothing to show of {comparison.setup.name}: no stepper that was asked for has left a motion")
+    sane = [shot.motion for shot in shown if shot.outcome.ending == "done"]
+    if comparison.true is not None:
+        sane.insert(0, comparison.true)
+    look = look_at(comparison.setup.system, sane or [_start(shown[0].motion)])
+    shown = [Shot(s.names, s.caption, s.outcome, leaves(s.motion, look.view, look.window)) for s in shown]
+    steps = frame_steps(comparison.setup, len(comparison.times) - 1, slow)
+    true = comparison.true if len(comparison.setup.system.masses) <= FEW else None
+    return Film(comparison.setup, shown, steps, look, true)
+
+
+def _start(motion: Trajectory) -> Trajectory:
+    """Only where it began."""
+    return Trajectory(motion.times[:1], motion.positions[:1], motion.velocities[:1])

@@ -1,0 +1,148 @@
+"""Advice on dt: engines confirm it when run with it, and refute it beyond the limit; odd scenes are told plainly."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from engines.process.isolation import EngineStepper, run_engine
+from experiments.advice.advice import ADVISED, REFUTED, advise, at_rest_and_pushed, rest_of, rounded_down
+from experiments.advice.wording import result_of
+from reference.measured_stability import random_growth
+from reference.scenes import Setup, find
+from reference.system import MassSpringSystem
+from tests.conformance.doctored import Doctored, KickDrift
+from tests.engines.process.misbehaving import Misbehaving, Segfaults
+
+#: Scenes a user might write, small: a stiff rope, a heavy net, a soft jello.
+WRITTEN: Mapping[str, tuple[str, Mapping[str, Any], float]] = {
+    "stiff rope": ("string", {"masses": 4, "stiffness": 5000.0, "mass": 0.05, "damping": 0.2}, 1e-3),
+    "heavy net": ("cloth", {"rows": 3, "columns": 3, "mass": 0.05, "drag": 0.01}, 5e-3),
+    "soft jello": ("jello", {"across": 2, "high": 2, "deep": 2, "stiffness": 20.0, "diagonals": 20.0}, 2e-2),
+}
+
+#: Two kinds of engines: explicit ones that take all scenes; the slow ones and those of planes are in the full report.
+ASKED = ("mujoco_tendons", "mujoco_tendons_rk4")
+
+
+class TwiceAsFar(KickDrift):
+    """Goes two dt in a step: its limit is half of what is predicted of kick-drift, its rest the same."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        super().__init__(system, 2 * dt)
+
+
+def setup_of(name: str) -> Setup:
+    """A scene by its name above, for a tenth of a second."""
+    scene, settings, dt = WRITTEN[name]
+    return replace(find(scene).setup(settings, dt), duration=0.2)
+
+
+def engine_of(name: str) -> EngineStepper:
+    """An engine by name."""
+    from engines.engine import find as find_engine
+
+    return EngineStepper(find_engine(name))
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def pushes_grow(engine: EngineStepper, system: MassSpringSystem, dt: float) -> bool:
+    """Whether a thousand steps by the engine from a small push about its rest make it ten times as large."""
+    rest = rest_of(system)
+    still, pushed = at_rest_and_pushed(rest.motion.system, rest)  # type: ignore[attr-defined]
+    outcome = run_engine(engine.engine, pushed, dt, 1000)
+    assert outcome.trajectory is not None
+    offsets = outcome.trajectory.positions - still
+    return bool(random_growth(offsets) == np.inf or np.abs(offsets[-1]).max() > 10 * np.abs(offsets[0]).max())
+
+
+def check_advice(engine: EngineStepper, setup: Setup, limit: float, advised: float) -> None:
+    """The engine comes to the scene's end with the advised dt, and pushes grow at 1.1 of the limit, not at 0.9."""
+    steps = max(1, round(setup.duration / advised))
+    assert run_engine(engine.engine, setup.system, advised, steps).ending == "done"
+    assert not pushes_grow(engine, setup.system, ADVISED * limit)
+    assert pushes_grow(engine, setup.system, REFUTED * limit)
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_the_engine_itself_confirms_and_refutes(name: str) -> None:
+    """Run here, without what the advice was made by; predicted and measured limits agree to a part in 500."""
+    setup = setup_of(name)
+    engines = [engine_of(asked) for asked in ASKED]
+    for engine, advice in zip(engines, advise(setup, engines, lambda _: None), strict=True):
+        assert advice.limit is not None, advice.measured.reason
+        assert advice.advised is not None
+        assert advice.predicted.dt == pytest.approx(advice.limit, rel=2e-3)
+        assert advice.confirmed is not None
+        assert advice.confirmed.ending == "done"
+        assert advice.grows is True
+        check_advice(engine, setup, advice.limit, advice.advised)
+
+
+def test_advice_for_another_limit_is_caught() -> None:
+    """Shown to fail: of a limit twice too long the engine refutes the advice, of one half as long it confirms 1.1."""
+    setup, engine = setup_of("stiff rope"), engine_of("mujoco_tendons")
+    (advice,) = advise(setup, [engine], lambda _: None)
+    assert advice.limit is not None
+    for wrong in (2 * advice.limit, advice.limit / 2):
+        with pytest.raises(AssertionError):
+            check_advice(engine, setup, wrong, 0.9 * wrong)
+
+
+def test_an_engine_with_another_limit_is_seen() -> None:
+    """Two dt in a step halve the limit of kick-drift; what is predicted for others is not said of it."""
+    setup = setup_of("stiff rope")
+    engines = [EngineStepper(Doctored()), EngineStepper(Doctored(TwiceAsFar))]
+    honest, liar = advise(setup, engines, lambda _: None)
+    assert honest.limit is not None
+    assert liar.limit is not None
+    assert liar.scheme is None
+    assert liar.predicted.dt is None
+    assert liar.limit == pytest.approx(honest.limit / 2, rel=5e-3)
+    check_advice(engines[1], setup, liar.limit, rounded_down(ADVISED * liar.limit))
+
+
+def test_a_step_beyond_the_limit_is_said_to_blow_up() -> None:
+    """With what to use instead; and just below the limit it says so."""
+    setup = setup_of("stiff rope")
+    engine = engine_of("mujoco_tendons")
+    (advice,) = advise(setup, [engine], lambda _: None)
+    assert advice.limit is not None
+    assert "is stable with margin" in result_of(setup, [advice]).findings[1]
+    beyond = replace(setup, dt=1.5 * advice.limit)
+    (finding,) = [f for f in result_of(beyond, advise(beyond, [engine], lambda _: None)).findings if "blows up" in f]
+    assert f"use dt = {advice.advised:g} s or less" in finding
+    just = replace(setup, dt=0.97 * advice.limit)
+    assert "only just" in result_of(just, [advice]).findings[1]
+
+
+def test_scenes_that_have_no_limit_are_told_in_a_sentence() -> None:
+    """One free mass; and a mass that nothing moves."""
+    lone = MassSpringSystem(
+        positions=np.zeros((1, 2)), velocities=np.ones((1, 2)), masses=np.ones(1), springs=np.zeros((0, 2), int),
+        rest_lengths=np.zeros(0), stiffness=np.zeros(0), damping=np.zeros(0), drag=0.0, gravity=np.zeros(2),
+        fixed=np.zeros(1, bool),
+    )  # fmt: skip
+    setup = Setup("lone", lone, 1e-3, 0.01)
+    result = result_of(setup, advise(setup, [EngineStepper(Doctored())], lambda _: None))
+    assert "any step is stable" in result.findings[0]
+
+
+def test_an_engine_that_crashes_is_told_with_its_reason() -> None:
+    """And the others have their advice."""
+    setup = setup_of("stiff rope")
+    engines = [EngineStepper(Misbehaving(Segfaults)), EngineStepper(Doctored())]
+    result = result_of(setup, advise(setup, engines, lambda _: None))
+    assert any("crashes" in finding for finding in result.findings)
+    assert any("SIGSEGV" in failure for failure in result.failures)
+    assert "1 of 1" in result.findings[0]
+    assert any(finding.startswith("KickDrift") for finding in result.findings)
+
+
+def test_steps_are_rounded_down_to_two_figures() -> None:
+    """Never up."""
+    assert [rounded_down(dt) for dt in (0.0129, 0.1, 0.00099999, 3.0)] == [0.012, 0.1, 0.00099, 3.0]

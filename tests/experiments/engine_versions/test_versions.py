@@ -1,0 +1,186 @@
+"""Versions of engines: measured, compared with one another, and the command that does it."""
+
+from __future__ import annotations
+
+import copy
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from engines.process.isolation import EngineStepper
+from experiments.engine_versions import baseline, conformance, versions
+from experiments.engine_versions.changes import TOLERANCE, changes, result_of, same
+from experiments.engine_versions.conformance import measure
+from experiments.engine_versions.versions import Measured, Subject, in_order
+from report.figures import draw
+from report.figures.versions import MARK
+from tests.conformance import doctored
+from tests.conformance.doctored import Doctored
+from tests.engines.process.index import environment_or_skip
+from tests.experiments.engine_versions.spring_versions import LIMIT, MEASURED, made_up
+from tests.report.commands.terminal import springlab
+
+
+def test_findings_tables_and_figure_are_made_from_the_rows() -> None:
+    """What changed is counted and named; an engine that does not run is one change, not many."""
+    result = result_of(MEASURED)
+    assert result.findings == [
+        f"spring 1.10.0 changed 2 of 4 measurements of 1.9.0. Of springs: {LIMIT}; spring: crash list: a.",
+        "spring 2.0.0 changed 1 of 2 measurements of 1.10.0. Of springs: runs.",
+    ]
+    rows = {(row[0], row[1]): row[2:] for row in result.tables[0].rows}
+    assert rows[("springs", LIMIT)] == [0.01, 0.011, None]
+    assert ("springs", "can: mesh") not in rows
+    picture = draw("versions", result)
+    texts = [text.get_text() for text in picture.figure.axes[0].texts]
+    assert texts.count(f"{MARK}0.011") == 1
+    assert len([text for text in texts if text.startswith(MARK)]) == 3
+    assert f"springs, {LIMIT}: 0.01 in 1.9.0, 0.011 in 1.10.0, not asked in 2.0.0" in picture.alt
+    assert picture.svg().startswith("<svg")
+
+
+def test_without_a_change_it_says_so() -> None:
+    """In the sentence and in the figure's words."""
+    rows = made_up()
+    result = result_of(Measured("spring", {"1": rows["1.9.0"], "2": rows["1.9.0"]}))
+    assert result.findings == ["spring 2 changed nothing: 4 measurements are those of 1."]
+    assert "No measurement of spring differs" in draw("versions", result).alt
+    assert changes(rows["1.9.0"], rows["1.9.0"]) == []
+
+
+def test_numbers_are_the_same_within_the_tolerance_and_words_when_equal() -> None:
+    """A number is no word."""
+    assert same(1.0, 1.0 + TOLERANCE / 2)
+    assert not same(1.0, 1.0 + 2 * TOLERANCE)
+    assert not same(1.0, "1.0")
+    assert not same("fine", None)
+
+
+def test_versions_are_in_the_order_of_their_numbers() -> None:
+    """3.10 is newer than 3.9; twice is once."""
+    assert in_order(["3.17.0", "3.2.7", "4.0.0", "3.2.7", "3.3.7"]) == ["3.2.7", "3.3.7", "3.17.0", "4.0.0"]
+
+
+def test_the_honest_engine_is_measured_as_what_it_is() -> None:
+    """Kick-drift with explicit damping, to rounding, on everything; its limit is the closed form.
+
+    Undamped, h^2 w^2 < 4 with w^2 = 4 k/m sin^2((2n - 1) pi / (4n + 2)), the fastest mode of n masses in a row, fixed
+    at one end. Near it, where two eigenvalues meet, a push grows in proportion to time: some 1e-6 below it that is a
+    doubling in a run. Only what belongs to a limit off by 1e-5 would deviate from the baseline.
+    """
+    rows = measure(EngineStepper(Doctored()))
+    assert [rows[f"identified, {case}"] for case in ("plain", "damping", "drag")] == ["kick_drift"] * 3
+    assert {value for name, value in rows.items() if name.startswith("can: ")} == {"kept"}
+    assert rows["runs"] == "yes"
+    limit = 2 / (2 * np.sqrt(200 / 0.02) * np.sin(19 * np.pi / 42))
+    assert rows[LIMIT] == pytest.approx(limit, rel=TOLERANCE)
+
+
+@pytest.fixture
+def no_limits(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave the limits out, which take long."""
+    monkeypatch.setattr(conformance, "LIMITED", {})
+
+
+@pytest.mark.usefixtures("no_limits")
+def test_liars_are_seen_in_the_rows() -> None:
+    """An integrator that moves before it kicks, springs a millionth too stiff, a mass for all, drag forgotten."""
+    honest = set(measure(EngineStepper(Doctored())).items())
+
+    def told(liar: type[doctored.KickDrift]) -> set[str]:
+        return {name for name, _ in set(measure(EngineStepper(Doctored(liar))).items()) - honest}
+
+    assert {"identified, plain", "can: mesh"} <= told(doctored.Euler)
+    assert {"identified, plain", "can: damping"} <= told(doctored.StifferByAMillionth)
+    assert told(doctored.OneMassForAll) == {"can: masses"}
+    assert "identified, drag" in told(doctored.ForgetsDrag)
+
+
+@pytest.mark.usefixtures("no_limits")
+def test_an_engine_that_refuses_is_told_from_one_that_breaks() -> None:
+    """Refused with its reason; stepped though it said it could not; not running at all."""
+    limited = Doctored(capabilities=Doctored().capabilities - {"mesh"})
+    assert measure(EngineStepper(limited))[
+        "can: mesh"
+    ] == "refused: KickDrift cannot do systems other than a string " + ("hung at its first mass")
+    assert str(measure(EngineStepper(replace(limited, refuses=False)))["can: mesh"]).startswith(
+        "broken: it is not among"
+    )
+    absent = EngineStepper(replace(limited, package="no-such-engine"))
+    assert measure(absent) == {"runs": "unsupported: no-such-engine is not installed"}
+
+
+def test_the_command_fails_on_a_doctored_baseline_and_names_the_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Exit code 1 and one line; with the baseline as it is, exit code 0."""
+
+    def as_kept(subject: Subject, wanted: list[str], *_: object, **__: object) -> Measured:
+        kept = baseline.read(subject.package)
+        return Measured(subject.package, {version: kept[version] for version in wanted})
+
+    monkeypatch.setattr(versions, "measure_versions", as_kept)
+    done = springlab("versions", "--check")
+    assert done.code == 0, done.out
+    assert "measurements are as in the baseline" in done.out
+    doctored_rows = copy.deepcopy(baseline.read("pymunk"))
+    doctored_rows["7.3.1"]["pymunk_springs"][LIMIT] = 0.0102
+    measured = Measured("pymunk", {"7.3.1": doctored_rows["7.3.1"]})
+    monkeypatch.setattr(versions, "measure_versions", lambda *_, **__: measured)
+    done = springlab("versions", "pymunk", "7.3.1", "--check")
+    assert done.code == 1
+    assert done.out == f"pymunk 7.3.1, pymunk_springs, {LIMIT}: 0.01011292 in the baseline, 0.0102 now\n"
+    assert json.loads(springlab("versions", "pymunk", "7.3.1", "--check", "--json").out)["differences"]
+
+
+def test_the_command_writes_tables_a_figure_and_json(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And says what a version changed."""
+    monkeypatch.setattr(versions, "measure_versions", lambda *_, **__: MEASURED)
+    words = ("versions", "pymunk", "6.8.1", "7.3.1", "--out", str(tmp_path))
+    done = springlab(*words)
+    assert done.code == 0
+    assert "spring 2.0.0 changed 1 of 2 measurements of 1.10.0" in done.out
+    assert {file.suffix for file in tmp_path.glob("spring*")} == {".csv", ".svg", ".json"}
+    document = json.loads(springlab(*words, "--json").out)["spring"]
+    assert document["versions"] == made_up()
+    change = {"from": "1.9.0", "to": "1.10.0", "engine": "springs", "measure": LIMIT, "before": 0.01, "after": 0.011}
+    assert document["changes"][0] == change
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("", "expected ENGINE and VERSION..., or --all, or --check"),
+        ("pymnk 7.3.1", "unknown engine 'pymnk': did you mean 'pymunk'?"),
+        ("mujoco_cabel", "unknown engine 'mujoco_cabel': did you mean 'mujoco_cable'?"),
+        ("pymunk latest", "pymunk version 'latest': expected one such as 1.2.3"),
+        ("pymunk 0.0.1 --check", "pymunk 0.0.1 is not in the baseline: expected 6.8.1, "),
+    ],
+)
+def test_bad_words_are_one_line(words: str, said: str) -> None:
+    """Exit code 2."""
+    done = springlab("versions", *words.split())
+    assert done.code == 2
+    assert said in done.err
+    assert done.err.count("\n") == 1
+
+
+def test_a_version_that_never_was_is_one_line_and_leaves_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Exit code 2, and no folder in the cache. Without an index that is the reason, in a line as well."""
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    done = springlab("versions", "pymunk", "99.9")
+    assert done.code == 2
+    assert done.err.startswith("springlab: pymunk==99.9 cannot be had: ")
+    assert done.err.count("\n") == 1
+    assert not [found for found in (tmp_path / "springlab" / "environments").iterdir() if found.is_dir()]
+
+
+def test_two_versions_are_as_the_baseline_says() -> None:
+    """Measured now, each in its own environment from the package index."""
+    for version in ("6.8.1", "7.3.1"):
+        environment_or_skip("pymunk", version)
+    done = springlab("versions", "pymunk", "6.8.1", "7.3.1", "--check")
+    assert done.code == 0, done.out + done.err

@@ -1,0 +1,231 @@
+"""Mesh files: edges become springs, each once; a bad file is told in a line, with the vertex or element."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from reference.errors import InputError
+from reference.files.mesh_file import Mesh, read_mesh
+from reference.files.scene_file import load
+from tests.reference.files.mesh_files import BINARY_BLOCK, BLANKET, BLOCK, BLOCK_EDGES, NEXT_BLOCK, block
+
+
+def mesh(folder: Path, text: str | bytes, name: str = "blanket.obj") -> Mesh:
+    """The mesh in a file with that text."""
+    (folder / name).write_bytes(text if isinstance(text, bytes) else text.encode())
+    return read_mesh(folder / name)
+
+
+def edges(found: Mesh) -> list[tuple[int, ...]]:
+    """In order, smaller numbers first."""
+    return sorted(tuple(sorted(pair)) for pair in found.edges.tolist())
+
+
+# --- Good ones ---
+
+
+def test_a_surface(tmp_path: Path) -> None:
+    """Vertices in the file's order; the edge that both triangles have is one; groups and normals change nothing."""
+    found = mesh(tmp_path, BLANKET)
+    assert found.positions.tolist() == [[0, 0, 0], [3, 0, 0], [0, 4, 0], [3, 4, 0]]
+    assert edges(found) == [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)]
+
+
+@pytest.mark.parametrize("text", [BLOCK, NEXT_BLOCK, BINARY_BLOCK], ids=["text", "next version", "binary"])
+def test_a_solid(tmp_path: Path, text: str | bytes) -> None:
+    """Two tetrahedra with a face in common: nine edges, whatever form the file has."""
+    found = mesh(tmp_path, text, "block.vtk")
+    assert found.positions.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]
+    assert edges(found) == BLOCK_EDGES
+
+
+@pytest.mark.parametrize(
+    ("kind", "corners", "count"),
+    [(3, 2, 1), (5, 3, 3), (7, 5, 5), (9, 4, 4), (10, 4, 6), (12, 8, 12), (13, 6, 9), (14, 5, 8)],
+    ids=["line", "triangle", "polygon", "quad", "tetra", "hexahedron", "wedge", "pyramid"],
+)
+def test_every_kind_of_element_has_its_edges(tmp_path: Path, kind: int, corners: int, count: int) -> None:
+    """Euler: corners - edges + faces = 2 for solids; all corners have as many, a pyramid's top aside."""
+    found = mesh(tmp_path, block(kind, corners), "block.vtk")
+    assert len(found.edges) == len(set(edges(found))) == count
+    of_corner = np.bincount(found.edges.ravel())
+    assert sorted(of_corner) == ([3, 3, 3, 3, 4] if kind == 14 else [2 * count // corners] * corners)
+
+
+def test_an_edge_may_be_in_three_triangles(tmp_path: Path) -> None:
+    """It is one spring all the same: what is no surface of anything is a mesh of springs as good as any."""
+    found = mesh(tmp_path, BLANKET + "v 0 0 5\nf 2 3 5\n")
+    assert edges(found) == [(0, 1), (0, 2), (1, 2), (1, 3), (1, 4), (2, 3), (2, 4)]
+
+
+def test_numbers_are_kept_to_the_last_bit(tmp_path: Path) -> None:
+    """And a colour behind a vertex is no coordinate."""
+    text = "v 0.1 1e-300 -0.3 1 0 0\nv 0.30000000000000004 2 3 1 0 0\nv 1 1 1 1 0 0\nf 1 2 3\n"
+    assert mesh(tmp_path, text).positions[:2].tolist() == [[0.1, 1e-300, -0.3], [0.30000000000000004, 2, 3]]
+
+
+# --- Bad ones ---
+
+BAD = {
+    "out of range": (BLANKET.replace("f 1 2 3", "f 1 2 5"), "element 1 names vertex 5: expected one from 1 to 4"),
+    "backwards": (BLANKET.replace("f 1 2 3", "f 1 2 -1"), "element 1 names vertex -1: expected one from 1 to 4"),
+    "from zero": (BLANKET.replace("f 1 2 3", "f 0 1 2"), "element 1 names vertex 0: expected one from 1 to 4"),
+    "a number beyond all": (BLANKET.replace("2/1/1 4", f"2/1/1 {10**30}"), "element 2 names vertex 1000000"),
+    "a corner twice": (BLANKET.replace("2/1/1 4", "2/1/1 3"), "element 2 names vertex 3 twice"),
+    "flat": (BLANKET.replace("v 3 4 0", "v -3 8 0"), "element 2 is flat: expected a triangle with area"),
+    "in one place": (
+        BLANKET.replace("v 3 4 0", "v 3 0 0"),
+        "element 2: vertices 2 and 4 are in one place, expected a length > 0",
+    ),
+    "two corners": (BLANKET + "f 1 2\n", "element 3: expected three vertices or more, not 2"),
+    "no corners": (BLANKET + "f\n", "element 3: expected the numbers of its vertices"),
+    "not a number": (BLANKET.replace("v 3 4 0", "v 3 nan 0"), "vertex 4 = [3.0, nan, 0.0]: expected finite numbers"),
+    "too large": (BLANKET.replace("v 3 4 0", "v 1e300 4 0"), "expected coordinates whose distances are finite"),
+    "in the plane": ("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "expected three coordinates of every vertex"),
+    "a coordinate short": (
+        BLANKET.replace("v 3 4 0", "v 3 4"),
+        "expected a mesh in the format .obj: lines of one kind have as many numbers as one another",
+    ),
+    "a word": (BLANKET.replace("v 3 4 0", "v 3 x 0"), "expected a mesh in the format .obj: could not convert string"),
+    "no elements": (BLANKET.partition("g one")[0], "it has no elements"),
+    "a vertex too many": (BLANKET + "v 1 1 1\n", "vertex 5 is in no element: expected every vertex to be in one"),
+    "nothing": ("", "it has no vertices"),
+    "another text": ("Dear Sir,\n", "it has no vertices"),
+    "a picture": (b"\x89PNG\r\n\x1a\n\x00\xff", "it has no vertices"),
+}
+
+BAD_BLOCKS = {
+    "out of range": (BLOCK.replace("1 2 3 4\n", "1 2 3 5\n"), "element 2 names vertex 5: expected one from 0 to 4"),
+    "flat": (BLOCK.replace("1 1 1\n", "-1 1 1\n"), "element 2 is flat: expected a tetra with volume"),
+    "a point as an element": (block(1, 1), "element 1 is of the kind vertex: expected one of line, triangle"),
+    "an unknown kind": (BLOCK.replace("\n10\n10", "\n10\n77"), "expected a mesh in the format .vtk: File contains"),
+    "a kind that only warns": (
+        NEXT_BLOCK.replace("\n10\n10", "\n10\n-1"),
+        "expected a mesh in the format .vtk: Warning: File contains cells",
+    ),
+    "cut short": (BLOCK[: BLOCK.index("4 1 2")], "expected a mesh in the format .vtk: "),
+    "more vertices than there are": (BLOCK.replace("POINTS 5", "POINTS 6"), "expected a mesh in the format .vtk: "),
+    "more than any memory": (BLOCK.replace("POINTS 5", "POINTS 5000000000000"), "expected a mesh in the format .vtk: "),
+    "a grid of numbers": (
+        BLOCK.replace("UNSTRUCTURED_GRID", "STRUCTURED_POINTS"),
+        "DATASET 'STRUCTURED_POINTS': expected UNSTRUCTURED_GRID",
+    ),
+    "a name that moves the cursor": (
+        BLOCK.replace("UNSTRUCTURED", "UN\x1dSTR\x1bUC"),
+        r"DATASET 'UN\x1dSTR\x1bUC_GRID': expected UNSTRUCTURED_GRID",
+    ),
+    "an OBJ file": (BLANKET, "expected a mesh in the format .vtk: Illegal VTK header"),
+}
+
+
+def check_told(folder: Path, text: str | bytes, name: str, message: str) -> None:
+    """In one line that begins with the file's name."""
+    with pytest.raises(InputError) as refusal:
+        mesh(folder, text, name)
+    told = str(refusal.value)
+    assert told.startswith(f"mesh file {folder / name}: {message}")
+    assert "\n" not in told
+    assert len(told) < len(str(folder)) + 300
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_a_bad_surface_is_told(tmp_path: Path, case: str) -> None:
+    """With the vertex or element, as the file counts them."""
+    check_told(tmp_path, BAD[case][0], "blanket.obj", BAD[case][1])
+
+
+@pytest.mark.parametrize("case", BAD_BLOCKS)
+def test_a_bad_solid_is_told(tmp_path: Path, case: str) -> None:
+    """With the vertex or element; elements are counted from 1, vertices as in the file from 0."""
+    check_told(tmp_path, BAD_BLOCKS[case][0], "block.vtk", BAD_BLOCKS[case][1])
+
+
+@pytest.mark.parametrize("name", ["blanket.stl", "blanket", "obj"])
+def test_another_ending_is_told(tmp_path: Path, name: str) -> None:
+    """Whatever is in the file."""
+    check_told(tmp_path, BLANKET, name, "expected a name that ends in .obj or .vtk")
+
+
+@pytest.mark.parametrize("name", ["there is none.obj", "a\0b.obj", 300 * "long" + ".obj", ".", "folder.obj"])
+def test_no_file_is_told(tmp_path: Path, name: str) -> None:
+    """Nor a name that can be none, nor a folder."""
+    (tmp_path / "folder.obj").mkdir()
+    with pytest.raises(InputError, match=r"mesh file .*: (no such file|expected )"):
+        read_mesh(tmp_path / name)
+
+
+# --- In scene files ---
+
+SCENE = """\
+dt = 2e-4
+
+[mesh]
+file = "meshes/blanket.obj"
+scale = 0.1
+total_mass = 0.2
+stiffness = 50.0
+damping = 0.02
+drag = 0.01
+gravity = [0.0, 0.0, -9.81]
+fixed = [0, 2]
+"""
+
+
+def scene(folder: Path, text: str = SCENE) -> Path:
+    """A scene file with that text, and its mesh in a folder beside it."""
+    (folder / "meshes").mkdir()
+    (folder / "meshes" / "blanket.obj").write_text(BLANKET)
+    (folder / "bed.toml").write_text(text)
+    return folder / "bed.toml"
+
+
+def test_a_scene_of_a_mesh(tmp_path: Path) -> None:
+    """All that is in the file; springs are unstretched: 0.3, 0.4 and, across, 0.5 m."""
+    setup = load(scene(tmp_path), {})
+    system = setup.system
+    assert (setup.name, setup.dt, setup.duration) == ("bed", 2e-4, 0.5)
+    assert system.positions == pytest.approx(0.1 * np.array([[0, 0, 0], [3, 0, 0], [0, 4, 0], [3, 4, 0]]), abs=1e-15)
+    assert sorted(system.rest_lengths) == pytest.approx([0.3, 0.3, 0.4, 0.4, 0.5])
+    assert system.masses.tolist() == [0.05] * 4
+    assert system.stiffness.tolist() == [50.0] * 5
+    assert system.damping.tolist() == [0.02] * 5
+    assert (system.drag, system.gravity.tolist()) == (0.01, [0.0, 0.0, -9.81])
+    assert system.fixed.tolist() == [True, False, True, False]
+
+
+def test_masses_one_by_one(tmp_path: Path) -> None:
+    """In place of the whole mass; the scale left out is 1."""
+    text = SCENE.replace("total_mass = 0.2", "masses = [0.1, 0.2, 0.3, 0.4]").replace("scale = 0.1\n", "")
+    system = load(scene(tmp_path, text), {}).system
+    assert system.masses.tolist() == [0.1, 0.2, 0.3, 0.4]
+    assert system.positions[3].tolist() == [3.0, 4.0, 0.0]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("scale = 0.1", "scale = 0", "bed.toml, line 5: mesh.scale = 0: expected a number > 0 [m]"),
+        ("total_mass = 0.2", "total_mass = -1.0", "mesh.total_mass = -1: expected a number > 0 [kg]"),
+        ("total_mass = 0.2", "", "mesh: expected either masses or total_mass"),
+        ("total_mass = 0.2", "total_mass = 0.2\nmasses = 1.0", "mesh: expected either masses or total_mass"),
+        ("total_mass = 0.2", "masses = [1.0, 2.0]", "masses has shape"),
+        ("fixed = [0, 2]", "fixed = [4]", "fixed[0] = 4: expected a mass from 0 to 3"),
+        ("stiffness = 50.0", "", "mesh: object missing required field `stiffness`"),
+        ("stiffness = 50.0", "stiffnes = 50.0", "unknown field `stiffnes`"),
+        ("blanket.obj", "sheet.obj", "sheet.obj: no such file"),
+        ("[mesh]", "[system]\n[mesh]", "system: object missing required field"),
+        ("dt = 2e-4", 'scene = "string"', 'expected either scene = "..." or a table [system] or a table [mesh]'),
+        ("dt = 2e-4", "parameters = {mass = 1.0}", "mass: expected no parameters, the system is written out"),
+    ],
+)
+def test_a_bad_scene_of_a_mesh_is_told(tmp_path: Path, old: str, new: str, message: str) -> None:
+    """With the key or the mesh file, in a line."""
+    text = SCENE.replace(old, new)
+    assert text != SCENE
+    with pytest.raises(InputError) as refusal:
+        load(scene(tmp_path, text), {})
+    assert message in str(refusal.value)
+    assert "\n" not in str(refusal.value)

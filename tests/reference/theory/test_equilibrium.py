@@ -1,0 +1,129 @@
+"""Where strings and meshes come to rest: all forces balance, and the closed forms say the same."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from reference.errors import InputError, SolverError
+from reference.forces import SpringMotion
+from reference.scenes import find as find_scene
+from reference.state import State
+from reference.system import MassSpringSystem
+from reference.theory.equilibrium import equilibrium, hanging_string
+from tests import wrong
+from tests.reference.systems import label, moving_string, property_test, random_mesh, seeds, with_fields
+
+
+def check_balanced(system: MassSpringSystem, rest: State, law: wrong.Law = SpringMotion.acceleration) -> None:
+    """All forces on free masses balance: to 1e-11 of the whole weight.
+
+    The stiffest spring's force rounds by k eps L = 1e-14 N times some; the weight is at least 0.1 N.
+    """
+    weight = float(system.masses.sum() * np.linalg.norm(system.gravity))
+    assert np.abs(law(SpringMotion(system), rest) * system.masses[:, None]).max() < 1e-11 * weight
+    assert not rest.velocities.any()
+
+
+@property_test
+@given(seed=seeds, masses=st.integers(1, 8))
+def test_a_hanging_string_is_in_balance(seed: int, masses: int) -> None:
+    """Each spring carries all that is below it: L_j = L0_j + (m_{j+1} + ... + m_n) g / k_j."""
+    rng = np.random.default_rng(seed)
+    per_item = {
+        "mass": rng.uniform(0.01, 0.1, masses).tolist(),
+        "rest_length": rng.uniform(0.05, 0.2, masses).tolist(),
+        "stiffness": rng.uniform(50, 500, masses).tolist(),
+    }
+    system = find_scene("string").system({"masses": masses, "x0": 0.3, "y0": -0.2, **per_item})
+    check_balanced(system, hanging_string(system))
+
+
+def test_forces_all_too_strong_balance_at_the_same_place() -> None:
+    """What is zero stays zero: this check sees where a string hangs, not how hard it pulls."""
+    system = find_scene("string").system({})
+    check_balanced(system, hanging_string(system), wrong.slightly_stronger)
+
+
+@pytest.mark.parametrize("law", [wrong.gravity_turned, wrong.one_sided], ids=label)
+def test_balance_fails_on_wrong_forces(law: wrong.Law) -> None:
+    """Under other forces it would hang elsewhere."""
+    system = find_scene("string").system({})
+    with pytest.raises(AssertionError):
+        check_balanced(system, hanging_string(system), law)
+
+
+def test_balance_fails_on_an_unstretched_string() -> None:
+    """Hanging straight down at its rest lengths, it does not carry its weight."""
+    system = find_scene("string").system({"angle": 90.0})
+    with pytest.raises(AssertionError):
+        check_balanced(system, system.start)
+
+
+@pytest.mark.parametrize("masses", [1, 2, 5, 10])
+def test_equilibrium_of_a_string_is_the_hanging_one(masses: int) -> None:
+    """Found by least energy and Newton's method from a slanted start, to 1e-11 of the size.
+
+    The softest swing resists with m g/l x_1/... ~ 0.05 N/m; forces balance to 1e-14 N.
+    """
+    system = find_scene("string").system({"masses": masses, "angle": 60.0})
+    found, straight = equilibrium(system), hanging_string(system)
+    assert np.abs(found.positions - straight.positions).max() < 1e-11 * system.size
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_equilibrium_of_any_held_mesh_is_in_balance(seed: int) -> None:
+    """Random meshes in 2D and 3D with two fixed masses."""
+    system = random_mesh(seed, 6, 2 + seed % 2, anchors=2)
+    check_balanced(system, equilibrium(system))
+
+
+def test_equilibrium_between_two_anchors_by_hand() -> None:
+    """A mass between two anchors: by symmetry in the middle, 2 k (L - L0) sin = m g.
+
+    With L = 0.5 m, anchors 0.8 m apart and so 0.3 m above it: sin = 0.6; m = 2 * 100 * (0.5 - 0.4) * 0.6 / 10.
+    """
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.35, -0.1], [0.8, 0.0]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array(1.2),
+        rest_lengths=np.array(0.4),
+        stiffness=np.array(100.0),
+        gravity=np.array(10.0),
+        fixed=np.array([True, False, True]),
+    )
+    assert equilibrium(system).positions[1] == pytest.approx([0.4, -0.3], abs=1e-12)
+
+
+def test_a_falling_system_has_no_equilibrium() -> None:
+    """Nothing holds it."""
+    with pytest.raises(SolverError, match="no equilibrium: nothing holds the system"):
+        equilibrium(with_fields(find_scene("string").system({"masses": 2}), fixed=False))
+
+
+def test_a_free_system_without_gravity_relaxes() -> None:
+    """Every spring at its rest length: no forces."""
+    stretched = with_fields(moving_string(3), fixed=False, gravity=0.0)
+    relaxed = equilibrium(stretched)
+    lengths = np.linalg.norm(np.diff(relaxed.positions, axis=0), axis=1)
+    assert lengths == pytest.approx(stretched.rest_lengths, abs=1e-12)
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        random_mesh(1, 5, 2),
+        find_scene("string").system({"stiffness": 0.0}),
+        replace(find_scene("string").system({"masses": 2}), fixed=np.array([True, False, True])),
+        replace(find_scene("string").system({"masses": 2}), gravity=np.array([1.0, -9.81])),
+    ],
+    ids=["mesh", "no stiffness", "held at both ends", "tilted gravity"],
+)
+def test_only_strings_hang_straight(system: MassSpringSystem) -> None:
+    """Any other system is refused."""
+    with pytest.raises(InputError, match="system is no string"):
+        hanging_string(system)

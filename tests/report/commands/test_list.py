@@ -1,0 +1,93 @@
+"""`springlab list`, and what is said where an engine is not installed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from importlib import metadata
+
+import pytest
+
+from engines.engine import installed_version, registry, version
+from experiments.experiment import NAMES
+from experiments.runs.steppers import all_steppers
+from reference.scenes import scenes
+from reference.stepper import catalogued
+from tests.report.commands.terminal import springlab
+
+
+@pytest.fixture
+def missing(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """A package that engines come in, and that seems not to be installed."""
+    package = next(iter(registry().values())).package
+    found = metadata.version
+
+    def version_of(name: str) -> str:
+        if name == package:
+            raise metadata.PackageNotFoundError(name)
+        return found(name)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(metadata, "version", version_of)
+        installed_version.cache_clear()
+        yield package
+    installed_version.cache_clear()
+
+
+def test_the_json_lists_everything_there_is() -> None:
+    """Scenes, all steppers that are no engines, engines, experiments; each with words on what it is."""
+    said = springlab("list", "--json")
+    assert said.code == 0
+    document = json.loads(said.out)
+    assert list(document) == ["scenes", "schemes", "engines", "experiments"]
+    assert [row["scene"] for row in document["scenes"]] == list(scenes())
+    others = [stepper.name for stepper in all_steppers().values() if stepper.kind != "engine"]
+    assert [row["stepper"] for row in document["schemes"]] == others
+    assert [row["engine"] for row in document["engines"]] == list(registry())
+    assert [row["experiment"] for row in document["experiments"]] == list(NAMES)
+    assert all(value for rows in document.values() for row in rows for value in row.values())
+
+
+def test_the_terminal_shows_every_name() -> None:
+    """In tables that fold sentences but never names."""
+    said = springlab("list")
+    assert said.code == 0
+    for name in [*scenes(), *catalogued(), *registry(), *NAMES]:
+        assert f" {name} " in said.out
+
+
+def test_an_installed_engine_is_listed_with_its_version() -> None:
+    """As its package's metadata has it."""
+    rows = {row["engine"]: row for row in json.loads(springlab("list", "--json").out)["engines"]}
+    for name, engine in registry().items():
+        if version(engine) is not None:
+            assert rows[name]["version"] == metadata.version(engine.package)
+
+
+def test_a_missing_engine_is_listed_with_why(missing: str) -> None:
+    """Where its version would stand."""
+    rows = {row["engine"]: row for row in json.loads(springlab("list", "--json").out)["engines"]}
+    for name, engine in registry().items():
+        says = f"not available: {missing} is not installed"
+        assert (rows[name]["version"] == says) == (engine.package == missing)
+
+
+def test_a_missing_engine_that_is_asked_for_is_bad_input(missing: str) -> None:
+    """One line, exit code 2, the package named: for compare and for identify."""
+    name = next(name for name, engine in registry().items() if engine.package == missing)
+    for words in (("compare", "--stepper", name), ("identify", name)):
+        said = springlab(*words)
+        assert (said.code, said.out) == (2, "")
+        assert said.err == f"springlab: stepper {name!r} is not installed: expected the package {missing}\n"
+
+
+def test_a_missing_engine_is_a_row_of_the_default_comparison(missing: str) -> None:
+    """Unsupported, with the reason; the other steppers report as ever."""
+    said = springlab("compare", "--duration", "0.01", "--json")
+    assert said.code == 0
+    for run in json.loads(said.out)["runs"]:
+        engine = registry().get(run["stepper"])
+        gone = engine is not None and (engine.package == missing or version(engine) is None)
+        assert (run["outcome"] == "unsupported") == gone, run
+        if engine is not None and gone:
+            assert (run["version"], run["reason"]) == (None, f"{engine.package} is not installed")
