@@ -22,7 +22,7 @@ from experiments.runs.steppers import all_steppers
 from reference.conserved import angular_momentum, energy, momentum
 from reference.identification import candidates
 from reference.motion import EquationsOf
-from reference.outcome import Outcome, first_torn
+from reference.outcome import Outcome, first_diverged_frame
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
 from reference.state import Array, State, Trajectory
@@ -183,7 +183,7 @@ def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tu
     """
     if trajectory is None:
         return np.zeros(0), np.zeros(0)
-    whole = slice(0, first_torn(system, trajectory, strain=100.0), EVERY)
+    whole = slice(0, first_diverged_frame(system, trajectory, stretch_ratio=100.0), EVERY)
     states = map(State, trajectory.times[whole].tolist(), trajectory.positions[whole], trajectory.velocities[whole])
     with np.errstate(over="ignore"):
         energies = np.array([energy(system, state) for state in states])

@@ -35,32 +35,33 @@ def outcome_of(system: MassSpringSystem, trajectory: Trajectory) -> Outcome:
     return Outcome("diverged", reason, trajectory) if reason else Outcome("done", "", trajectory)
 
 
-def blow_up(system: MassSpringSystem, trajectory: Trajectory, strain: float = 100.0) -> str | None:
+def blow_up(system: MassSpringSystem, trajectory: Trajectory, stretch_ratio: float = 100.0) -> str | None:
     """Says when and how a trajectory has left physics behind, or None if it has not.
 
-    It has where a position is not a finite number, or a spring is more than `strain` times as long as the longer of
-    its rest length and its length at the start. Engines' safety nets (resets, clamps, sleep) do not hide the second.
+    It has where a position is not a finite number, or a spring is more than `stretch_ratio` times as long as the longer
+    of its rest length and its length at the start. Engines' safety nets (resets, clamps, sleep) do not hide the second.
     """
-    frame = first_torn(system, trajectory, strain)
+    frame = first_diverged_frame(system, trajectory, stretch_ratio)
     if frame == len(trajectory):
         return None
     time = f"{trajectory.times[frame]:.6g} s"
     lost = ~np.isfinite(trajectory.positions[frame]).all(axis=1)
     if lost.any():
         return f"the position of mass {np.argmax(lost)} is not a number at t = {time}"
-    return f"spring {np.argmax(_strain(system, trajectory)[frame])} is over {strain:g} times its length at t = {time}"
+    longest = np.argmax(_stretch_ratios(system, trajectory)[frame])
+    return f"spring {longest} is over {stretch_ratio:g} times its length at t = {time}"
 
 
-def first_torn(system: MassSpringSystem, trajectory: Trajectory, strain: float) -> int:
-    """The first frame with a position that is no number or a spring beyond a strain; the frames' number if none is."""
+def first_diverged_frame(system: MassSpringSystem, trajectory: Trajectory, stretch_ratio: float) -> int:
+    """The first frame with a position that is not finite or a spring beyond a stretch ratio; else their number."""
     lost = ~np.isfinite(trajectory.positions).all(axis=(1, 2))
-    torn = (_strain(system, trajectory) > strain).any(axis=1)
-    broken = lost | torn
-    return int(np.argmax(broken)) if broken.any() else len(trajectory)
+    long = (_stretch_ratios(system, trajectory) > stretch_ratio).any(axis=1)
+    diverged = lost | long
+    return int(np.argmax(diverged)) if diverged.any() else len(trajectory)
 
 
-def _strain(system: MassSpringSystem, trajectory: Trajectory) -> Array:
-    """Length over natural length of every spring in every frame, shape (m, s)."""
+def _stretch_ratios(system: MassSpringSystem, trajectory: Trajectory) -> Array:
+    """Stretch ratio: length over natural length, of every spring in every frame, shape (m, s)."""
     x = trajectory.positions
     a, b = system.springs.T
     with np.errstate(over="ignore", invalid="ignore"):

@@ -23,6 +23,10 @@ from reference.system import MassSpringSystem
 EQUATIONS: tuple[EquationsOf, ...] = (SpringMotion, PendulumMotion, RopeMotion)
 
 
+#: What stands before a scheme's name where it steps the angles of rods.
+ON_PENDULUM = "pendulum_"
+
+
 class Stepper(Protocol):
     """A scheme, an engine, a lecture listing, a student's file."""
 
@@ -53,7 +57,7 @@ class SchemeStepper:
     @property
     def name(self) -> str:
         """The scheme's name, with `pendulum_` before it where it steps the angles of rods."""
-        return f"pendulum_{self.scheme.name}" if self.equations is PendulumMotion else self.scheme.name
+        return f"{ON_PENDULUM}{self.scheme.name}" if self.equations is PendulumMotion else self.scheme.name
 
     @property
     def kind(self) -> str:
@@ -96,3 +100,22 @@ def catalogued() -> Mapping[str, SchemeStepper]:
     on_springs = [SchemeStepper(s) for s in schemes]
     on_rods = [SchemeStepper(s, PendulumMotion) for s in schemes if s.needs == "accelerations"]
     return {stepper.name: stepper for stepper in [*on_springs, *on_rods, SchemeStepper(ROPE_KICK_DRIFT, RopeMotion)]}
+
+
+def stepper_named(name: str) -> SchemeStepper:
+    """The catalogued stepper of a name, which may be an alias or have parameters: sweeps(rounds=3).
+
+    Raises:
+        InputError: with a suggestion, where there is none; for a parameter that its scheme does not have.
+    """
+    known = catalogued()
+    if name in known:
+        return known[name]
+    if name.startswith(ON_PENDULUM):
+        scheme = catalogue.find(name.removeprefix(ON_PENDULUM))
+        if scheme.needs != "accelerations":
+            raise InputError(
+                f"stepper {name!r}: expected a scheme of accelerations, {scheme.name} needs {scheme.needs}"
+            )
+        return SchemeStepper(scheme, PendulumMotion)
+    return SchemeStepper(catalogue.find(name))

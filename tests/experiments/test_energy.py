@@ -29,7 +29,7 @@ from experiments.energy import (
     rounding,
 )
 from reference.conserved import angular_momentum, momentum
-from reference.outcome import first_torn
+from reference.outcome import first_diverged_frame
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
@@ -106,7 +106,7 @@ def test_energy_after_a_string_is_torn_is_not_counted() -> None:
     trajectory = catalogued()["euler"].run(system, DT, 2000).trajectory
     assert trajectory is not None
     times, errors = energy_errors(system, trajectory)
-    torn = trajectory.times[first_torn(system, trajectory, strain=100.0)]
+    torn = trajectory.times[first_diverged_frame(system, trajectory, stretch_ratio=100.0)]
     assert times[-1] < torn <= times[-1] + EVERY * DT
     assert np.isfinite(errors).all()
 

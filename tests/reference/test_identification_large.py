@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-import reference.identification
+import reference.identification.search
 from reference.changes import Change
 from reference.identification import (
     candidates_for,
@@ -21,7 +21,7 @@ from tests.reference.systems import label
 @pytest.fixture
 def all_are_large(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every system counts as large, so that small ones can be identified both ways."""
-    monkeypatch.setattr(reference.identification, "LARGE", 0)
+    monkeypatch.setattr(reference.identification.search, "LARGE", 0)
 
 
 @pytest.mark.usefixtures("all_are_large")

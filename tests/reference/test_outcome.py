@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference.outcome import Outcome, blow_up, first_torn, outcome_of
+from reference.outcome import Outcome, blow_up, first_diverged_frame, outcome_of
 from reference.scenes import find as find_scene
 from reference.state import Trajectory
 
@@ -47,9 +47,9 @@ def test_a_spring_is_measured_by_its_length_at_the_start_if_that_is_longer() -> 
     assert blow_up(STRING, trajectory(201.0, 250.0, 190.0)) is None
 
 
-def test_the_first_torn_frame_is_found_at_any_strain() -> None:
+def test_the_first_diverged_frame_is_found_at_any_stretch_ratio() -> None:
     """At three times the length already, for identification; the number of frames if there is none."""
     run = trajectory(2.0, 3.9, 4.1, 500.0)
-    assert first_torn(STRING, run, 3.0) == 2
-    assert first_torn(STRING, run, 100.0) == 3
-    assert first_torn(STRING, run, 1e6) == 4
+    assert first_diverged_frame(STRING, run, 3.0) == 2
+    assert first_diverged_frame(STRING, run, 100.0) == 3
+    assert first_diverged_frame(STRING, run, 1e6) == 4

@@ -10,6 +10,7 @@ from reference.compiled.sweep import sweep
 from reference.errors import InputError, Unsupported
 from reference.schemes.catalogue import Scheme, find, schemes
 from reference.simulate import simulate
+from reference.state import Array
 from reference.system import MassSpringSystem
 from tests import wrong
 from tests.reference.systems import label, moving_string, random_mesh

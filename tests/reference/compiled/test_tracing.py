@@ -1,4 +1,4 @@
-"""Tracing: what a scheme computes, written down. It comes out the same to the bit, or is refused by name; never wrong."""
+"""Tracing: what a scheme computes, written down, comes out the same to the bit, or is refused by name; never wrong."""
 
 from __future__ import annotations
 
