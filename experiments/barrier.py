@@ -103,7 +103,7 @@ def measure(system: MassSpringSystem, motion: Trajectory) -> Slide:
     """
     (circle,) = system.obstacles
     assert isinstance(circle, Circle)
-    gaps = circle.gap(motion.positions[:, 1])[0][:, 0]
+    gaps = circle.signed_distances(motion.positions[:, 1])[0][:, 0]
     dt = motion.times[1]
     pushed = np.flatnonzero(np.abs(np.diff(motion.velocities[:, 1, 0])) > PUSH * -system.gravity[1] * dt)
     left = len(pushed) > 0 and gaps[-1] > NEAR
@@ -181,7 +181,7 @@ def _string_table(system: MassSpringSystem, strings: dict[str, Trajectory]) -> T
     rows = []
     for name, motion in strings.items():
         energies = np.array([energy(system, state) for state in motion.states()])
-        depth = max(0.0, -float(circle.gap(motion.positions[:, ~system.fixed])[0].min()))
+        depth = max(0.0, -float(circle.signed_distances(motion.positions[:, ~system.fixed])[0].min()))
         rows.append([name, depth, float(energies.max() - energies[0]), float(energies[0] - energies[-1])])
     return Table("barrier_string", columns, rows)
 

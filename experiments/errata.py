@@ -110,8 +110,8 @@ def _barrier() -> tuple[Array, Array, Array]:
     angles = np.radians(np.arange(0, 361, 5.0))
     normal = np.column_stack([np.cos(angles), np.sin(angles)])
     sliding = np.column_stack([-np.sin(angles), np.cos(angles)])
-    _, printed = printed_circle.push_out(0.9 * normal, sliding)
-    _, projected = circle.push_out(0.9 * normal, sliding)
+    _, printed = printed_circle.projected(0.9 * normal, sliding)
+    _, projected = circle.projected(0.9 * normal, sliding)
     return angles, (printed * sliding).sum(axis=1), (projected * sliding).sum(axis=1)
 
 

@@ -54,7 +54,7 @@ class Run:
         if trajectory is None:
             return False
         free = trajectory.positions[:, ~self.system.fixed]
-        return any(float(o.gap(free)[0].min()) <= TOUCH * self.system.size for o in self.system.obstacles)
+        return any(float(o.signed_distances(free)[0].min()) <= TOUCH * self.system.size for o in self.system.obstacles)
 
     @property
     def is_identified(self) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from reference.changes import Change, changes_by_step, whole_steps
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf
-from reference.obstacles import keep_out
+from reference.obstacles import project_out
 from reference.schemes.catalogue import Scheme
 from reference.state import State, Trajectory
 from reference.system import MassSpringSystem
@@ -65,5 +65,5 @@ def projected(system: MassSpringSystem, state: State, time: float) -> State:
     """
     x, v = state.positions, state.velocities
     if system.obstacles:
-        x, v = keep_out(system.obstacles, system.fixed[:, None], x, v)
+        x, v = project_out(system.obstacles, system.fixed[:, None], x, v)
     return State(time, x, v, state.memory)

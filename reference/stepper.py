@@ -8,7 +8,7 @@ from typing import Protocol
 
 from reference.changes import Change
 from reference.distance_constraints import RopeMotion
-from reference.errors import InputError, SolverError
+from reference.errors import InputError, SolverError, Unsupported
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf
 from reference.outcome import Outcome, outcome_of
@@ -83,7 +83,7 @@ class SchemeStepper:
             trajectory = simulate(system, self.scheme, dt, dt * steps, changes, self.equations)
         except SolverError as error:
             return Outcome("diverged", str(error))
-        except InputError as error:
+        except (InputError, Unsupported) as error:
             # Only a change on the fly can still be wrong here: a rod's length cannot change while it swings.
             return Outcome("unsupported", str(error))
         outcome = outcome_of(system, trajectory)

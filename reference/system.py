@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from reference import obstacles as barriers
 from reference.errors import InputError, unknown_name
+from reference.obstacles import Obstacle, checked_obstacles
 from reference.state import Array, State
 
 IntArray = npt.NDArray[np.int64]
@@ -72,7 +72,7 @@ class MassSpringSystem:
     gravity: Array = field(default_factory=lambda: np.array(9.81))
     velocities: Array = field(default_factory=lambda: np.zeros(1))
     fixed: BoolArray = field(default_factory=lambda: np.zeros(1, dtype=bool))
-    obstacles: tuple[barriers.Obstacle, ...] = ()
+    obstacles: tuple[Obstacle, ...] = ()
 
     def __post_init__(self) -> None:
         positions = _finite("positions", self.positions, "m")
@@ -102,7 +102,7 @@ class MassSpringSystem:
         if len(moving_anchor):
             i = moving_anchor[0]
             raise InputError(f"velocities[{i}] = {self.velocities[i].tolist()}: expected zero, mass {i} is fixed")
-        obstacles = barriers.checked(self.obstacles, self.positions, self.fixed, self.size)
+        obstacles = checked_obstacles(self.obstacles, self.positions, self.fixed, self.size)
         object.__setattr__(self, "obstacles", obstacles)
 
     @property

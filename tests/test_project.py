@@ -34,6 +34,7 @@ BARE_REFERENCE = (
     "growth_factor",
     "limit",
     "measured_stability",
+    *(f"obstacles.{name}" for name in ("kinds", "obstacle", "validation")),
     "obstacles",
     "outcome",
     "registry",
@@ -48,8 +49,8 @@ LIGHT = ["numpy", "engines"]
 LIGHT += [f"reference.{name}" for name in BARE_REFERENCE]
 
 #: Those files.
-BARE = [ROOT / "reference" / f"{name.replace('.', '/')}.py" for name in BARE_REFERENCE if name != "scenes"]
-BARE.append(ROOT / "reference" / "scenes" / "__init__.py")
+BARE = [ROOT / "reference" / f"{name.replace('.', '/')}.py" for name in BARE_REFERENCE]
+BARE = [file if file.exists() else file.with_suffix("") / "__init__.py" for file in BARE]
 BARE += sorted((ROOT / "engines").rglob("*.py"))
 
 

@@ -9,7 +9,8 @@ from engines.process.isolation import EngineStepper
 from experiments.runs.runner import answer
 from reference.errors import InputError, unknown_name
 from reference.lecture.listings import listings
-from reference.stepper import Stepper, catalogued
+from reference.schemes import catalogue
+from reference.stepper import Stepper, catalogued, stepper_named
 
 
 def all_steppers() -> dict[str, Stepper]:
@@ -28,8 +29,16 @@ def default_steppers() -> list[Stepper]:
     return [stepper for stepper in all_steppers().values() if stepper.kind != "pendulum"]
 
 
+def _scheme_named(name: str, known: Iterable[str]) -> Stepper:
+    """A scheme by an alias, or with parameters."""
+    base = name.partition("(")[0]
+    if base == name and base not in catalogue.aliases():
+        raise unknown_name("stepper", name, known)
+    return stepper_named(name)
+
+
 def find_steppers(names: Iterable[str]) -> list[Stepper]:
-    """The steppers of these names.
+    """The steppers of these names; of schemes also aliases, and parameters as in sweeps(rounds=3).
 
     Raises:
         InputError: for an unknown name, or an engine that is not installed.
@@ -37,9 +46,7 @@ def find_steppers(names: Iterable[str]) -> list[Stepper]:
     known = all_steppers()
     found = []
     for name in names:
-        if name not in known:
-            raise unknown_name("stepper", name, known)
-        stepper = known[name]
+        stepper = known.get(name) or _scheme_named(name, known)
         if isinstance(stepper, EngineStepper) and stepper.version is None:
             raise InputError(f"stepper {name!r} is not installed: expected the package {stepper.engine.package}")
         found.append(stepper)

@@ -134,7 +134,7 @@ def trace_obstacles(obstacles: Sequence[Obstacle], dimension: int) -> ObstaclePr
             symbols = tuple(Symbol(f"o{counted + k}", lines) for k in range(count))
             object.__setattr__(of_symbols, f.name, symbols if isinstance(value, tuple) else symbols[0])
             counted += count
-        place, velocity = of_symbols.meet(place, velocity, Symbol("free", lines))  # type: ignore[assignment]
+        place, velocity = of_symbols.project(place, velocity, Symbol("free", lines))  # type: ignore[assignment]
     return ObstacleProgram(tuple(lines), tuple(map(repr, place)), tuple(map(repr, velocity)), counted)
 
 

@@ -57,7 +57,7 @@ import numpy as np
 from reference.changes import Change, Drive, Driven
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
-from reference.obstacles import KINDS, Obstacle, obstacle
+from reference.obstacles import KINDS, Obstacle, obstacle_of
 from reference.scenes import Setup, find
 from reference.scenes.ground_motion import GroundMotion, Law, Sweep, read_record
 from reference.system import MassSpringSystem
@@ -255,7 +255,7 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driv
 def _obstacle(i: int, table: dict[str, Any]) -> Obstacle:
     if "kind" not in table:
         raise InputError(f"obstacles[{i}].kind is missing: expected one of {', '.join(KINDS)}")
-    return _within(f"obstacles[{i}]", lambda: obstacle(**table))
+    return _within(f"obstacles[{i}]", lambda: obstacle_of(**table))
 
 
 def _within(table: str, make: Callable[[], T]) -> T:

@@ -12,7 +12,7 @@ from reference.obstacles import Circle
 class CircleAsMeant(Circle):
     """A circle that leaves a mass inside the part of its velocity along it: v - (v.n) n, whichever way v.n leads."""
 
-    def answer(self, velocity: Axes, normal: Axes) -> Axes:
+    def contact_response(self, velocity: Axes, normal: Axes) -> Axes:
         """See Obstacle."""
         across = dot(velocity, normal)
         return [v - across * n for v, n in zip(velocity, normal, strict=True)]
@@ -25,6 +25,6 @@ class CircleAsPrinted(Circle):
     That is no projection: (v_x t_x, v_y t_y) in place of (v.t) t.
     """
 
-    def answer(self, velocity: Axes, normal: Axes) -> Axes:
+    def contact_response(self, velocity: Axes, normal: Axes) -> Axes:
         """See Obstacle."""
         return [velocity[0] * normal[1], velocity[1] * (-1.0 * normal[0])]

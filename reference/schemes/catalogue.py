@@ -121,6 +121,8 @@ class Scheme:
         """
         defaults = replace(self, given=()).parameters
         for name, value in values.items():
+            if name not in defaults and not defaults:
+                raise InputError(f"scheme {self.step.__name__!r} has no parameters: {name} was given")
             if name not in defaults:
                 raise unknown_name(f"parameter of scheme {self.step.__name__!r}", name, defaults)
             if type(value) is not type(defaults[name]):
@@ -199,13 +201,18 @@ def schemes() -> Mapping[str, Scheme]:
     return _SCHEMES.all()
 
 
+def aliases() -> Mapping[str, Scheme]:
+    """The schemes that have other names, by these."""
+    return {alias: scheme for scheme in schemes().values() for alias in scheme.aliases}
+
+
 def find(name: str) -> Scheme:
     """The scheme of that name, an alias, or a name with parameters: sweeps(rounds=3).
 
     Raises:
         InputError: with a suggestion, where there is none; for a parameter it does not have.
     """
-    known = {alias: scheme for scheme in schemes().values() for alias in (scheme.name, *scheme.aliases)}
+    known = {**schemes(), **aliases()}
     base, parameters = re.fullmatch(r"([^(]*)(?:\((.*)\))?", name, re.S).groups()  # type: ignore[union-attr]
     if base not in known:
         raise unknown_name("scheme", base, known)

@@ -74,7 +74,7 @@ def backdrop(obstacles: Sequence[Obstacle], view: View, window: Window) -> Backd
 
 def _nearest(obstacles: Sequence[Obstacle], points: Array) -> tuple[Array, Array]:
     """How far points (..., d) are from the nearest obstacle [m], shape (...), and its normal there, (..., d)."""
-    gaps, normals = zip(*(o.gap(points) for o in obstacles), strict=True)
+    gaps, normals = zip(*(o.signed_distances(points) for o in obstacles), strict=True)
     which = np.argmin(np.stack(gaps), axis=0)
     gap = np.take_along_axis(np.stack(gaps), which[None], axis=0)[0, ..., 0]
     return gap, np.take_along_axis(np.stack(normals), which[None], axis=0)[0]

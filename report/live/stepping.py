@@ -15,7 +15,7 @@ from reference.compiled.kernels import Kernel, loops_for
 from reference.compiled.loops import Loops
 from reference.errors import InputError, SolverError, Unsupported, unknown_name
 from reference.forces import SpringMotion
-from reference.obstacles import keep_out
+from reference.obstacles import project_out
 from reference.schemes import catalogue
 from reference.schemes.catalogue import Scheme
 from reference.simulate import projected
@@ -166,7 +166,7 @@ def moved(system: MassSpringSystem, state: State) -> MassSpringSystem:
     x, v = state.positions, state.velocities
     try:
         if system.obstacles:
-            x, v = keep_out(system.obstacles, system.fixed[:, None], x, v)
+            x, v = project_out(system.obstacles, system.fixed[:, None], x, v)
         return replace(system, positions=x, velocities=np.where(system.fixed[:, None], 0.0, v))
     except InputError as error:
         raise Stopped(str(error)) from None

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from engines.engine import CAPABILITIES, refuse_beyond
-from reference.obstacles import keep_out
+from reference.obstacles import project_out
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -31,7 +31,7 @@ class KickDrift:
 
     def meet_obstacles(self) -> None:
         """The masses inside come out."""
-        self.x, self.v = keep_out(self.system.obstacles, self.system.fixed[:, None], self.x, self.v)
+        self.x, self.v = project_out(self.system.obstacles, self.system.fixed[:, None], self.x, self.v)
 
     def acceleration(self) -> Array:
         """Of all masses [m/s^2], shape (n, d)."""

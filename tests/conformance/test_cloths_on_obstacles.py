@@ -33,7 +33,7 @@ def check_as_the_reference(name: str, outcome: Outcome) -> None:
     assert outcome.trajectory is not None, outcome.reason
     (obstacle,) = system.obstacles
     motion = outcome.trajectory
-    assert obstacle.gap(motion.positions)[0].min() > -2e-3
+    assert obstacle.signed_distances(motion.positions)[0].min() > -2e-3
     energies = [energy(system, state) for state in motion.states()]
     assert max(energies) - energies[0] < 0.01 * system.masses.sum() * 9.81 * system.size
     known = simulate(system, find("kick_drift"), DT, DT * STEPS).positions[-1, :, 1]

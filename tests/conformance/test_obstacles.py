@@ -65,7 +65,7 @@ def check_stopped(case: Case, outcome: Outcome) -> None:
     assert outcome.trajectory is not None, outcome.reason
     (obstacle,) = case.system.obstacles
     speed = np.sqrt(2 * GRAVITY * HEIGHT)
-    gaps = obstacle.gap(outcome.trajectory.positions[:, -1])[0][:, 0]
+    gaps = obstacle.signed_distances(outcome.trajectory.positions[:, -1])[0][:, 0]
     assert gaps.min() >= -1.01 * (speed + GRAVITY * DT) * DT
     after = outcome.trajectory.velocities[STEPS // 2 + 5 :, -1]
     assert np.linalg.norm(after, axis=1).max() <= 0.1 * speed

@@ -82,7 +82,7 @@ def test_by_the_printed_rule_it_does_not_leave(dt: float) -> None:
 def test_the_printed_rule_turns_a_mass_round_at_the_side() -> None:
     """A mass that falls along the right side of the circle at 1 m/s goes up at 1 m/s after a step."""
     for circle, after in ((CIRCLE, -1.0), (CircleAsPrinted(CIRCLE.centre, CIRCLE.radius), 1.0)):
-        _, velocities = circle.push_out(np.array([[1.1, -0.1]]), np.array([[0.0, -1.0]]))
+        _, velocities = circle.projected(np.array([[1.1, -0.1]]), np.array([[0.0, -1.0]]))
         assert velocities[0] == pytest.approx([0.0, after], abs=1e-15)
 
 
@@ -127,6 +127,6 @@ def test_the_scene_swings_onto_its_circle() -> None:
     assert outcome.ending == "done"
     assert outcome.trajectory is not None
     (circle,) = scene.system({}).obstacles
-    gaps = circle.gap(outcome.trajectory.positions[:, 1:])[0]
+    gaps = circle.signed_distances(outcome.trajectory.positions[:, 1:])[0]
     assert -1e-14 <= gaps.min() <= 1e-14
     assert (gaps[-1] <= 1e-14).sum() >= 2

@@ -15,7 +15,7 @@ from reference.axes import Axes
 from reference.distance_constraints import RopeMotion
 from reference.errors import InputError, SolverError
 from reference.lecture.slide_17 import CircleAsPrinted
-from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere, keep_out, obstacle
+from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere, obstacle_of, project_out
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
 from reference.schemes import catalogue
@@ -55,10 +55,10 @@ def check_rule(made: Obstacle, rule: Rule, seed: int) -> None:
     rng = np.random.default_rng(seed)
     x = np.array([0.3, -0.2, 0.1])[: made.dimension] + rng.uniform(-0.7, 0.7, (40, made.dimension))
     v = rng.uniform(-5, 5, x.shape)
-    gap, normal = made.gap(x)
+    gap, normal = made.signed_distances(x)
     pushed, kept = rule(x, v)
     inside = gap[:, 0] < 0
-    assert made.gap(pushed)[0].min() >= -1e-14
+    assert made.signed_distances(pushed)[0].min() >= -1e-14
     assert pushed[~inside].tolist() == x[~inside].tolist()
     assert kept[~inside].tolist() == v[~inside].tolist()
     before, across = (v * normal).sum(axis=1), (kept * normal).sum(axis=1)
@@ -78,14 +78,14 @@ def check_rule(made: Obstacle, rule: Rule, seed: int) -> None:
 @given(seed=seeds)
 def test_the_rule_keeps_its_promises(made: Obstacle, seed: int) -> None:
     """Wherever masses are, however they move."""
-    check_rule(made, made.push_out, seed)
+    check_rule(made, made.projected, seed)
 
 
 def reflecting(made: Obstacle) -> Rule:
     """Throws back."""
 
     def rule(x: Array, v: Array) -> tuple[Array, Array]:
-        pushed, kept = made.push_out(x, v)
+        pushed, kept = made.projected(x, v)
         return pushed, 2 * kept - v
 
     return rule
@@ -95,7 +95,7 @@ def halfway(made: Obstacle) -> Rule:
     """Moves half of the way out."""
 
     def rule(x: Array, v: Array) -> tuple[Array, Array]:
-        pushed, kept = made.push_out(x, v)
+        pushed, kept = made.projected(x, v)
         return (x + pushed) / 2, kept
 
     return rule
@@ -105,7 +105,7 @@ def stopping(made: Obstacle) -> Rule:
     """Takes all the velocity."""
 
     def rule(x: Array, v: Array) -> tuple[Array, Array]:
-        pushed, kept = made.push_out(x, v)
+        pushed, kept = made.projected(x, v)
         return pushed, np.where((pushed != x).any(axis=1, keepdims=True), 0 * v, kept)
 
     return rule
@@ -115,8 +115,8 @@ def pulling(made: Obstacle) -> Rule:
     """Takes what leads outwards of the velocity too."""
 
     def rule(x: Array, v: Array) -> tuple[Array, Array]:
-        gap, normal = made.gap(x)
-        return made.push_out(x, v)[0], np.where(gap < 0, v - (v * normal).sum(axis=1, keepdims=True) * normal, v)
+        gap, normal = made.signed_distances(x)
+        return made.projected(x, v)[0], np.where(gap < 0, v - (v * normal).sum(axis=1, keepdims=True) * normal, v)
 
     return rule
 
@@ -129,22 +129,22 @@ def test_the_promises_fail_on_wrong_rules(made: Obstacle, wrong: Callable[[Obsta
         check_rule(made, wrong(made), 1)
     if isinstance(made, Circle):
         with pytest.raises(AssertionError):
-            check_rule(made, CircleAsPrinted(made.centre, made.radius).push_out, 1)
+            check_rule(made, CircleAsPrinted(made.centre, made.radius).projected, 1)
 
 
 @pytest.mark.parametrize("made", OBSTACLES, ids=label)
 def test_a_mass_at_a_centre_comes_out_somewhere(made: Obstacle) -> None:
     """There is no way straight out: one is chosen."""
     middle = np.array([[0.3, -0.2, 0.1][: made.dimension]])
-    x, v = made.push_out(middle, np.ones_like(middle))
-    assert abs(float(made.gap(x)[0][0, 0])) <= 1e-15
+    x, v = made.projected(middle, np.ones_like(middle))
+    assert abs(float(made.signed_distances(x)[0][0, 0])) <= 1e-15
     assert np.isfinite(v).all()
 
 
 @pytest.mark.parametrize("made", OBSTACLES, ids=label)
 def test_an_obstacle_in_plain_values_makes_the_same(made: Obstacle) -> None:
     """Through JSON and back, to the bit."""
-    assert obstacle(**json.loads(json.dumps(made.to_dict()))) == made
+    assert obstacle_of(**json.loads(json.dumps(made.to_dict()))) == made
     assert KINDS[made.kind] is type(made)
 
 
@@ -154,7 +154,7 @@ def test_no_mass_is_ever_inside(scheme: str, made: Obstacle) -> None:
     """Of the scene's string, after any step of any scheme; the fixed one may be."""
     system = replace(BARRIER, obstacles=(made, Circle((0.0, 0.0), 0.05)))
     motion = simulate(system, catalogue.find(scheme), 1e-3, 0.6)
-    gaps = made.gap(motion.positions[:, 1:])[0]
+    gaps = made.signed_distances(motion.positions[:, 1:])[0]
     assert gaps.min() >= -1e-14
     assert gaps.min() <= 1e-14, "it was never met"
     assert (motion.positions[:, 0] == 0).all(), "a fixed mass has moved"
@@ -190,15 +190,15 @@ def test_a_mass_at_rest_on_a_floor_stays_there(scheme: str) -> None:
 class Soft(Plane):
     """Takes velocity and leaves masses where they are, which sink."""
 
-    def meet(self, place: Axes, velocity: Axes, free: Any) -> tuple[Axes, Axes]:
+    def project(self, place: Axes, velocity: Axes, free: Any) -> tuple[Axes, Axes]:
         """See Obstacle."""
-        return place, super().meet(place, velocity, free)[1]
+        return place, super().project(place, velocity, free)[1]
 
 
 class Indifferent(Plane):
     """Pushes out and leaves the velocity as it is, which grows ever on."""
 
-    def answer(self, velocity: Axes, normal: Axes) -> Axes:
+    def contact_response(self, velocity: Axes, normal: Axes) -> Axes:
         """See Obstacle."""
         return velocity
 
@@ -216,9 +216,9 @@ def test_obstacles_are_met_in_their_order() -> None:
     x, v = np.array([[-0.1, -0.1]]), np.zeros((1, 2))
     held = np.array([[False]])
     for order in ((floor, wall), (wall, floor)):
-        pushed, _ = keep_out(order, held, x, v)
-        assert abs(float(order[-1].gap(pushed)[0][0, 0])) <= 1e-16
-    assert keep_out((floor, wall), ~held, x, v)[0].tolist() == x.tolist()
+        pushed, _ = project_out(order, held, x, v)
+        assert abs(float(order[-1].signed_distances(pushed)[0][0, 0])) <= 1e-16
+    assert project_out((floor, wall), ~held, x, v)[0].tolist() == x.tolist()
 
 
 def test_what_changes_a_system_keeps_its_obstacles() -> None:
@@ -261,9 +261,9 @@ def test_what_knows_no_obstacles_says_so() -> None:
         (lambda: Plane((0.0, 0.0), (0.0, 0.0, 1.0)), "normal = (0.0, 0.0, 1.0): expected 2 finite numbers [m]"),
         (lambda: Box((0.0, 0.0), (1.0, 0.0)), "half_sizes = (1.0, 0.0): expected numbers > 0 [m]"),
         (lambda: Box((0.0, 0.0), (1.0,)), "half_sizes = (1.0,): expected 2 finite numbers [m]"),
-        (lambda: obstacle("circel"), "unknown kind 'circel': did you mean 'circle'?"),
-        (lambda: obstacle("circle", center=1), "unknown number of a circle 'center': did you mean 'centre'?"),
-        (lambda: obstacle("circle", radius=1.0), "centre is missing: a circle has centre, radius"),
+        (lambda: obstacle_of("circel"), "unknown kind 'circel': did you mean 'circle'?"),
+        (lambda: obstacle_of("circle", center=1), "unknown number of a circle 'center': did you mean 'centre'?"),
+        (lambda: obstacle_of("circle", radius=1.0), "centre is missing: a circle has centre, radius"),
         (lambda: replace(BARRIER, obstacles=3), "obstacles = 3: expected a list of obstacles"),
         (
             lambda: replace(BARRIER, obstacles=(3,)),
@@ -323,8 +323,8 @@ def test_a_box_is_as_far_as_its_nearest_point(made: Box) -> None:
     def beyond(x: Array) -> Array:
         return np.asarray((np.abs(x - np.array(made.centre)) - made.half_sizes).max(axis=1))
 
-    check_gap(made, lambda x: made.gap(x)[0][:, 0])
-    for wrong in (beyond, lambda x: np.abs(made.gap(x)[0][:, 0])):
+    check_gap(made, lambda x: made.signed_distances(x)[0][:, 0])
+    for wrong in (beyond, lambda x: np.abs(made.signed_distances(x)[0][:, 0])):
         with pytest.raises(AssertionError):
             check_gap(made, wrong)
 
@@ -332,6 +332,6 @@ def test_a_box_is_as_far_as_its_nearest_point(made: Box) -> None:
 def test_a_mass_beside_the_edge_of_a_box_is_pushed_to_the_nearer_face() -> None:
     """On top where it is nearer to the top, sideways where it is nearer to the side; its velocity along stays."""
     box = Box((0.0, 0.0), (1.0, 1.0))
-    x, v = box.push_out(np.array([[0.9, 0.95], [0.95, 0.9], [1.1, 1.1]]), np.full((3, 2), -1.0))
+    x, v = box.projected(np.array([[0.9, 0.95], [0.95, 0.9], [1.1, 1.1]]), np.full((3, 2), -1.0))
     assert x == pytest.approx(np.array([[0.9, 1.0], [1.0, 0.9], [1.1, 1.1]]), abs=1e-15)
     assert v.tolist() == [[-1.0, 0.0], [0.0, -1.0], [-1.0, -1.0]]

@@ -46,23 +46,23 @@ def test_the_tangential_velocity_is_kept_anywhere_on_the_circle(
     angle: float, depth: float, vx: float, vy: float
 ) -> None:
     """Whatever the velocity, by the lab's rule and by slide 17's as it is meant."""
-    check_projection(CIRCLE.push_out, angle, depth, np.array([vx, vy]))
-    check_projection(AS_MEANT.push_out, angle, depth, np.array([vx, vy]), holds=True)
+    check_projection(CIRCLE.projected, angle, depth, np.array([vx, vy]))
+    check_projection(AS_MEANT.projected, angle, depth, np.array([vx, vy]), holds=True)
 
 
 def reflect(positions: Array, velocities: Array) -> tuple[Array, Array]:
     """Bounces in place of sliding."""
-    x, kept = AS_MEANT.push_out(positions, velocities)
+    x, kept = AS_MEANT.projected(positions, velocities)
     return x, 2 * kept - velocities
 
 
 def turned(positions: Array, velocities: Array) -> tuple[Array, Array]:
     """Keeps what is across and drops what is along."""
-    x, kept = AS_MEANT.push_out(positions, velocities)
+    x, kept = AS_MEANT.projected(positions, velocities)
     return x, velocities - kept
 
 
-@pytest.mark.parametrize("rule", [AS_PRINTED.push_out, reflect, turned])
+@pytest.mark.parametrize("rule", [AS_PRINTED.projected, reflect, turned])
 @pytest.mark.parametrize("angle", [0.0, 0.7, 2.0, 3.0])
 def test_projection_fails_on_other_rules(rule: Rule, angle: float) -> None:
     """The printed rule among them, which is right at the top of the circle only."""
@@ -77,9 +77,9 @@ def test_the_two_rules_differ_where_a_mass_moves_outwards() -> None:
     """Each fails the other's check there."""
     outwards = np.array([1.0, 0.5])
     with pytest.raises(AssertionError):
-        check_projection(AS_MEANT.push_out, 0.0, 0.1, outwards)
+        check_projection(AS_MEANT.projected, 0.0, 0.1, outwards)
     with pytest.raises(AssertionError):
-        check_projection(CIRCLE.push_out, 0.0, 0.1, outwards, holds=True)
+        check_projection(CIRCLE.projected, 0.0, 0.1, outwards, holds=True)
 
 
 @pytest.mark.parametrize(
@@ -92,13 +92,13 @@ def test_the_printed_rule_by_hand(angle: float, left: float) -> None:
     """
     along = np.array([-np.sin(angle), np.cos(angle)])
     inside = np.array(CIRCLE.centre) + 0.4 * np.array([np.cos(angle), np.sin(angle)])
-    _, v = AS_PRINTED.push_out(inside[None], along[None])
+    _, v = AS_PRINTED.projected(inside[None], along[None])
     assert v[0] == pytest.approx([-(np.sin(angle) ** 2), -(np.cos(angle) ** 2)], abs=1e-15)
     assert v[0] @ along == pytest.approx(np.sin(angle) ** 3 - np.cos(angle) ** 3, abs=1e-15)
     assert v[0] @ along == pytest.approx(left, abs=1e-14)
 
 
-@pytest.mark.parametrize("rule", [CIRCLE.push_out, AS_MEANT.push_out, AS_PRINTED.push_out])
+@pytest.mark.parametrize("rule", [CIRCLE.projected, AS_MEANT.projected, AS_PRINTED.projected])
 def test_masses_outside_are_left_alone(rule: Rule) -> None:
     """To the bit; and each mass is judged alone."""
     positions = np.array([[0.3, 0.3], [0.3, 0.1], [5.0, 5.0]])
@@ -111,14 +111,14 @@ def test_masses_outside_are_left_alone(rule: Rule) -> None:
 
 def test_a_mass_on_the_circle_after_being_pushed_out_stays() -> None:
     """Pushing out twice changes nothing more than a rounding."""
-    x, v = CIRCLE.push_out(np.array([[0.35, 0.1]]), np.array([[1.0, -2.0]]))
-    again_x, again_v = CIRCLE.push_out(x, v)
+    x, v = CIRCLE.projected(np.array([[0.35, 0.1]]), np.array([[1.0, -2.0]]))
+    again_x, again_v = CIRCLE.projected(x, v)
     assert again_x == pytest.approx(x, abs=1e-15)
     assert again_v == pytest.approx(v, abs=1e-15)
 
 
 def test_a_mass_at_the_very_centre_gives_numbers() -> None:
     """There is no way straight out: nothing that is not a number comes of it."""
-    x, v = CIRCLE.push_out(np.array([[0.3, -0.2]]), np.array([[1.0, -2.0]]))
+    x, v = CIRCLE.projected(np.array([[0.3, -0.2]]), np.array([[1.0, -2.0]]))
     assert np.isfinite(x).all()
     assert np.isfinite(v).all()

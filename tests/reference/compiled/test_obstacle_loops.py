@@ -108,7 +108,7 @@ class Corner(Obstacle):
         """2."""
         return 2
 
-    def surface(self, place: Axes) -> tuple[float, Sequence[float]]:
+    def signed_distance(self, place: Axes) -> tuple[float, Sequence[float]]:
         """See Obstacle."""
         right, up = place[0] - self.point[0], place[1] - self.point[1]
         level = up > right

@@ -135,7 +135,7 @@ REFUSED: dict[str, Function] = {
     "method": lambda x, v, dt: x.copy(),
     "shape": lambda x, v, dt: x * x.shape[0],
     "entry": lambda x, v, dt: x[0],
-    "entries": lambda x, v, dt: [y for y in x],
+    "entries": lambda x, v, dt: list(x),
     "length": lambda x, v, dt: x / len(x),
     "array": lambda x, v, dt: np.asarray(x) + np.array([1.0, 2.0]),
     "with an array": lambda x, v, dt: x + np.array([[1.0, 2.0]]),

@@ -93,7 +93,7 @@ def test_a_cloth_that_falls_stays_out_and_gains_no_energy(name: str) -> None:
     assert not system.fixed.any()
     motion = simulate(system, find("kick_drift"), scene.dt, scene.duration)
     (obstacle,) = system.obstacles
-    gaps = obstacle.gap(motion.positions)[0][..., 0]
+    gaps = obstacle.signed_distances(motion.positions)[0][..., 0]
     assert -1e-14 <= gaps.min() <= 1e-14
     energies = [energy(system, state) for state in motion.states()]
     weight = system.masses.sum() * 9.81
@@ -107,7 +107,7 @@ def test_a_tablecloth_lies_on_a_table_and_hangs_over_one_edge() -> None:
     system = find_scene("tablecloth").system({"overhang": 0.3})
     (table,) = system.obstacles
     assert isinstance(table, Box)
-    gaps, normals = table.gap(system.positions)
+    gaps, normals = table.signed_distances(system.positions)
     edge = table.centre[0] + table.half_sizes[0]
     beyond = system.positions[:, 0] > edge
     assert beyond.mean() == pytest.approx(0.3)
