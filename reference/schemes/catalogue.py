@@ -7,6 +7,7 @@ the file it stands in and nothing else.
 from __future__ import annotations
 
 import inspect
+import pkgutil
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -14,6 +15,7 @@ from functools import cached_property, partial
 from types import MappingProxyType
 from typing import Any, Literal, TypeVar, cast, get_type_hints
 
+import reference.schemes
 from reference.errors import InputError, Unsupported, unknown_name
 from reference.motion import EveryMotion, Motion, MotionByMass, MotionOfRods, MotionOfSprings
 from reference.registry import Registry
@@ -160,14 +162,17 @@ class Given:
         raise InputError(f"scheme {scheme.name!r} asks for motion.{name}, but says it needs {scheme.needs}: {hint}")
 
 
-_SCHEMES = Registry[Scheme](
-    "scheme",
-    (
-        "reference.schemes.textbook",
-        "reference.schemes.implicit_damping",
-        "reference.schemes.in_place",
-    ),
-)
+#: Where schemes stand, the simplest first: where two do the same, the first is the one to name. Other files follow.
+FIRST = ("reference.schemes.textbook", "reference.schemes.implicit_damping", "reference.schemes.in_place")
+
+
+def _files() -> list[str]:
+    """Every file of this folder."""
+    found = [f"{reference.schemes.__name__}.{file.name}" for file in pkgutil.iter_modules(reference.schemes.__path__)]
+    return [*FIRST, *(file for file in found if file not in FIRST)]
+
+
+_SCHEMES = Registry[Scheme]("scheme", _files)
 
 
 def scheme(

@@ -118,7 +118,7 @@ class Layout:
         return [1.0, *[self.dt] * (1 + self.remembered)]
 
 
-def _layout(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:
+def layout_of(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:
     """How states are vectors, and the state at rest with all that a scheme remembers of having been there."""
     if scheme.one_step:
         return Layout(rest, dt, 0), rest.state
@@ -128,7 +128,7 @@ def _layout(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State
 
 def _by_linear_motion(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     assert isinstance(rest.motion, SpringMotion)
-    layout, _ = _layout(scheme, rest, dt)
+    layout, _ = layout_of(scheme, rest, dt)
     nothing = np.zeros((*rest.state.positions.shape, layout.size))
     state = layout.state(np.eye(layout.size), State(0.0, nothing, nothing, (nothing,) * layout.remembered))
     return layout.vector(scheme.on(LinearMotion(rest.motion.system, rest.state))(state, dt))
@@ -140,7 +140,7 @@ def _by_differences(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     Their truncation goes as the fourth power of the perturbation and their rounding as its inverse; at the fifth root
     of rounding both are about 1e-12.
     """
-    layout, settled = _layout(scheme, rest, dt)
+    layout, settled = layout_of(scheme, rest, dt)
     small = np.finfo(float).eps ** 0.2 * rest.scale
     step = scheme.on(rest.motion)
 

@@ -41,7 +41,7 @@ from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored, Euler
 from tests.engines.process.misbehaving import Misbehaving, Segfaults
-from tests.reference.systems import IN_PLACE, WHOLE_STATE, label
+from tests.reference.systems import IN_PLACE, SOLVED, label
 
 TURNED_SIDEWAYS = wrong.stepped(wrong.sideways, find("kick_drift"))
 ONE_SIDED = wrong.stepped(wrong.one_sided, find("kick_drift"))
@@ -252,7 +252,7 @@ def check_angular_momentum(scheme: Scheme, on: Bench) -> None:
     assert lost(scheme, on, angular_momentum) < rounding() * on.free.size
 
 
-@pytest.mark.parametrize("scheme", WHOLE_STATE, ids=label)
+@pytest.mark.parametrize("scheme", SOLVED, ids=label)
 def test_whole_state_schemes_keep_momentum(scheme: Scheme, on: Bench) -> None:
     """The two forces of a spring are taken from one state, and cancel."""
     check_momentum(scheme, on)

@@ -23,6 +23,12 @@ seeds = st.integers(0, 2**32 - 1)
 WHOLE_STATE = [s for s in schemes().values() if s.kind != "in_place"]
 IN_PLACE = [s for s in schemes().values() if s.kind == "in_place"]
 
+#: Schemes that stop iterating early, and yet keep momentum: each of their impulses is equal and opposite.
+BY_IMPULSES = [find("kick_drift_truncated_damping"), find("drift_kick_sequential_damping")]
+
+#: The right schemes of which momentum and the order of springs can be asked: what stops early may keep neither.
+SOLVED = [s for s in WHOLE_STATE if not s.iterated or s in BY_IMPULSES]
+
 #: The schemes that do not solve to rounding, and how far their solver goes [m/s].
 SOLVED_TO = {find("kick_drift_truncated_damping"): 1e-8}
 

@@ -13,7 +13,7 @@ from reference.state import Array, Trajectory
 from reference.system import MassSpringSystem
 from reference.theory.exact import exact
 from tests import wrong
-from tests.reference.systems import IN_PLACE, SOLVED_TO, WHOLE_STATE, free_string, label, moving_string
+from tests.reference.systems import IN_PLACE, SOLVED, SOLVED_TO, free_string, label, moving_string
 
 #: Right, but their damping is solved by conjugate residuals, whose steps do not know of momentum.
 (TRUNCATED,) = SOLVED_TO
@@ -23,7 +23,7 @@ from tests.reference.systems import IN_PLACE, SOLVED_TO, WHOLE_STATE, free_strin
 #: another; the midpoint rule keeps every quadratic invariant (HLW IV.2.1).
 KEEP_ANGULAR_MOMENTUM = [
     *(find(name) for name in ("kick_drift", "drift_kick", "velocity_verlet", "implicit_midpoint")),
-    *(s for s in WHOLE_STATE if s.kind == "engine_scheme" and s is not TRUNCATED),
+    *(s for s in SOLVED if s.kind == "engine_scheme" and s is not TRUNCATED),
 ]
 
 #: The schemes that keep a modified energy, and so keep the energy near its value for ever (HLW IX.8).
@@ -72,7 +72,7 @@ def check_angular_momentum(scheme: Scheme, damping: float) -> None:
 
 
 @pytest.mark.parametrize("damping", DAMPINGS)
-@pytest.mark.parametrize("scheme", [s for s in WHOLE_STATE if s is not TRUNCATED], ids=label)
+@pytest.mark.parametrize("scheme", [s for s in SOLVED if s is not TRUNCATED], ids=label)
 def test_whole_state_schemes_keep_momentum_to_rounding(scheme: Scheme, damping: float) -> None:
     """Every spring's two forces are opposite and taken from one state."""
     check_momentum(scheme, damping)

@@ -24,7 +24,7 @@ from tests.reference.systems import label, moving_string, property_test
 
 STRING = moving_string(4, damping=0.05, drag=0.02)
 
-TRACEABLE = [s for s in schemes().values() if s.needs == "accelerations"]
+TRACEABLE = [s for s in schemes().values() if why_not_compiled(s) is None]
 
 Function = Callable[[Any, Any, Any], Any]
 
@@ -47,6 +47,11 @@ def check_same_bits(scheme: Scheme, dt: float = 1e-3) -> None:
     end, run = advance(STRING, scheme, dt, 20), simulate(STRING, scheme, dt, 20 * dt)
     assert end.positions.tolist() == run.positions[-1].tolist()
     assert end.velocities.tolist() == run.velocities[-1].tolist()
+
+
+def test_the_textbooks_schemes_of_accelerations_are_traced() -> None:
+    """Those that need nothing else, all of them."""
+    assert {"euler", "heun", "kick_drift", "drift_kick", "velocity_verlet", "rk4"} <= {s.name for s in TRACEABLE}
 
 
 @pytest.mark.parametrize("scheme", TRACEABLE, ids=label)

@@ -243,7 +243,7 @@ def test_a_pendulums_limit() -> None:
 # --- The Jacobian ---
 
 
-@pytest.mark.parametrize("scheme", schemes().values(), ids=label)
+@pytest.mark.parametrize("scheme", [s for s in schemes().values() if s.name in STEP_MATRICES], ids=label)
 def test_jacobian_of_one_spring_is_its_step_matrix(scheme: Scheme) -> None:
     """Along the spring, with velocities in lengths per step; by differences it is right to some 1e-11."""
     dt, damping, drag = 5e-3, 0.1, 0.05
