@@ -1,7 +1,5 @@
 """What does a barrier do to the motion, by the lecture's rule and in each engine?
 
-`python -m experiments.barrier`
-
 A mass let go at rest on a frictionless circle, at an angle a from its top, slides down and leaves it where
 cos(angle) = (2/3) cos(a): there the circle need no longer push, m v^2/R = m g cos(angle) with v^2 = 2 g R (cos a - cos
 angle). With a tiny push at the top that is cos(angle) = 2/3.
@@ -234,8 +232,3 @@ EXPERIMENT = Experiment(
     slides="16-17",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,5 @@
 """What does accuracy cost, and what does a step?
 
-`python -m experiments.cost`
-
 Wall time of the stepping alone, on this machine: an engine's inside its own process, and nothing read in between.
 Schemes run as compiled kernels where they can be (one thread), else step by step in Python. Those that treat only the
 damping in a way of their own are left out: without damping they are kick_drift or drift_kick to the bit.
@@ -300,8 +298,3 @@ EXPERIMENT = Experiment(
     run=run,
     timed=True,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

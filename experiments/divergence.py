@@ -1,7 +1,4 @@
-"""How far does each engine go from the true motion of a string, and why?
-
-`python -m experiments.divergence`
-"""
+"""How far does each engine go from the true motion of a string, and why?"""
 
 from __future__ import annotations
 
@@ -91,8 +88,3 @@ EXPERIMENT = Experiment(
     slides="3-11, 13",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

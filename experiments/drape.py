@@ -1,7 +1,5 @@
 """How much does a fabric drape, the stiffer it is?
 
-`python -m experiments.drape`
-
 The test of textile laboratories (Cusick 1965; BS 5058; ISO 9073-9): a round cloth of 30 cm lies on a disc of 18 cm and
 falls into folds around it. Light from above: of the ring of cloth outside the disc the drape coefficient is the part
 that the shadow still covers,
@@ -222,8 +220,3 @@ EXPERIMENT = Experiment(
     slides="18-22",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

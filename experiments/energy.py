@@ -1,7 +1,5 @@
 """What does each stepper do to energy and momentum, which physics keeps?
 
-`python -m experiments.energy`
-
 An undamped string swings for a long time: its energy should stay. A string that nothing holds and nothing pulls at
 should keep its momentum and its angular momentum.
 """
@@ -331,8 +329,3 @@ EXPERIMENT = Experiment(
     slides="7-11, 14-15",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,5 @@
 """What do the lecture's listings do, run as they are printed?
 
-`python -m experiments.errata`
-
 The lecture teaches the right things, and most of its listings do what it says. Where one does not, a student who types
 it in deserves to know. Each remark here is executed, and carries the number that shows it.
 """
@@ -167,8 +165,3 @@ EXPERIMENT = Experiment(
     slides="4, 7-11, 17",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,5 @@
 """Why does a string blow up under Euler, where Heun swings on at the same step?
 
-`python -m experiments.first_order_instability`
-
 The string's fastest swing is along itself: neighbours against one another, far too small and fast to be seen. A scheme
 multiplies it by the same factor at every step. If that is over 1, it is only a matter of time until it is seen.
 """
@@ -201,8 +199,3 @@ EXPERIMENT = Experiment(
     slides="15",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,5 @@
 """What do ground that shakes and a truck that crosses do to a bridge?
 
-`python -m experiments.ground_motion`
-
 Seen from the ground a shaken bridge feels gravity g - a(t). What it should do is predicted by the linear bridge,
 M u'' + C u' + K u = -M a(t) (Chopra, *Dynamics of Structures*), solved by the matrix exponential from one sample of the
 sweep to the next, and not by any scheme. It sways most some time after the sweep has passed its natural frequency,
@@ -282,8 +280,3 @@ EXPERIMENT = Experiment(
     slides="28-29",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,5 @@
 """How does a string swing with less damping?
 
-`python -m experiments.less_damping`
-
 The true motion, whose energy only the drag takes: dE/dt = -2 (Cd/m) T, with T the kinetic energy. A small swing has
 half of its energy in motion on average, so that it should decay as exp(-t Cd/m). The string's first are not small.
 """
@@ -124,8 +122,3 @@ EXPERIMENT = Experiment(
     slides="13-14",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

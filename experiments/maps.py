@@ -1,7 +1,4 @@
-"""Where in a plane of two parameters do pushes grow, and is that where theory says?
-
-`python -m experiments.maps`
-"""
+"""Where in a plane of two parameters do pushes grow, and is that where theory says?"""
 
 from __future__ import annotations
 
@@ -11,19 +8,19 @@ from functools import partial
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs.map_axes import axes_for, system_maker
 from experiments.runs.side_by_side import Progress
 from experiments.runs.steppers import all_steppers
 from experiments.stability_map import StabilityMap, stability_map
 from reference.errors import InputError
 from reference.state import Array
-from report.commands.map_arguments import axes_for, system_maker
 
 #: Stepper, masses of the string, second axis beside dt and its range, points along each axis (`stability --map` itself
 #: takes more).
 MAPS = (
-    ("heun", 20, "drag", ("drag=0:1",), 128),
-    ("rk4", 20, "damping", ("damping=0:1",), 128),
-    ("pymunk_springs", 6, "damping", ("damping=0.02:1",), 12),
+    ("heun", 20, "drag", (0.0, 1.0), 128),
+    ("rk4", 20, "damping", (0.0, 1.0), 128),
+    ("pymunk_springs", 6, "damping", (0.02, 1.0), 12),
 )
 
 #: Growth in a step from which on a point counts as unstable; between its negative and it, as on the border.
@@ -41,10 +38,10 @@ def run(progress: Progress, finer: int = 1) -> Result:
         finer: how many times the points along each axis.
     """
     maps, failures = [], []
-    for name, masses, other, ranges, resolution in MAPS:
+    for name, masses, other, span, resolution in MAPS:
         progress(name)
         system_at, dt = system_maker("string", {"masses": str(masses)})
-        x, y = axes_for(("dt", other), ranges, system_at({}))
+        x, y = axes_for(("dt", other), {other: span}, system_at({}))
         try:
             maps.append(stability_map(all_steppers()[name], system_at, dt, x, y, progress, finer * resolution))
         except InputError as error:
@@ -96,8 +93,3 @@ EXPERIMENT = Experiment(
     run=run,
     run_in_full=partial(run, finer=FINER),
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,4 @@
-"""What would a sweep of a million runs take, on few cores and on many, and what would become its bottleneck?
-
-`python -m experiments.million_runs`
-"""
+"""What would a sweep of a million runs take, on few cores and on many, and what would become its bottleneck?"""
 
 from __future__ import annotations
 
@@ -220,8 +217,3 @@ EXPERIMENT = Experiment(
     in_report=False,
     timed=True,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

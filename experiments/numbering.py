@@ -1,7 +1,5 @@
 """Does it matter how masses and springs are numbered?
 
-`python -m experiments.numbering`
-
 Numbers are names, not physics: under other names a string moves as before. A stepper that says otherwise goes through
 masses or springs one after the other, and looks at what it has already changed.
 """
@@ -266,8 +264,3 @@ EXPERIMENT = Experiment(
     slides="7-11",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

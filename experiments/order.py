@@ -1,7 +1,5 @@
 """How fast does each stepper's error fall with dt?
 
-`python -m experiments.order`
-
 A method of order p has an error of C dt^p once dt is small: a straight line of slope p where both axes are logarithmic.
 """
 
@@ -277,8 +275,3 @@ EXPERIMENT = Experiment(
     slides="6-11",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,4 @@
-"""Which scenes does every engine take, and what is each engine there?
-
-`python -m experiments.scenes`
-"""
+"""Which scenes does every engine take, and what is each engine there?"""
 
 from __future__ import annotations
 
@@ -199,8 +196,3 @@ EXPERIMENT = Experiment(
     slides="2-29",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

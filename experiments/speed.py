@@ -1,7 +1,4 @@
-"""How fast are the kernels, as a ratio to tuned C on the same mesh in the same run?
-
-`python -m experiments.speed`
-"""
+"""How fast are the kernels, as a ratio to tuned C on the same mesh in the same run?"""
 
 from __future__ import annotations
 
@@ -229,8 +226,3 @@ EXPERIMENT = Experiment(
     in_report=False,
     timed=True,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

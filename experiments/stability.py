@@ -1,7 +1,4 @@
-"""Up to which dt is each stepper stable, predicted and measured?
-
-`python -m experiments.stability`
-"""
+"""Up to which dt is each stepper stable, predicted and measured?"""
 
 from __future__ import annotations
 
@@ -285,8 +282,3 @@ EXPERIMENT = Experiment(
     slides="15",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -1,7 +1,4 @@
-"""What does a string become as it gets stiffer?
-
-`python -m experiments.stiff_limit`
-"""
+"""What does a string become as it gets stiffer?"""
 
 from __future__ import annotations
 
@@ -72,8 +69,3 @@ EXPERIMENT = Experiment(
     slides="3-5, 27",
     run=run,
 )
-
-if __name__ == "__main__":
-    from report.commands.terminal import main
-
-    main(EXPERIMENT)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import ast
 import re
 import shutil
 import subprocess
 import sys
 import tomllib
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -18,11 +16,9 @@ from experiments.experiment import experiments
 from reference.lecture.listings import listings
 from reference.scenes import scenes
 from reference.schemes.catalogue import schemes
+from tests.import_graph import ROOMS, circles, import_graph, modules, modules_imported, modules_named
 
 ROOT = Path(__file__).parents[1]
-
-#: Each room, and what it may import of the rooms: itself and those behind it.
-ROOMS = ("reference", "engines", "experiments", "report")
 
 #: Of the reference, the files that must work in a bare environment.
 BARE_REFERENCE = (
@@ -54,22 +50,6 @@ BARE = [file if file.exists() else file.with_suffix("") / "__init__.py" for file
 BARE += sorted((ROOT / "engines").rglob("*.py"))
 
 
-def modules_imported(source: str, everywhere: bool) -> Iterator[str]:
-    """The modules a source text imports: everywhere, or only when it is imported itself."""
-    waiting: list[ast.AST] = [ast.parse(source)]
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, ast.Import):
-            yield from (name.name for name in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, "imports are written out in full"
-            yield from (f"{node.module}.{name.name}" for name in node.names)
-        typing_only = isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
-        later = isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
-        if everywhere or not (typing_only or later):
-            waiting += ast.iter_child_nodes(node)
-
-
 def check_direction(room: str, source: str) -> None:
     """A file of a room imports no room in front of it."""
     allowed = ROOMS[: ROOMS.index(room) + 1]
@@ -77,6 +57,14 @@ def check_direction(room: str, source: str) -> None:
         top = module.split(".")[0]
         assert top not in ROOMS or top in allowed, f"{room} imports {module}"
         assert top != "tests", f"{room} imports the tests"
+
+
+def check_named(module: str, source: str) -> None:
+    """A file's strings name modules of its own room only; commands are named by their entry point only."""
+    for named in modules_named(source, modules()):
+        assert named.split(".")[0] == module.split(".")[0], f"a string in {module} names {named}"
+        commands = f"{named}.".startswith("report.commands.")
+        assert not commands or module == "report.commands.main", f"a string in {module} names {named}"
 
 
 def check_bare(source: str) -> None:
@@ -93,6 +81,43 @@ def test_imports_point_one_way(room: str) -> None:
     assert files
     for file in files:
         check_direction(room, file.read_text(encoding="utf-8"))
+
+
+def test_there_is_no_circle_of_imports() -> None:
+    """Neither at the top of files, nor in functions, nor for types alone."""
+    assert circles(import_graph({name: file.read_text(encoding="utf-8") for name, file in modules().items()})) == []
+
+
+def test_a_circle_is_caught_wherever_the_import_stands() -> None:
+    """Shown to fail: of two and of three modules, in a function, for types alone; and without one all is well."""
+    at_top, in_function = "from b import x", "def f():\n    import a"
+    for_types = "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    from a import X"
+    for back in (in_function, for_types, "import a"):
+        assert circles(import_graph({"a": at_top, "b": back, "c": "import a"})) == [{"a", "b"}]
+        assert circles(import_graph({"a": at_top, "b": "import c.d", "c.d": back})) == [{"a", "b", "c.d"}]
+    assert circles(import_graph({"a": "import a"})) == [{"a"}]
+    assert circles(import_graph({"a": "import b, c", "b": "import c", "c": "import numpy"})) == []
+
+
+@pytest.mark.parametrize("room", ROOMS)
+def test_strings_name_no_module_of_another_room(room: str) -> None:
+    """What is imported by a name in a string keeps to the direction of imports, too."""
+    for name, file in modules().items():
+        if name.split(".")[0] == room:
+            check_named(name, file.read_text(encoding="utf-8"))
+
+
+def test_a_module_of_another_room_in_a_string_is_caught() -> None:
+    """Shown to fail, as a whole string, as its part, in an f-string; docstrings and other words are free."""
+    for wrong in ('x = "report.page.page"', 'x = ["-m", "report.commands.main:main"]', 'x = f"report.figures.{y}"'):
+        with pytest.raises(AssertionError):
+            check_named("experiments.maps", wrong)
+    with pytest.raises(AssertionError):
+        check_named("report.page.page", 'x = f"report.commands.{y}"')
+    check_named("report.commands.main", 'x = f"report.commands.{y}"')
+    check_named(
+        "experiments.maps", '"""See report.page.page."""\nx = "report.html", "the report. figures", "experiments.maps"'
+    )
 
 
 @pytest.mark.parametrize("file", BARE, ids=lambda file: str(file.relative_to(ROOT)))

@@ -16,10 +16,10 @@ from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT, EngineStepper, r
 from experiments.runs.task import Job
 from reference.changes import Change, whole_steps
 from reference.errors import InputError
+from reference.files.setup import setup_for
 from reference.outcome import Outcome
 from reference.stepper import Stepper
 from reference.system import MassSpringSystem
-from report.commands.arguments import setup_for
 
 
 @dataclass(frozen=True)

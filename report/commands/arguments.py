@@ -1,18 +1,15 @@
-"""What the command line's words mean: KEY=VALUE, T:KEY=VALUE, a scene's name or file."""
+"""What the words of options mean: KEY=VALUE, T:KEY=VALUE, KEY=LOW:HIGH."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import replace
-from pathlib import Path
+from collections.abc import Iterable
 
 from reference.changes import Change
 from reference.errors import InputError
-from reference.scenes import Setup, find
 
 
 def parse_settings(words: Iterable[str]) -> dict[str, str]:
-    """KEY=VALUE as a dictionary."""
+    """KEY=VALUE as a dictionary. Raises InputError for a word of another form."""
     settings = {}
     for word in words:
         key, equals, value = word.partition("=")
@@ -23,7 +20,11 @@ def parse_settings(words: Iterable[str]) -> dict[str, str]:
 
 
 def parse_changes(words: Iterable[str]) -> tuple[Change, ...]:
-    """T:KEY=VALUE as changes on the fly; VALUE is one number, or one for each mass, spring or axis."""
+    """T:KEY=VALUE as changes on the fly; VALUE is one number, or one for each mass, spring or axis.
+
+    Raises:
+        InputError: for a word of another form.
+    """
     changes = []
     for word in words:
         time, _, setting = word.partition(":")
@@ -36,25 +37,14 @@ def parse_changes(words: Iterable[str]) -> tuple[Change, ...]:
     return tuple(changes)
 
 
-def setup_for(
-    scene: str,
-    dt: float | None = None,
-    duration: float | None = None,
-    settings: Mapping[str, str] | None = None,
-    changes: tuple[Change, ...] = (),
-) -> Setup:
-    """The setup of a scene, by name or TOML file, with dt, duration, parameters and changes of one's own.
-
-    Raises:
-        InputError: for anything that makes no sense; changes are tried out on the system here, not midway in a run.
-    """
-    path = Path(scene)
-    if path.suffix == ".toml" or path.is_file():
-        from reference.files.scene_file import load
-
-        setup = load(path, settings or {}, dt, duration)
-    else:
-        setup = find(scene).setup(settings or {}, dt, duration)
-    setup = replace(setup, changes=(*setup.changes, *changes))
-    setup.check()
-    return setup
+def parse_ranges(words: Iterable[str]) -> dict[str, tuple[float, float]]:
+    """KEY=LOW:HIGH as a dictionary of pairs. Raises InputError for a word of another form."""
+    ranges = {}
+    for word in words:
+        name, _, values = word.partition("=")
+        low, _, high = values.partition(":")
+        try:
+            ranges[name] = float(low), float(high)
+        except ValueError:
+            raise InputError(f"--range {word!r}: expected KEY=LOW:HIGH with two numbers") from None
+    return ranges

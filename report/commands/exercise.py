@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from report.commands.options import json_option
 from report.commands.terminal import plain, progress, show_table
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ def exercise_command() -> None:
 
 
 @exercise_command.command("list")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 def list_command(as_json: bool) -> None:
     """All exercises, with minutes and learning goals."""
     from experiments.exercises.exercise import exercises
@@ -75,7 +76,7 @@ def start_command(exercise: str, folder: Path | None, seed: str, key: str | None
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Submissions at once; as many as there are cores.")
 @click.option("--plot/--no-plot", default=True, help="Draw where a file departs, beside it.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 def check_command(
     files: tuple[Path, ...],
     exercise: str | None,

@@ -1,6 +1,6 @@
-"""The command line `springlab`: which commands there are, and where each one lives.
+"""The command line `springlab`: which commands there are, each in a file of its name.
 
-Commands are imported when they are called, so that `springlab --help` answers at once.
+They are imported when they are called, so that `springlab --help` answers at once.
 """
 
 from __future__ import annotations
@@ -15,25 +15,19 @@ import click
 #: twice the time. NumPy asks for it when it is imported, here and in every process that is started.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-#: Command, its module and function, and what `--help` says of it without importing it.
+#: Command, and what `--help` says of it without importing it. It is the function NAME_command of the module NAME.
 COMMANDS = {
-    "list": ("report.commands.identify:show_list", "Scenes, schemes, engines and experiments."),
-    "compare": (
-        "report.commands.compare:compare_command",
-        "Run many steppers on one scene: how far from the truth, and why.",
-    ),
-    "identify": ("report.commands.identify:identify_command", "Say which scheme a stepper is."),
-    "stability": ("report.commands.report:stability_command", "Predict and measure the largest stable dt; map growth."),
-    "live": ("report.commands.live:live_command", "Open a page where scenes run and everything can be changed."),
-    "sweep": ("report.commands.sweep:sweep_command", "Run steppers over a grid of parameters; nothing is lost."),
-    "results": ("report.commands.sweep:results_command", "Show or export what is in the store."),
-    "versions": (
-        "report.commands.versions:versions_command",
-        "Say what versions of an engine do, and what each changed.",
-    ),
-    "run": ("report.commands.report:run_command", "Run experiments, and write their figures and tables."),
-    "exercise": ("report.commands.exercise:exercise_command", "Exercises, and a checker that names the mistake."),
-    "report": ("report.commands.report:report_command", "Write the report: every experiment on one page."),
+    "list": "Scenes, schemes, engines and experiments.",
+    "compare": "Run many steppers on one scene: how far from the truth, and why.",
+    "identify": "Say which scheme a stepper is.",
+    "stability": "Predict and measure the largest stable dt; map growth.",
+    "live": "Open a page where scenes run and everything can be changed.",
+    "sweep": "Run steppers over a grid of parameters; nothing is lost.",
+    "results": "Show or export what is in the store.",
+    "versions": "Say what versions of an engine do, and what each changed.",
+    "run": "Run experiments, and write their figures and tables.",
+    "exercise": "Exercises, and a checker that names the mistake.",
+    "report": "Write the report: every experiment on one page.",
 }
 
 
@@ -48,8 +42,8 @@ class LazyGroup(click.Group):
         """The command, imported now; None for an unknown one."""
         if cmd_name not in COMMANDS:
             return None
-        module, function = COMMANDS[cmd_name][0].split(":")
-        command: click.Command = getattr(importlib.import_module(module), function)
+        module = importlib.import_module(f"report.commands.{cmd_name}")
+        command: click.Command = getattr(module, f"{cmd_name}_command")
         return command
 
     def resolve_command(
@@ -65,7 +59,7 @@ class LazyGroup(click.Group):
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The commands with their one line each, from the table."""
         with formatter.section("Commands"):
-            formatter.write_dl([(name, text) for name, (_, text) in COMMANDS.items()])
+            formatter.write_dl(list(COMMANDS.items()))
 
 
 @click.group(cls=LazyGroup, context_settings={"help_option_names": ["-h", "--help"]})

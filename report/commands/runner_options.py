@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
+from report.commands.options import Command
 from report.commands.terminal import RESULTS
 
 if TYPE_CHECKING:  # this imports NumPy: `springlab --help` does without
@@ -22,7 +23,7 @@ STORE = RESULTS / "store.sqlite"
 INTERRUPTED = 130
 
 
-def store_option(command: Callable[..., Any]) -> Callable[..., Any]:
+def store_option(command: Command) -> Command:
     """Add --store."""
     file = click.Path(path_type=Path, dir_okay=False)
     text = "Where results are kept."
@@ -30,13 +31,13 @@ def store_option(command: Callable[..., Any]) -> Callable[..., Any]:
     return add(command)
 
 
-def resume_option(command: Callable[..., Any]) -> Callable[..., Any]:
+def resume_option(command: Command) -> Command:
     """Add --resume/--fresh."""
     text = "Go on from what is in the store (as it does by itself), or start over; nothing is deleted."
     return click.option("--resume/--fresh", default=True, help=text)(command)
 
 
-def runner_options(command: Callable[..., Any]) -> Callable[..., Any]:
+def runner_options(command: Command) -> Command:
     """Add --resume/--fresh, --store, --jobs and --cluster."""
     jobs = click.option("--jobs", type=click.IntRange(min=1), help="Runs at once; as many as there are cores.")
     cluster = click.option("--cluster", metavar="tcp://HOST:PORT", help="Run on the workers of a Dask scheduler.")

@@ -89,20 +89,6 @@ def show_result(experiment: Experiment, result: Result) -> None:
         console.print(f"[yellow]not done:[/yellow] {failure}")
 
 
-def main(experiment: Experiment) -> None:
-    """Run one experiment as a script: show it, and write its tables to results/NAME."""
-    from experiments.experiment import write_tables
-
-    def script() -> None:
-        with progress(experiment.name) as tell:
-            result = experiment.run(tell)
-        show_result(experiment, result)
-        for file in write_tables(result, RESULTS / experiment.name):
-            print(f"written: {file}")
-
-    sys.exit(in_one_line(script))
-
-
 def in_one_line(command: Callable[[], object]) -> int:
     """Run a command; what is wrong with its input is one line on standard error and exit code 2."""
     try:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from reference.errors import InputError
+from report.commands.options import json_option, out_option
 from report.commands.terminal import RESULTS, progress, show_table
 
 if TYPE_CHECKING:
@@ -25,10 +26,8 @@ if TYPE_CHECKING:
 @click.option("--all", "all_kept", is_flag=True, help="All versions in the baseline.")
 @click.option("--check", is_flag=True, help="Compare with the baseline; exit code 1, with the differences, if any.")
 @click.option("--update-baseline", "update", is_flag=True, help="Write the baseline that the project keeps.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
-@click.option(
-    "--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "versions", show_default=True
-)
+@json_option
+@out_option(RESULTS / "versions")
 def versions_command(
     engine: str | None,
     versions: tuple[str, ...],

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 
 from reference.changes import Change
 from reference.errors import InputError
+from reference.files.setup import is_file, setup_for
 from reference.obstacles import Circle, Obstacle, Sphere
 from reference.scenes import find, scenes
 from reference.system import MassSpringSystem
@@ -70,8 +70,6 @@ def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bo
     Raises:
         InputError: for what makes no sense, and for systems too large to watch.
     """
-    from report.commands.arguments import setup_for
-
     settings = settings or {}
     setup = setup_for(name, settings=settings)
     if setup.changes:
@@ -97,14 +95,14 @@ def in_the_way(system: MassSpringSystem) -> Obstacle:
 
 def counts(name: str) -> Mapping[str, int]:
     """The scene's parameters that are counts (of masses, rows, panels), with their defaults; none of a file's."""
-    if Path(name).suffix == ".toml" or Path(name).is_file():
+    if is_file(name):
         return {}
     return {key: value for key, value in find(name).parameters.items() if type(value) is int and value > 0}
 
 
 def words(name: str) -> Mapping[str, tuple[str, ...]]:
     """The scene's parameters that are a word, with the words there are, the default first; none of a file's."""
-    if Path(name).suffix == ".toml" or Path(name).is_file():
+    if is_file(name):
         return {}
     scene = find(name)
     return {

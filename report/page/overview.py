@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from reference.stepper import catalogued
-from report.page.sections import Section
+from report.page.section import Section
 
 #: Units of length, the largest first [m].
 UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15}

@@ -13,7 +13,7 @@ from report.page import overview
 from report.page.engine_cards import Package, packages
 from report.page.inline_svg import dark_colours, inline
 from report.page.overview import Explained, explained
-from report.page.sections import Section
+from report.page.section import Section
 
 #: So many findings are shown, and a table of so many rows is open; more is folded.
 FINDINGS, ROWS = 2, 12

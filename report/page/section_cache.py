@@ -1,4 +1,4 @@
-"""Sections kept in the store, and shown again while nothing has changed that decides them."""
+"""The section cache: sections kept in the store, and shown again while nothing has changed that decides them."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from experiments.experiment import Experiment, Result, Table
 from experiments.runs.environment import environment, processor
 from experiments.runs.store import Store
 from experiments.runs.task import Job, digest
-from report.page.sections import Section
+from report.page.section import Section
 
 PROJECT = Path(__file__).parents[2]
 
-#: What is computed and drawn with: folders whole, and what figures take from this room.
-ROOMS = ("reference", "engines", "experiments", "report/figures")
-DRAWING = ("animations", "backdrop", "drawing", "film", "kept", "sections", "sheet", "view")
+#: What is computed and drawn with: folders with all they hold, and the files that make sections of results.
+FOLDERS = ("reference", "engines", "experiments", "report/figures", "report/film")
+FILES = ("report/page/section.py", "report/page/section_cache.py", "report/page/sections.py")
 
 
-def kept(experiment: Experiment, full: bool, store: Store, folder: Path) -> Section | None:
+def cached_section(experiment: Experiment, full: bool, store: Store, folder: Path) -> Section | None:
     """The section as it was made before, its files written anew into a folder of its own; None where it is to be made.
 
     Raises:
         OSError, StoreError: where the files cannot be written or the store not be read.
     """
-    job = job_of(experiment, full)
-    found = None if job is None else store.find(job)
+    task = task_of(experiment, full)
+    found = None if task is None else store.find(task)
     if found is None:
         return None
     section = from_document(experiment, found.answer)
@@ -43,21 +43,28 @@ def kept(experiment: Experiment, full: bool, store: Store, folder: Path) -> Sect
     return section
 
 
-def keep(section: Section, full: bool, store: Store, seconds: float) -> Section:
-    """Keep a section that came to its end, in the place of what was kept; and the section as it will be shown again."""
-    job = job_of(section.experiment, full)
-    if job is None or section.result is None:
+def cache_section(section: Section, full: bool, store: Store, seconds: float) -> Section:
+    """Keep a section that came to its end, in place of what the cache had; the section as it will be shown again.
+
+    Args:
+        seconds: how long it took to make [s].
+
+    Raises:
+        StoreError: where the store cannot be written.
+    """
+    task = task_of(section.experiment, full)
+    if task is None or section.result is None:
         return section
-    store.retire([job.key])
+    store.retire([task.key])
     try:
-        store.keep(job, document(section), seconds)
+        store.keep(task, document(section), seconds)
     except TypeError:  # something in a table that the store cannot hold
         return section
-    found = store.find(job)
+    found = store.find(task)
     return section if found is None else from_document(section.experiment, found.answer)
 
 
-def job_of(experiment: Experiment, full: bool) -> Job | None:
+def task_of(experiment: Experiment, full: bool) -> Job | None:
     """What the store knows a section by; None where its experiment's function cannot be told from others."""
     run = (experiment.run_in_full if full else None) or experiment.run
     name = name_of(run)
@@ -83,11 +90,14 @@ def name_of(run: Callable[..., Any]) -> str | None:
 @cache
 def sources() -> str:
     """The digest of all files that decide what a section says."""
-    folders = [PROJECT / room for room in ROOMS]
-    files = [file for folder in folders for file in sorted(folder.rglob("*")) if file.is_file()]
-    files += [PROJECT / "report" / f"{name}.py" for name in DRAWING]
-    written = [file for file in files if "__pycache__" not in file.parts]
-    return digest([(str(file.relative_to(PROJECT)), file.read_bytes()) for file in written])
+    return digest([(str(file.relative_to(PROJECT)), file.read_bytes()) for file in source_files()])
+
+
+def source_files() -> list[Path]:
+    """All files that decide what a section says."""
+    files = [file for folder in FOLDERS for file in sorted((PROJECT / folder).rglob("*")) if file.is_file()]
+    files += [PROJECT / file for file in FILES]
+    return [file for file in files if "__pycache__" not in file.parts]
 
 
 @cache
@@ -117,7 +127,7 @@ def document(section: Section) -> dict[str, Any]:
 
 
 def from_document(experiment: Experiment, told: Mapping[str, Any]) -> Section:
-    """The section that was kept."""
+    """The section that was kept as a document."""
     tables = [Table(table["name"], table["columns"], table["rows"]) for table in told["tables"]]
     result = Result(told["findings"], tables, {}, told["failures"])
     downloads = [(name, link) for name, link in told["downloads"]]

@@ -4,54 +4,27 @@ from __future__ import annotations
 
 import base64
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import as_completed
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from time import perf_counter
 
 from engines.process.isolation import isolated
 from experiments.advice.own_scene import experiments_of
-from experiments.experiment import Experiment, Result, find, write_tables
+from experiments.experiment import Experiment, find, write_tables
 from experiments.runs.runner import LocalCrew, Runner, current, using
 from experiments.runs.side_by_side import Progress
 from experiments.runs.store import Store, StoreError
 from reference.scenes import Setup
 from report.figures import animate, draw
+from report.page.section import Section
+from report.page.section_cache import cache_section, cached_section
 
 #: An experiment may take so long [s], and its process so much memory [bytes].
 TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
-
-
-@dataclass(frozen=True)
-class Section:
-    """One experiment on the page: its answer, or why there is none.
-
-    Attributes:
-        full: whether it was run in full.
-        made_by: its command, where that is not the experiment's own.
-        motions: its animations, as HTML.
-    """
-
-    experiment: Experiment
-    result: Result | None = None
-    svg: str = ""
-    alt: str = ""
-    downloads: Sequence[tuple[str, str]] = ()
-    failure: str = ""
-    full: bool = False
-    made_by: str = ""
-    motions: str = ""
-
-    @property
-    def command(self) -> str:
-        """What makes its figure and tables."""
-        if self.made_by:
-            return self.made_by
-        name = self.experiment.name
-        return f"springlab report --only {name} --full" if self.full else f"springlab run {name}"
 
 
 def section(experiment: Experiment, folder: Path, progress: Progress) -> Section:
@@ -70,9 +43,8 @@ def section(experiment: Experiment, folder: Path, progress: Progress) -> Section
         raise
     except Exception as error:
         return Section(experiment, failure=f"{type(error).__name__}: {error}")
-    return Section(
-        experiment, result, svg, picture.alt, [(file.name, embedded(file)) for file in files], motions=motions
-    )
+    downloads = [(file.name, embedded(file)) for file in files]
+    return Section(experiment, result, svg, picture.alt, downloads, motions=motions)
 
 
 def all_sections(
@@ -85,40 +57,61 @@ def all_sections(
 ) -> list[Section]:
     """A section for every experiment, in their order, each with a folder of its own.
 
-    What is kept of before, with nothing changed since, is shown again. The others run beside one another, each in
-    a process of its own; those that measure times run alone, at the end.
+    What is kept of before, with nothing changed since, is shown again. The others run in parallel, each in a process of
+    its own; those that measure times run alone, at the end.
 
     Args:
+        folder: where figures and tables go.
+        store: the file where results are kept.
+        fresh: whether to run again what has been kept.
         full: whether those that can are to be run in full.
     """
-    from report.page.section_cache import keep, kept
-
-    shelf = current().store
-    done: dict[str, Section] = {}
-    for experiment in [] if fresh else experiments:
-        again = None if shelf is None else kept(experiment, full, shelf, folder)
-        if again is not None:
-            done[experiment.name] = again
-    missing = [experiment for experiment in experiments if experiment.name not in done]
-    crowd = [experiment for experiment in missing if not experiment.timed]
-    alone = [experiment for experiment in missing if experiment.timed]
+    done = {} if fresh else _cached(experiments, full, folder)
     progress(f"{len(done)} of {len(experiments)} done")
-    for group, workers in ((crowd, os.cpu_count()), (alone, 1)):
-        with current().threads(workers) as pool:
-            made = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
-            begin = perf_counter()
-            running = {pool.submit(made, experiment): experiment for experiment in group}
-            for future in as_completed(running):
-                came = future.result()
-                seconds = perf_counter() - begin
-                done[running[future].name] = came if shelf is None else keep(came, full, shelf, seconds)
-                left = [experiment.name for experiment in running.values() if experiment.name not in done]
-                progress(f"{len(done)} of {len(experiments)} done; next: {', '.join(left)}")
+    missing = [experiment for experiment in experiments if experiment.name not in done]
+    parallel = [experiment for experiment in missing if not experiment.timed]
+    alone = [experiment for experiment in missing if experiment.timed]
+    make = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
+
+    def when_made(made: Section, seconds: float) -> None:
+        cache = current().store
+        done[made.experiment.name] = made if cache is None else cache_section(made, full, cache, seconds)
+        left = [experiment.name for experiment in missing if experiment.name not in done]
+        progress(f"{len(done)} of {len(experiments)} done; next: {', '.join(left)}")
+
+    _make_each(parallel, os.cpu_count(), make, when_made)
+    _make_each(alone, 1, make, when_made)
     return [done[experiment.name] for experiment in experiments]
 
 
+def _cached(experiments: Sequence[Experiment], full: bool, folder: Path) -> dict[str, Section]:
+    """What the present runner's store has of them, by name."""
+    store = current().store
+    if store is None:
+        return {}
+    found = {experiment.name: cached_section(experiment, full, store, folder) for experiment in experiments}
+    return {name: section for name, section in found.items() if section is not None}
+
+
+def _make_each(
+    experiments: Sequence[Experiment],
+    workers: int | None,
+    make: Callable[[Experiment], Section],
+    when_made: Callable[[Section, float], None],
+) -> None:
+    """Make sections in a number of threads; `when_made` is told of each, and after how many seconds."""
+    with current().threads(workers) as pool:
+        begin = perf_counter()
+        for future in as_completed([pool.submit(make, experiment) for experiment in experiments]):
+            when_made(future.result(), perf_counter() - begin)
+
+
 def scene_sections(setup: Setup, command: str, folder: Path, progress: Progress) -> list[Section]:
-    """A section for every question to somebody's scene, each with a folder of its own."""
+    """A section for every question to a user's own scene, each with a folder of its own.
+
+    Args:
+        command: what makes the page they stand on.
+    """
     made = []
     for experiment in experiments_of(setup):
         progress(experiment.title)
@@ -136,11 +129,12 @@ def _isolated_section(experiment: Experiment, folder: Path, store: Path, fresh: 
 
 def section_by_name(name: str, folder: Path, store: Path, fresh: bool, full: bool) -> Section:
     """As `section`, with what travels between processes: the page needs no more of a result than its words."""
-    with closing(Store(store)) as kept, using(Runner(LocalCrew(), kept, fresh)):
+    with closing(Store(store)) as opened, using(Runner(LocalCrew(), opened, fresh)):
         experiment = find(name)
-        fuller = experiment.run_in_full if full else None
-        asked = replace(experiment, run=fuller) if fuller is not None else experiment
-        made = replace(section(asked, folder, lambda _: None), experiment=experiment, full=fuller is not None)
+        in_full = experiment.run_in_full if full else None
+        asked = experiment if in_full is None else replace(experiment, run=in_full)
+        made = section(asked, folder, lambda _: None)
+        made = replace(made, experiment=experiment, full=in_full is not None)
     return made if made.result is None else replace(made, result=replace(made.result, data={}))
 
 

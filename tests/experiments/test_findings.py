@@ -13,7 +13,7 @@ import pytest
 
 from engines.process.isolation import EngineStepper
 from experiments import divergence, stiff_limit
-from experiments.experiment import NAMES, Experiment, Result, Table, experiments, find, write_tables
+from experiments.experiment import NAMES, Result, Table, experiments, find, write_tables
 from experiments.runs.comparison import Comparison, compare
 from reference.pendulum import PendulumMotion
 from reference.scenes import Setup
@@ -143,30 +143,14 @@ def test_every_experiment_is_a_question_with_a_name(name: str) -> None:
     assert experiment.slides
 
 
-def test_every_experiment_is_a_script(tmp_path: Path) -> None:
-    """`python -m experiments.NAME` hands its experiment to the same main: here to one that prints its name."""
-    program = (
-        "import runpy, sys\n"
-        "import report.commands.terminal as console\n"
-        "console.main = lambda experiment: print(experiment.name)\n"
-        f"for name in {NAMES!r}:\n"
-        "    sys.modules.pop('experiments.' + name, None)\n"
-        "    runpy.run_module('experiments.' + name, run_name='__main__')"
-    )
-    said = python("-c", program, folder=tmp_path)
-    assert (said.code, said.out.split(), said.err) == (0, list(NAMES), "")
-
-
 @pytest.fixture(scope="module")
 def errata(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], float]:
-    """What `python -m experiments.errata` writes into results of its working folder, by slide and measurement."""
+    """What `springlab run errata` writes into results of its working folder, by slide and measurement."""
     folder = tmp_path_factory.mktemp("errata")
-    said = python("-m", "experiments.errata", folder=folder)
+    said = python("-m", "report.commands.main", "run", "errata", folder=folder)
     assert said.code == 0, said.err
-    file = Path("results", "errata", "errata.csv")
-    assert f"written: {file}" in said.out
     assert find("errata").question in " ".join(said.out.split())
-    with (folder / file).open(newline="") as opened:
+    with (folder / "results" / "errata" / "errata.csv").open(newline="") as opened:
         return {(row["slide"], row["measured"]): float(row["value"]) for row in csv.DictReader(opened)}
 
 
@@ -197,17 +181,3 @@ def test_errata_shows_the_barriers_rule_and_the_two_forces(errata: dict[tuple[st
     assert errata["4", "force at rest, repaired"] == pytest.approx(0, abs=1e-12)
     assert errata["9", "acceleration of the top link, hanging at rest"] == pytest.approx(9 * 9.81)
     assert errata["9-10", "acceleration of the top link, repaired"] == pytest.approx(0, abs=1e-10)
-
-
-def test_a_script_that_cannot_write_is_one_clear_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No traceback: `results` is a file here."""
-    from report.commands.terminal import main
-
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "results").write_text("")
-    experiment = Experiment(
-        "small", "Small", "How small?", "1", lambda _: Result(["Small."], [Table("t", ["a"], [[1]])])
-    )
-    with pytest.raises(SystemExit) as ending:
-        main(experiment)
-    assert ending.value.code == 2

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from engines.engine import Engine, demands, registry
 from engines.process.isolation import EngineStepper
+from experiments.runs.map_axes import axes_for, system_maker
 from experiments.stability import CASES, measure_scheme, result_of, stability_rows
 from experiments.stability_map import stability_map
 from reference.errors import InputError
@@ -22,9 +20,7 @@ from reference.stepper import SchemeStepper
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
 from reference.theory.step_map import step_jacobian
-from report.commands.map_arguments import axes_for, system_maker
 from tests import wrong
-from tests.report.commands.terminal import springlab
 
 #: What the issue asks for: predicted and measured within a thousandth of each other.
 TOLERANCE = 1e-3
@@ -122,7 +118,7 @@ def test_findings_are_made_from_the_numbers() -> None:
 def test_a_swept_map_changes_colour_at_the_predicted_boundary() -> None:
     """Growth per step is over 1 % beyond 1.02 of the predicted limit and none below 0.98 of it."""
     system_at, dt = system_maker("string", {"masses": "3"})
-    x, y = axes_for(("dt", "drag"), ["drag=0.05:0.2"], system_at({}))
+    x, y = axes_for(("dt", "drag"), {"drag": (0.05, 0.2)}, system_at({}))
     found = stability_map(SchemeStepper(catalogue.find("rk4")), system_at, dt, x, y)
     limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])[:, None]
     assert (found.growth[found.x_values > 1.02 * limit] > 0.01).all()
@@ -133,54 +129,16 @@ def test_an_engine_has_a_map_too() -> None:
     """Coarser, with the boundary of the scheme it is identified with in the middle of the plane."""
     engine = next(e for e in registry().values() if EngineStepper(e).version and "stretched" in e.capabilities)
     system_at, dt = system_maker("string", {"masses": "3"})
-    x, y = axes_for(("dt", "damping"), ["damping=0.1:0.5"], system_at({}))
+    x, y = axes_for(("dt", "damping"), {"damping": (0.1, 0.5)}, system_at({}))
     found = stability_map(EngineStepper(engine), system_at, dt, x, y, resolution=6)
     limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])[:, None]
     assert not np.isfinite(found.growth[found.x_values > 1.1 * limit]).any()
     assert (found.growth[(found.x_values < 0.9 * limit)] < 3e-3).all()
 
 
-def test_json_rows_have_the_promised_keys(tmp_path: Path) -> None:
-    """`springlab stability --json`."""
-    done = springlab("stability", "string", "--stepper", "heun", "--set", "drag=0.1", "--json", "--out", str(tmp_path))
-    assert done.code == 0
-    (row,) = json.loads(done.out)
-    keys = ["stepper", "damping", "drag", "predicted_dt_s", "measured_dt_s", "relative_difference", "outcome", "reason"]
-    assert list(row) == keys
-    assert (tmp_path / "stability.csv").exists()
-
-
-def test_a_listing_is_a_row_that_says_why_not(tmp_path: Path) -> None:
-    """The lecture's listings are neither schemes nor engines: unsupported, with the reason, and nothing breaks."""
-    words = ("--stepper", "lecture_heun_loops", "--set", "drag=0.1", "--json", "--out", str(tmp_path))
-    done = springlab("stability", "string", *words)
-    assert done.code == 0
-    (row,) = json.loads(done.out)
-    assert row["outcome"] == "unsupported"
-    assert "schemes and engines" in row["reason"]
-
-
-@pytest.mark.parametrize(
-    ("words", "said"),
-    [
-        (["--map", "dt", "dt"], "two different axes"),
-        (["--map", "dt", "dampin"], "did you mean 'damping'"),
-        (["--map", "dt", "drag", "--range", "drag=1"], "KEY=LOW:HIGH"),
-        (["--map", "dt", "drag", "--range", "mass=1:2"], "one of the map's axes"),
-        (["--stepper", "hein"], "did you mean 'heun'"),
-    ],
-)
-def test_bad_words_are_one_line(words: list[str], said: str) -> None:
-    """Exit code 2, and what was expected."""
-    done = springlab("stability", "string", *words)
-    assert done.code == 2
-    assert said in done.err
-    assert done.err.count("\n") == 1
-
-
 def test_a_range_that_falls_is_refused() -> None:
     """Low before high."""
     system_at, dt = system_maker("string", {})
-    x, y = axes_for(("dt", "drag"), ["drag=2:1"], system_at({}))
+    x, y = axes_for(("dt", "drag"), {"drag": (2.0, 1.0)}, system_at({}))
     with pytest.raises(InputError, match="rising"):
         stability_map(SchemeStepper(catalogue.find("rk4")), system_at, dt, x, y)

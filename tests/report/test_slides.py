@@ -11,8 +11,9 @@ import pytest
 from engines.engine import demands, registry
 from experiments.experiment import NAMES
 from experiments.runs.steppers import all_steppers
+from reference.files.setup import setup_for
 from reference.scenes import scenes
-from report.commands.arguments import parse_changes, parse_settings, setup_for
+from report.commands.arguments import parse_changes, parse_settings
 
 SLIDES = Path(__file__).parents[2] / "report" / "docs" / "slides.md"
 COMMANDS = re.findall(r"`springlab ([^`]+)`", SLIDES.read_text(encoding="utf-8"))

@@ -17,8 +17,8 @@ from experiments.runs.store import Store
 from experiments.runs.task import Job
 from reference.errors import InputError
 from reference.outcome import Outcome
+from report.commands.results import SHOWN
 from report.commands.results_table import for_people, heading
-from report.commands.sweep import SHOWN
 from tests.experiments.runs.tasks import STRING, job, stepped
 from tests.report.commands.terminal import Said, springlab
 

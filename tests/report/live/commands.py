@@ -12,8 +12,8 @@ from click.testing import CliRunner
 
 from experiments.runs.steppers import find_steppers
 from reference.changes import whole_steps
+from reference.files.setup import setup_for
 from reference.state import State
-from report.commands.arguments import parse_changes, parse_settings, setup_for
 from report.commands.compare import compare_command
 from report.live.reproduction import Reproduction
 
@@ -32,8 +32,7 @@ def ends_of(line: str, folder: Path) -> Mapping[str, State]:
     with compare_command.make_context("compare", words) as context:
         asked = context.params
     scene = str(folder / asked["scene"]) if asked["scene"].endswith(".toml") else asked["scene"]
-    settings, changes = parse_settings(asked["settings"]), parse_changes(asked["changes"])
-    setup = setup_for(scene, asked["dt"], asked["duration"], settings, changes)
+    setup = setup_for(scene, asked["dt"], asked["duration"], asked["settings"], asked["changes"])
     steps = whole_steps(setup.dt, setup.duration)
     last = {}
     for stepper in find_steppers(asked["names"]):

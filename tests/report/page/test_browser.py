@@ -12,7 +12,8 @@ import pytest
 from experiments.experiment import find, write_tables
 from report.figures import animate, draw
 from report.page.page import page
-from report.page.sections import Section, embedded
+from report.page.section import Section
+from report.page.sections import embedded
 from tests.report.browser import VIEWS, Shown, chromium
 from tests.report.page.canned import RESULTS
 

@@ -6,7 +6,7 @@ import pytest
 
 from experiments.experiment import Result, Table, find
 from report.page.overview import explained, length, sentences
-from report.page.sections import Section
+from report.page.section import Section
 from tests.report.page.canned import engines_that_run, no_engine_installed
 
 COLUMNS = ["stepper", "kind", "outcome", "error [m]", "identified as", "deviation [m]"]

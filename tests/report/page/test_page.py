@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import platform
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from importlib import metadata
 from itertools import pairwise
@@ -13,40 +13,19 @@ from pathlib import Path
 
 import pytest
 
-from experiments.experiment import NAMES, Experiment, Result, find
+from experiments.experiment import NAMES, find
 from experiments.runs.results import rows
-from experiments.runs.store import StoreError
 from report.page.inline_svg import inline
 from tests.report.commands.terminal import Said, springlab
 from tests.report.html import Page, check_self_contained
 from tests.report.page.canned import RESULTS
+from tests.report.page.doubles import answering, failing, put
 
 #: The sections after the experiments'.
 CLOSING = ["engines", "undone", "environment"]
 
 #: The experiments the page is made of here, in the order of the report.
 SHOWN = [name for name in NAMES if name in RESULTS]
-
-
-def answering(name: str, result: Result) -> Experiment:
-    """The experiment of that name, but it has its answer ready."""
-    return replace(find(name), run=lambda _: result)
-
-
-def failing(name: str, error: Exception) -> Experiment:
-    """The experiment of that name, but it raises."""
-
-    def run(_: Callable[[str], None]) -> Result:
-        raise error
-
-    return replace(find(name), run=run)
-
-
-def put(patch: pytest.MonkeyPatch, *instead: Experiment) -> None:
-    """Put experiments in the place of those of their names, and run them here: a new process would not know them."""
-    patch.setattr("report.page.sections.isolated", lambda task, *arguments, **limits: task(*arguments))
-    for experiment in instead:
-        patch.setattr(f"experiments.{experiment.name}.EXPERIMENT", experiment)
 
 
 @dataclass(frozen=True)
@@ -242,27 +221,6 @@ def test_an_experiment_that_raises_is_a_failure_in_its_place(monkeypatch: pytest
     assert "ArithmeticError: mass < 0 & <b>not</b> > 0" in shown.words
     assert len(shown.of("figure")) == 1
     assert find("stiff_limit").question in shown.words
-
-
-def test_run_writes_figure_and_tables_and_goes_on_after_a_failure(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    """`springlab run` of two experiments, one of which raises: one line on that, exit code 1, the other is done."""
-    put(monkeypatch, failing("errata", ArithmeticError("no")))
-    put(monkeypatch, answering("stiff_limit", RESULTS["stiff_limit"]["no engine"]()))
-    said = springlab("run", "errata", "stiff_limit", "--out", str(tmp_path))
-    assert said.code == 1
-    assert said.err == "springlab: errata: ArithmeticError: no\n"
-    assert find("stiff_limit").question in " ".join(said.out.split())
-    assert {file.name for file in (tmp_path / "stiff_limit").iterdir()} == {"stiff_limit.csv", "stiff_limit.svg"}
-
-
-def test_a_store_that_fails_midway_ends_run_with_its_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """It is no failure of the experiment's: exit code 2, and the next experiment is not begun."""
-    put(monkeypatch, failing("errata", StoreError("store s: the disk is full")))
-    put(monkeypatch, answering("stiff_limit", RESULTS["stiff_limit"]["no engine"]()))
-    said = springlab("run", "errata", "stiff_limit", "--out", str(tmp_path))
-    assert (said.code, said.out, said.err) == (2, "", "springlab: store s: the disk is full\n")
 
 
 @pytest.mark.parametrize("command", [("run", "errata"), ("report", "--only", "errata")])

@@ -12,10 +12,10 @@ import pytest
 from experiments.experiment import Result, find
 from experiments.runs.results import rows
 from experiments.runs.side_by_side import Progress
-from report.page import section_cache as kept
+from report.page import section_cache
 from tests.report.commands.terminal import springlab
 from tests.report.page.canned import errata
-from tests.report.page.test_page import put
+from tests.report.page.doubles import put
 
 COUNT: list[str] = []
 
@@ -67,7 +67,7 @@ def test_what_changes_the_answer_runs_it_again(monkeypatch: pytest.MonkeyPatch, 
     """Another source, another version of a package."""
     put(monkeypatch, replace(find("errata"), run=counted))
     report(tmp_path / "page", tmp_path / "store.sqlite")
-    monkeypatch.setattr(kept, what, lambda: "another")
+    monkeypatch.setattr(section_cache, what, lambda: "another")
     report(tmp_path / "page", tmp_path / "store.sqlite")
     assert len(COUNT) == 2
 
@@ -82,9 +82,9 @@ def test_a_failed_section_is_not_kept(monkeypatch: pytest.MonkeyPatch, tmp_path:
 
 def test_a_function_that_has_no_name_of_its_own_is_not_kept() -> None:
     """Another could have the same."""
-    assert kept.name_of(lambda _: errata()) is None
-    assert kept.name_of(counted) is not None
-    assert kept.name_of(counted) != kept.name_of(failing)
+    assert section_cache.name_of(lambda _: errata()) is None
+    assert section_cache.name_of(counted) is not None
+    assert section_cache.name_of(counted) != section_cache.name_of(failing)
     maps = find("maps")
     assert maps.run_in_full is not None
-    assert kept.name_of(maps.run_in_full) != kept.name_of(maps.run)
+    assert section_cache.name_of(maps.run_in_full) != section_cache.name_of(maps.run)

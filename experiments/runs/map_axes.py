@@ -1,15 +1,18 @@
-"""What the axes of a map are, from the command line's words."""
+"""The axes of a map of stability, and the systems at its points."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from experiments.stability_map import Axis, SystemAt
 from reference.errors import InputError, unknown_name
+from reference.files.setup import setup_for
 from reference.system import PARAMETERS, MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import fastest_rate
-from report.commands.arguments import setup_for
+
+#: What an axis can be.
+AXES = ("dt", "masses", *PARAMETERS)
 
 
 def system_maker(scene: str, settings: Mapping[str, str], dt: float | None = None) -> tuple[SystemAt, float]:
@@ -28,33 +31,29 @@ def system_maker(scene: str, settings: Mapping[str, str], dt: float | None = Non
     return system_at, setup.dt
 
 
-def axes_for(names: tuple[str, str], ranges: Sequence[str], system: MassSpringSystem) -> tuple[Axis, Axis]:
-    """The two axes, with the ranges that were given or those that show the limits of most schemes.
+def axes_for(
+    names: tuple[str, str], ranges: Mapping[str, tuple[float, float]], system: MassSpringSystem
+) -> tuple[Axis, Axis]:
+    """The two axes, with the ranges that are given or those that show the limits of most schemes.
+
+    Args:
+        names: two different ones of AXES.
+        ranges: from where to where an axis goes, by its name, in SI units.
+        system: the scene's, which the usual ranges are made for.
 
     Raises:
-        InputError: for an unknown axis, the same one twice, or a range that is none.
+        InputError: for an unknown axis, the same one twice, or the range of another axis.
     """
-    known = ("dt", "masses", *PARAMETERS)
     for name in names:
-        if name not in known:
-            raise unknown_name("map axis", name, known)
+        if name not in AXES:
+            raise unknown_name("map axis", name, AXES)
     if names[0] == names[1]:
         raise InputError(f"--map {names[0]} {names[1]}: expected two different axes")
-    given = dict(_range(word) for word in ranges)
-    for name in given:
+    for name in ranges:
         if name not in names:
             raise InputError(f"--range {name}: expected one of the map's axes, {names[0]} or {names[1]}")
-    x, y = (Axis(name, *(given.get(name) or _usual_range(name, system))) for name in names)
+    x, y = (Axis(name, *(ranges.get(name) or _usual_range(name, system))) for name in names)
     return x, y
-
-
-def _range(word: str) -> tuple[str, tuple[float, float]]:
-    name, _, values = word.partition("=")
-    low, _, high = values.partition(":")
-    try:
-        return name, (float(low), float(high))
-    except ValueError:
-        raise InputError(f"--range {word!r}: expected KEY=LOW:HIGH with two numbers") from None
 
 
 def _usual_range(name: str, system: MassSpringSystem) -> tuple[float, float]:

@@ -1,0 +1,47 @@
+"""What a scene means wherever one is asked for: its name, or a TOML file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from reference.changes import Change
+from reference.scenes import Setup, find
+
+
+def setup_for(
+    scene: str,
+    dt: float | None = None,
+    duration: float | None = None,
+    settings: Mapping[str, str] | None = None,
+    changes: tuple[Change, ...] = (),
+) -> Setup:
+    """The setup of a scene, by name or TOML file, with dt, duration, parameters and changes of one's own.
+
+    Args:
+        scene: a name, or a file's path.
+        dt: the step [s]; the scene's own where left out.
+        duration: how long [s]; the scene's own where left out.
+        settings: parameters of the scene, as text.
+        changes: parameters that change on the fly, besides those the scene changes itself.
+
+    Raises:
+        InputError: for anything that makes no sense; changes are tried out on the system here, not midway in a run.
+    """
+    settings = settings or {}
+    if is_file(scene):
+        from reference.files.scene_file import load
+
+        setup = load(Path(scene), settings, dt, duration)
+    else:
+        setup = find(scene).setup(settings, dt, duration)
+    setup = replace(setup, changes=(*setup.changes, *changes))
+    setup.check()
+    return setup
+
+
+def is_file(scene: str) -> bool:
+    """Whether a scene is meant as a file, and not as a name."""
+    path = Path(scene)
+    return path.suffix == ".toml" or path.is_file()

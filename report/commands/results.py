@@ -1,0 +1,53 @@
+"""The command that shows and exports what is in the store: results."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+
+from report.commands.options import json_option
+from report.commands.runner_options import store_option
+from report.commands.terminal import plain, show_table
+
+#: Rows of results that are shown in the terminal.
+SHOWN = 40
+
+
+@click.command("results")
+@click.argument("filters", nargs=-1, metavar="[COLUMN=VALUE]...")
+@store_option
+@click.option("--csv", "as_csv", is_flag=True, help="Print CSV.")
+@json_option
+@click.option("--all", "retired", is_flag=True, help="Also those that were started over.")
+def results_command(filters: tuple[str, ...], store: Path, as_csv: bool, as_json: bool, retired: bool) -> None:
+    """Show or export what is in the store: all of it, or rows with COLUMN=VALUE (stepper=heun outcome=crashed ...)."""
+    from experiments.runs.results import parse_filters, rows, write_csv
+
+    found = rows(store, parse_filters(filters), retired)
+    if as_json:
+        click.echo(json.dumps(found, indent=2))
+    elif as_csv:
+        write_csv(found, sys.stdout)
+    else:
+        _show(found[-SHOWN:])
+        newest = f"; these are the last {SHOWN}: --csv has all, COLUMN=VALUE picks" if len(found) > SHOWN else ""
+        click.echo(f"{len(found)} runs in {store}{newest}")
+
+
+def _show(rows: Sequence[Mapping[str, Any]]) -> None:
+    """A table of what differs between rows, as wide as the terminal."""
+    from report.commands.results_table import for_people, heading
+
+    columns, same, left_out = for_people(rows, shutil.get_terminal_size((160, 24)).columns)
+    if rows:
+        show_table("", [heading(name) for name in columns], [[row.get(name) for name in columns] for row in rows])
+    if same:
+        click.echo(f"In every row: {', '.join(f'{name}={plain(value)}' for name, value in same.items())}")
+    if left_out:
+        click.echo(f"Left out, as there is no room: {', '.join(left_out)}; --csv has everything.")
