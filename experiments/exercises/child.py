@@ -172,7 +172,7 @@ def main() -> None:
     out = os.dup(1)
     os.dup2(2, 1)
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    walls = importlib.import_module("confine").confine(
+    walls = importlib.import_module("sandbox_layers").confine(
         task["readable"], task["scratch"], task["seconds"], task["memory"]
     )
     sys.path[:] = [path for path in sys.path if path not in task["hidden"]][1:]

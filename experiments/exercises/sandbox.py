@@ -3,7 +3,7 @@
 The process gets the submission's text and the arrays of the questions, works in a folder that has the files which the
 student was given and is removed afterwards, and leaves bytes, in which there is nothing but numbers and words (no
 pickle). This process reads them and judges; it never imports a submission. What stands around the process is in
-`confine`.
+`sandbox_layers`.
 """
 
 from __future__ import annotations
