@@ -1,7 +1,7 @@
-"""What the process of a submission does: build its walls, read the submission, call its functions, hand back arrays.
+"""What the process of a submission does: sandbox itself, read the submission, call its functions, hand back arrays.
 
-Run as a script by an isolated interpreter that finds NumPy and nothing else; `sandbox` starts it. What it tells is
-hearsay, as the submission shares the process: only numbers that the checker can compare make a pass.
+Run as a script by an isolated interpreter that finds NumPy and nothing else; `sandbox` starts it. What it tells
+cannot be trusted, as the submission shares the process: only numbers that the checker can compare make a pass.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-#: Kinds of arrays that are handed over: truths, whole numbers, numbers, words. No objects.
+#: Kinds of arrays that are handed over: booleans, integers, floating-point numbers, words. No objects.
 KINDS = "biufU"
 
 #: What a submission is called where its own lines are named.
@@ -114,11 +114,11 @@ def parts_of(value: Any, parts: Sequence[str]) -> list[Any]:
 
 
 def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
-    """A question's answers: of one call, or of as many as there are steps, each fed with what the last returned."""
+    """A question's answers: of one call, or of one for each step, fed with what the last returned."""
     values: list[list[Any]] = []
     answer: dict[str, Any] = {"values": values}
     first, names = question["arguments"], question["parts"]
-    arguments, kept = list(first), []
+    arguments, returns = list(first), []
     try:
         function = getattr(module, question["function"])
         for _ in range(max(1, question["steps"])):
@@ -127,7 +127,7 @@ def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
             values.append(parts_of(returned, names))
             if any(changed(g, a) for g, a in zip(given, arguments, strict=True)):
                 answer["modified"] = True
-            kept.append((split(returned, names), values[-1]))
+            returns.append((split(returned, names), values[-1]))
             if question["steps"] and not all(map(_fits, values[-1], arguments)):
                 break
             if question["steps"]:
@@ -135,7 +135,7 @@ def ask(module: ModuleType, question: dict[str, Any]) -> dict[str, Any]:
                 arguments = [*fed, *first[len(fed) :]]
         answer["overwritten"] = any(
             isinstance(part, np.ndarray) and changed(part, was)
-            for returned, before in kept[:-1]
+            for returned, before in returns[:-1]
             for part, was in zip(returned, before, strict=True)
         )
         answer["again"] = parts_of(function(*[fresh(a) for a in first]), names)
@@ -172,12 +172,12 @@ def main() -> None:
     out = os.dup(1)
     os.dup2(2, 1)
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    walls = importlib.import_module("confine").confine(
+    layers = importlib.import_module("sandbox_layers").apply(
         task["readable"], task["scratch"], task["seconds"], task["memory"]
     )
     sys.path[:] = [path for path in sys.path if path not in task["hidden"]][1:]
     np.seterr(all="ignore")
-    reply: dict[str, Any] = {"walls": walls, "answers": []}
+    reply: dict[str, Any] = {"layers": layers, "answers": []}
     module = ModuleType("submission")
     module.__file__ = os.path.join(task["scratch"], "submission.py")  # files of the exercise are beside it
     sys.modules["submission"] = module

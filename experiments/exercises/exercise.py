@@ -1,8 +1,9 @@
-"""What an exercise is: texts and questions as data, one small function that solves it, and mistakes as its knobs.
+"""What an exercise is: its texts, its questions, and one small function that solves it, rightly or with a mistake.
 
-The solution of an exercise is a function with knobs (keyword parameters) that are right as they stand. A mistake is
-another setting of some of them; two mistakes that turn different knobs can be made at once. So one function gives the
-right answer and all the wrong ones that the checker knows by name.
+The keyword parameters of a solution have defaults that make it right. A mistake is a change of some of them, and two
+mistakes that change different parameters can be made at once. So one function gives the right answer and all the wrong
+ones that the checker knows by name: if the solution is `step(y, v, dt, spring, clock="dt", gravity=1.0)`, then half a
+step is `{"clock": "half"}`, a weight that points upwards `{"gravity": -1.0}`, and both at once are both changes.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import importlib.util
 import inspect
 import re
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -54,7 +55,7 @@ class Question:
         arguments: arrays, numbers, and dicts of them, which become namespaces.
         parts: what it returns, by name.
         about: what is asked about, in words.
-        steps: 0 for one call; else so many, each with what the last returned in place of its first arguments.
+        steps: 0 for one call; else how many calls, each with what the last returned in place of its first arguments.
         own: what the solution is told beside that, and the student's function is not.
         item: what the first axis of an answer counts.
         units: of the parts.
@@ -83,25 +84,25 @@ class Mistake:
         name: how it is called in tables.
         words: what is wrong, to the student, in a sentence.
         hint: what to look at, without the answer.
-        knobs: how the solution is turned to make it.
+        parameters: those of the solution that it changes, with their values.
         another: whether it is right in itself, and only not what was asked for.
     """
 
     name: str
     words: str
     hint: str
-    knobs: Mapping[str, Any]
+    parameters: Mapping[str, Any]
     another: bool = False
 
 
-def mistake(name: str, words: str, hint: str, **knobs: object) -> Mistake:
-    """A mistake, with the knobs that make it."""
-    return Mistake(name, words, hint, knobs)
+def mistake(name: str, words: str, hint: str, **parameters: object) -> Mistake:
+    """A mistake, with the parameters that it changes."""
+    return Mistake(name, words, hint, parameters)
 
 
 def mistakes(name: str, words: str, hint: str, *ways: Mapping[str, object]) -> tuple[Mistake, ...]:
-    """One mistake that is made in several ways, each with its knobs."""
-    return tuple(Mistake(name, words, hint, knobs) for knobs in ways)
+    """One mistake that is made in several ways, each with the parameters that it changes."""
+    return tuple(Mistake(name, words, hint, parameters) for parameters in ways)
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,14 +113,15 @@ class Exercise:
         title: a few words.
         minutes: how long students take.
         goals: what they learn.
-        solutions: the functions that students write, solved, by name; keyword parameters are knobs.
+        solutions: the functions that students write, solved, by name; mistakes change their keyword parameters.
         questions: makes the questions: from random numbers, for the hidden check or not, for a student's seed.
         mistakes: what the checker knows by name.
-        seeded: whether every student has numbers of their own. keyed: whether these hang on the teacher's key too.
+        seeded: whether every student has numbers of their own. keyed: whether these depend on the teacher's key too.
         files: makes more files for the student to work on, by name, from the student's seed and the teacher's key.
         tolerance: up to which part of the largest number an answer is right, where students type it in.
         canonical: makes answers that mean the same the same, before they are compared.
-        fault: says what is wrong with an answer by looking at it alone: a name, words, a hint; None where nothing is.
+        diagnose: what is wrong with an answer by itself, as the name, words and hint of a finding; None where it may
+            be right.
     """
 
     title: str
@@ -133,7 +135,7 @@ class Exercise:
     files: Callable[[str], Mapping[str, str]] | None = None
     tolerance: float = TOLERANCE
     canonical: Callable[[Question, Any], Any] | None = None
-    fault: Callable[[Question, Any], tuple[str, str, str] | None] | None = None
+    diagnose: Callable[[Question, Any], tuple[str, str, str] | None] | None = None
     folder: Path = Path()
 
     @property
@@ -156,21 +158,26 @@ class Exercise:
         """What students begin with."""
         return (self.folder / "starter.py").read_text(encoding="utf-8")
 
-    def answer(self, question: Question, knobs: Mapping[str, Any] | None = None, steps: int | None = None) -> Answer:
-        """What the solution answers, its knobs turned or not; to the first steps only, if so many are given."""
+    def answer(self, question: Question, parameters: Mapping[str, Any], steps: int | None = None) -> Answer:
+        """What the solution answers, in the form in which answers are compared.
+
+        Args:
+            parameters: those that are changed; a solution takes those that it has.
+            steps: how many steps at most; left out, all that are asked for.
+        """
         solution = self.solutions[question.function]
-        turned = {name: value for name, value in (knobs or {}).items() if _takes(solution, name)}
+        taken = {name: value for name, value in parameters.items() if _takes(solution, name)}
         arguments = list(question.arguments)
         answer: Answer = []
         with np.errstate(all="ignore"):
             for _ in range(max(1, question.steps if steps is None else min(steps, question.steps))):
-                returned = solution(*map(child.fresh, arguments), **question.own, **turned)
+                returned = solution(*map(child.fresh, arguments), **question.own, **taken)
                 parts = [np.asarray(part) for part in (returned if len(question.parts) > 1 else [returned])]
                 answer.append(parts)
                 arguments = [*parts, *question.arguments[len(parts) :]] if question.steps else arguments
-        return answer
+        return self.comparable(question, answer)
 
-    def plain(self, question: Question, answer: Answer) -> Answer:
+    def comparable(self, question: Question, answer: Answer) -> Answer:
         """An answer in the form in which answers are compared."""
         if self.canonical is None:
             return answer
@@ -178,8 +185,8 @@ class Exercise:
 
 
 def _takes(solution: Callable[..., Any], name: str) -> bool:
-    parameters = inspect.signature(solution).parameters
-    return name in parameters or any(p.kind is p.VAR_KEYWORD for p in parameters.values())
+    accepted = inspect.signature(solution).parameters
+    return name in accepted or any(p.kind is p.VAR_KEYWORD for p in accepted.values())
 
 
 @cache
@@ -196,10 +203,20 @@ def _load(folder: Path) -> Exercise:
 
 
 def exercises() -> Mapping[int, Exercise]:
-    """All exercises by number."""
-    found = [p for where in FOLDERS for p in where.iterdir() if FOLDER_NAME.fullmatch(p.name) and p.is_dir()]
-    loaded = [_load(folder) for folder in found]
-    return MappingProxyType({e.number: e for e in sorted(loaded, key=lambda e: e.number)})
+    """All exercises by number. Raises InputError where two folders have the same number or name."""
+    found = [p for where in FOLDERS for p in sorted(where.iterdir()) if FOLDER_NAME.fullmatch(p.name) and p.is_dir()]
+    _refuse_duplicates(found)
+    return MappingProxyType({e.number: e for e in sorted(map(_load, found), key=lambda e: e.number)})
+
+
+def _refuse_duplicates(folders: Iterable[Path]) -> None:
+    """Nothing is overwritten in silence, as in `reference.registry`."""
+    owners: dict[tuple[str, str], Path] = {}
+    for folder in folders:
+        for what, value in (("number", folder.name[1:3]), ("name", folder.name[4:])):
+            owner = owners.setdefault((what, value), folder)
+            if owner != folder:
+                raise InputError(f"{folder}: exercise {what} {value} is taken by {owner}: expected another {what}")
 
 
 def find(word: str) -> Exercise:

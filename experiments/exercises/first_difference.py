@@ -1,4 +1,4 @@
-"""Where an answer first departs from the right one."""
+"""The first number of an answer that is not the right one."""
 
 from __future__ import annotations
 
@@ -8,19 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.answer_catalogue import Catalogue, part_distance
+from experiments.exercises.answer_catalogue import AnswerCatalogue
+from experiments.exercises.answer_distance import part_distance
 from experiments.exercises.exercise import Answer, Question
 from reference.state import Array
 
 
 @dataclass(frozen=True)
-class Departure:
-    """The first number that is not the right one.
+class FirstDifference:
+    """One number beside the right one.
 
     Attributes:
         about: the question, in words.
         step: from 1 on, or 0 where the question has no steps.
-        part: which of the things returned. index: where in it; item: what its first axis counts.
+        part: which of the things returned. item: what its first axis counts. index: where in it.
         right, given: the two numbers, or words.
         told: whether the right one may be told.
     """
@@ -47,7 +48,13 @@ class Departure:
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """The right and the given numbers, over steps or masses, for a plot of where they part."""
+    """The right and the given numbers, over steps or masses, for a plot of where they differ.
+
+    Attributes:
+        over: what is counted, from left to right.
+        what: the numbers, with their unit.
+        right, given: the numbers, each (n,).
+    """
 
     over: str
     what: str
@@ -55,21 +62,26 @@ class Lines:
     given: Array
 
 
-def first_departure(
-    known: Catalogue, given: Sequence[Answer], tolerance: float
-) -> tuple[Departure | None, Lines | None]:
-    """Where the answers first depart from the right ones, and both along what is counted there."""
-    for question, answer, right, scales in zip(known.questions, given, known.right, known.scales, strict=True):
+def first_difference(
+    catalogue: AnswerCatalogue, given: Sequence[Answer], tolerance: float
+) -> tuple[FirstDifference | None, Lines | None]:
+    """Where the answers first differ from the right ones, and both over what is counted there.
+
+    Args:
+        tolerance: the largest difference that counts as none, as a fraction of the largest number.
+    """
+    rows = zip(catalogue.questions, given, catalogue.right, catalogue.scales, strict=True)
+    for question, answer, right, scales in rows:
         for s, (step, expected) in enumerate(zip(answer, right, strict=False)):
             for p, (part, want) in enumerate(zip(step, expected, strict=True)):
                 if part.shape != want.shape or part_distance(part, want, scales[p]) <= tolerance:
                     continue
                 index = _first(part, want, scales[p] * tolerance)
-                told = not known.exercise.seeded
+                told = not catalogue.exercise.seeded
                 number = s + 1 if question.steps else 0
                 numbers = (want[index].item(), part[index].item())
                 name = question.parts[p]
-                found = Departure(question.about, number, name, question.item, index, *numbers, told)
+                found = FirstDifference(question.about, number, name, question.item, index, *numbers, told)
                 return found, _lines(question, answer, right, p, index) if told else None
     return None, None
 

@@ -17,7 +17,7 @@ OF_A_SPRING = (
         "spring_sign",
         "Your springs push where they should pull.",
         "A spring that is too long: which way must its force point?",
-        pulls=-1.0,
+        elastic=-1.0,
     ),
     mistake(
         "gravity_sign",

@@ -75,7 +75,7 @@ def results(submission: Submission, given: Grade) -> dict[str, Any]:
         "extra_data": {
             "outcome": given.verdict.outcome,
             "finding": given.verdict.name,
-            "walls": list(given.public.walls),
+            "walls": list(given.public.layers),
         },
     }
 

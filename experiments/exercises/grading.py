@@ -12,13 +12,13 @@ from pathlib import Path
 from time import perf_counter
 
 from experiments.exercises.exercise import Exercise
-from experiments.exercises.faults import clean
+from experiments.exercises.findings import clean
 from experiments.exercises.judge import Verdict, judge_all
 from experiments.exercises.sandbox import Limits
 from experiments.exercises.submission import Submission, read
 from reference.errors import InputError
 
-#: The columns of a table of grades.
+#: The columns of a table of grades; `departs` is the first difference.
 COLUMNS = (
     "file",
     "exercise",
@@ -63,7 +63,7 @@ class Grade:
 def grade(submission: Submission, key: str | None = None, limits: Limits | None = None) -> Grade:
     """Run the public check, and with a key the hidden one.
 
-    Where all answers hang on the student's seed the two are the same, and run once.
+    Where all answers depend on the student's seed the two are the same, and run once.
     """
     begin = perf_counter()
     exercise, seed = submission.exercise, submission.seed_with(key)
@@ -87,7 +87,7 @@ def row_of(submission: Submission, given: Grade, key: str | None) -> dict[str, s
         outcome=verdict.outcome,
         finding=verdict.name,
         words=" ".join(f.words for f in verdict.findings),
-        departs=str(verdict.departure or ""),
+        departs=str(verdict.first_difference or ""),
         seconds=f"{given.seconds:.2f}",
         digest=submission.digest(key),
     )
@@ -109,7 +109,7 @@ def grade_class(
     table: Path,
     exercise: Exercise | None = None,
     key: str | None = None,
-    jobs: int | None = None,
+    workers: int | None = None,
     tell: Callable[[str], None] = lambda _: None,
     limits: Limits | None = None,
 ) -> list[dict[str, str]]:
@@ -118,7 +118,7 @@ def grade_class(
     Args:
         files: each with its name.
         table: a CSV file. A row counts as done if its file, its exercise and the key are what they were.
-        jobs: how many at once; left out, as many as there are cores.
+        workers: how many submissions at once; left out, as many as there are cores.
 
     Raises:
         InputError: if the table is something else.
@@ -135,7 +135,7 @@ def grade_class(
                 csv.DictWriter(file, COLUMNS).writerow(row)
         return row
 
-    pool = ThreadPoolExecutor(jobs or os.cpu_count() or 1)
+    pool = ThreadPoolExecutor(workers or os.cpu_count() or 1)
     try:
         for future in as_completed([pool.submit(one, path, name) for path, name in wanted]):
             rows.append(future.result())
@@ -177,7 +177,7 @@ def _kept(table: Path) -> dict[str, dict[str, str]]:
     with table.open(newline="", encoding="utf-8") as file:
         reader = csv.DictReader(file)
         if tuple(reader.fieldnames or ()) != COLUMNS:
-            raise InputError(f"{table} is no table of grades: expected the columns {', '.join(COLUMNS)}")
+            raise InputError(f"{table} is not a table of grades: expected the columns {', '.join(COLUMNS)}")
         return {row["file"]: row for row in _whole(reader)}
 
 

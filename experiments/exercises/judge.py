@@ -1,8 +1,8 @@
-"""The verdict on a submission: which scheme, or which mistake, its numbers are those of; or where they depart.
+"""The verdict on a submission: which scheme, or which mistakes, its numbers are those of; or where they first differ.
 
-As in `reference.identification`, a name is given only to what reproduces every number to rounding: the right solution
-first, then each mistake of the catalogue, then every two that can be made at once. What is found otherwise (an input
-that was written to, a call that answers differently the second time) is found by looking, and told beside it.
+As in `reference.identification`, a name is given only to what reproduces every number to rounding (`naming`). What is
+found in other ways (an error, an input that was changed, a call that answers differently the second time) comes from
+`findings`.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from experiments.exercises import sandbox
-from experiments.exercises.answer_catalogue import Catalogue, answer_distance, catalogue
-from experiments.exercises.exercise import Answer, Exercise
-from experiments.exercises.faults import Finding, beside, fault_of_error, fault_of_values, not_repeated
-from experiments.exercises.first_difference import Departure, Lines, first_departure
-from experiments.exercises.naming import SINGLE, fault_of_form, identify, told_by_the_exercise
+from experiments.exercises import findings, sandbox
+from experiments.exercises.answer_catalogue import AnswerCatalogue, catalogue_of
+from experiments.exercises.exercise import TOLERANCE, Answer, Exercise, Mistake
+from experiments.exercises.findings import Finding
+from experiments.exercises.first_difference import FirstDifference, Lines, first_difference
+from experiments.exercises.naming import SINGLE, identify
 
 #: What a verdict says in a word.
 Outcome = Literal[
@@ -33,10 +33,12 @@ class Verdict:
     Attributes:
         findings: what it is or what is wrong, the plainest first; empty where it is right.
         passed: for each question, whether its answer is right.
-        error: how far its numbers are from those that it is named for, as a part of the largest; None without a name.
+        error: how far its numbers are from those that it is named for, as a fraction of the largest; None without a
+            name.
         right_error: how far from the right ones; None where there are no numbers.
-        lines: for a plot of where they part.
-        walls: which stood around its process.
+        first_difference: the first number that is not the right one.
+        lines: for a plot of where they differ.
+        layers: of the sandbox, those that were active.
     """
 
     outcome: Outcome
@@ -44,9 +46,9 @@ class Verdict:
     passed: tuple[bool, ...]
     error: float | None = None
     right_error: float | None = None
-    departure: Departure | None = None
+    first_difference: FirstDifference | None = None
     lines: Lines | None = None
-    walls: tuple[str, ...] = ()
+    layers: tuple[str, ...] = ()
 
     @property
     def right(self) -> bool:
@@ -79,24 +81,25 @@ def judge_all(
 
     Where the run comes to a bad end, each check gets a run of its own, so that none pays for another.
     """
-    checks = [catalogue(exercise, seed, key) for key in keys]
+    catalogues = [catalogue_of(exercise, seed, key) for key in keys]
     if _text(source) == _text(exercise.starter):
-        words = Finding("not_written_yet", "This is the starter as it was handed out.", "The text says what to write.")
-        return [_failed(known, "error", words) for known in checks]
-    asked = [question.asked() for known in checks for question in known.questions]
+        words = "This is the starter as it was handed out."
+        finding = Finding("not_written_yet", words, "The text says what to write.")
+        return [_failed(catalogue, "error", finding) for catalogue in catalogues]
+    asked = [question.asked() for catalogue in catalogues for question in catalogue.questions]
     files = exercise.files(seed) if exercise.files else {}
     reply = sandbox.run(source, asked, limits, files)
-    if len(reply.answers) != len(asked) and reply.error is None and len(checks) > 1:
+    if len(reply.answers) != len(asked) and reply.error is None and len(catalogues) > 1:
         return [judge(exercise, source, seed, key, limits) for key in keys]
     verdicts, first = [], 0
-    for known in checks:
-        part = slice(first, first + len(known.questions))
-        verdict = _verdict(known, replace(reply, answers=reply.answers[part]))
+    for catalogue in catalogues:
+        part = slice(first, first + len(catalogue.questions))
+        verdict = _verdict(catalogue, replace(reply, answers=reply.answers[part]))
         if verdict.name == "not_repeatable":
             again = sandbox.run(source, asked, limits, files)
-            same = len(again.answers) == len(reply.answers) and _equal(reply, again)
-            verdict = replace(verdict, findings=(not_repeated(same),))
-        verdicts.append(replace(verdict, walls=tuple(reply.walls)))
+            same = len(again.answers) == len(reply.answers) and _same_replies(reply, again)
+            verdict = replace(verdict, findings=(findings.not_repeatable(same),))
+        verdicts.append(replace(verdict, layers=tuple(reply.layers)))
         first = part.stop
     return verdicts
 
@@ -106,85 +109,107 @@ def _text(source: str) -> list[str]:
     return [word for line in source.splitlines() if not line.startswith(("SEED", "KEYED")) for word in line.split()]
 
 
-def _failed(known: Catalogue, outcome: Outcome, finding: Finding, **found: Any) -> Verdict:
-    return Verdict(outcome, (finding,), (False,) * len(known.questions), **found)
+def _failed(catalogue: AnswerCatalogue, outcome: Outcome, finding: Finding, **found: Any) -> Verdict:
+    return Verdict(outcome, (finding,), (False,) * len(catalogue.questions), **found)
 
 
-def _verdict(known: Catalogue, reply: sandbox.Reply) -> Verdict:
+def _verdict(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> Verdict:
+    """The verdict on what a process left, whatever that is."""
     if reply.ended != "done":
         word: Outcome = "timed out" if reply.ended == "timed out" else "crashed"
-        return _failed(known, word, Finding(word.replace(" ", "_"), f"It was stopped: {reply.reason}."))
+        return _failed(catalogue, word, Finding(word.replace(" ", "_"), f"It was stopped: {reply.reason}."))
     try:
-        missing = [q.function for q in known.questions if q.function not in reply.names]
-        if missing and not reply.error:
-            return _failed(known, "error", fault_of_error(None, missing[0]))
-        error = reply.error or next((a["error"] for a in reply.answers if a.get("error")), None)
-        if error:
-            return _failed(known, "error", fault_of_error(error, None))
-        given = _values(known, reply)
+        error = _error(catalogue, reply)
+        given = None if error else _comparable(catalogue, reply)
     except (TypeError, AttributeError, ValueError, IndexError, KeyError):
-        given = None  # the submission wrote what it was not asked for
+        error = given = None  # the submission wrote what it was not asked for
+    if error is not None:
+        return _failed(catalogue, "error", error)
     if given is None:
-        return _failed(known, "crashed", Finding("unreadable", "What it answered is not readable."))
-    departure, lines = first_departure(known, given, max(known.exercise.tolerance, 1e-9))
-    found: dict[str, Any] = {"departure": departure, "lines": lines}
-    if not all(_same(a["values"][0], a.get("again")) for a in reply.answers):
-        return _failed(known, "mistake", Finding("not_repeatable", ""), **found)
-    found["right_error"] = known.distance(given, known.right)
-    passed = tuple(
-        answer_distance(answer, right, scales) <= max(SINGLE, known.exercise.tolerance)
-        for answer, right, scales in zip(given, known.right, known.scales, strict=True)
-    )
-    fault = fault_of_values(known.questions, given, known.right) or told_by_the_exercise(known, given)
-    if fault is not None:
-        return Verdict("mistake", (fault,), passed, **found)
-    return _named(known, given, reply, passed, found)
+        return _failed(catalogue, "crashed", Finding("unreadable", "What it answered is not readable."))
+    return _verdict_on_answers(catalogue, reply, given)
 
 
-def _named(
-    known: Catalogue, given: list[Answer], reply: sandbox.Reply, passed: tuple[bool, ...], found: Mapping[str, Any]
-) -> Verdict:
-    """The verdict on numbers of the right shapes."""
-    also = beside(reply.answers)
-    mistakes, error = identify(known, given)
-    if mistakes is None and (plain := fault_of_form(known, given)) is not None:
-        return Verdict("mistake", (plain, *also), passed, **found)
-    if mistakes is None:
-        return Verdict("not in the catalogue", also, passed, **found)
-    findings = (*(Finding(m.name, m.words, m.hint) for m in mistakes), *also)
-    if not findings:
-        return Verdict("right", (), (True,) * len(passed), error, error)
-    if not mistakes:
-        passed = (False,) * len(passed)
-    another = len(findings) == 1 and bool(mistakes) and mistakes[0].another
-    outcome: Outcome = "another scheme" if another else "mistakes" if len(findings) > 1 else "mistake"
-    return Verdict(outcome, findings, passed, error, **found)
+def _error(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> Finding | None:
+    """A function that is missing, or the first exception."""
+    missing = [q.function for q in catalogue.questions if q.function not in reply.names]
+    if missing and not reply.error:
+        return findings.missing_function(missing[0])
+    error = reply.error or next((a["error"] for a in reply.answers if a.get("error")), None)
+    return findings.of_error(error) if error else None
 
 
-def _values(known: Catalogue, reply: sandbox.Reply) -> list[Answer] | None:
-    """What was answered, in the form in which answers are compared, if it is as many arrays as was asked for."""
+def _comparable(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> list[Answer] | None:
+    """The answers in the form in which answers are compared; None unless they are as many arrays as were asked for."""
     given: list[Answer] = []
-    for question, told in zip(known.questions, reply.answers, strict=True):
+    for question, told in zip(catalogue.questions, reply.answers, strict=True):
         steps = told["values"]
         if not 1 <= len(steps) <= max(1, question.steps) or any(len(step) != len(question.parts) for step in steps):
             return None
         if not all(isinstance(part, np.ndarray) for step in steps for part in step):
             return None
-        given.append(known.exercise.plain(question, [list(step) for step in steps]))
-    for answer, right in zip(given, known.right, strict=True):
+        given.append(catalogue.exercise.comparable(question, [list(step) for step in steps]))
+    for answer, right in zip(given, catalogue.right, strict=True):
         for step, want in zip(answer, right, strict=False):
             # a number, and an array of one number, are one as good as the other
             step[:] = [p.reshape(()) if w.shape == () and p.size == 1 else p for p, w in zip(step, want, strict=True)]
     return given
 
 
-def _same(one: Any, other: Any) -> bool:
+def _verdict_on_answers(catalogue: AnswerCatalogue, reply: sandbox.Reply, given: list[Answer]) -> Verdict:
+    """The verdict on answers that can be read: their form first, then their numbers."""
+    tolerance = catalogue.exercise.tolerance
+    different, lines = first_difference(catalogue, given, max(tolerance, TOLERANCE))
+    found: dict[str, Any] = {"first_difference": different, "lines": lines}
+    if not all(_same_arrays(a["values"][0], a.get("again")) for a in reply.answers):
+        return _failed(catalogue, "mistake", Finding("not_repeatable", ""), **found)
+    distances = catalogue.distances(given, catalogue.right)
+    found["right_error"] = max(distances)
+    passed = tuple(distance <= max(SINGLE, tolerance) for distance in distances)
+    finding = findings.of_form(catalogue.questions, given, catalogue.right)
+    finding = finding or findings.of_the_exercise(catalogue, given)
+    if finding is not None:
+        return Verdict("mistake", (finding,), passed, **found)
+    return _verdict_on_numbers(catalogue, reply, given, passed, found)
+
+
+def _verdict_on_numbers(
+    catalogue: AnswerCatalogue,
+    reply: sandbox.Reply,
+    given: list[Answer],
+    passed: tuple[bool, ...],
+    found: Mapping[str, Any],
+) -> Verdict:
+    """The verdict on numbers in the right form."""
+    beside = findings.side_effects(reply.answers)
+    explained = identify(catalogue, given)
+    if explained is None:
+        reordered = findings.of_order(catalogue, given)
+        if reordered is not None:
+            return Verdict("mistake", (reordered, *beside), passed, **found)
+        return Verdict("not in the catalogue", beside, passed, **found)
+    mistakes, error = explained.mistakes, explained.distance
+    if not mistakes and not beside:
+        return Verdict("right", (), (True,) * len(passed), error, error)
+    if not mistakes:
+        passed = (False,) * len(passed)
+    named = (*(Finding(m.name, m.words, m.hint) for m in mistakes), *beside)
+    outcome: Outcome = "mistakes" if len(named) > 1 else "another scheme" if _is_another(mistakes) else "mistake"
+    return Verdict(outcome, named, passed, error, **found)
+
+
+def _is_another(mistakes: Sequence[Mistake]) -> bool:
+    return bool(mistakes) and mistakes[0].another
+
+
+def _same_arrays(one: Any, other: Any) -> bool:
+    """Whether two lists of arrays are the same, bit by bit."""
     if not isinstance(other, list) or len(one) != len(other):
         return False
     return all(a.shape == b.shape and a.tobytes() == b.tobytes() for a, b in zip(one, other, strict=True))
 
 
-def _equal(one: sandbox.Reply, other: sandbox.Reply) -> bool:
+def _same_replies(one: sandbox.Reply, other: sandbox.Reply) -> bool:
     answers = zip(one.answers, other.answers, strict=True)
     pairs = [pair for a, b in answers for pair in zip(a["values"], b["values"], strict=False)]
-    return all(_same(a, b) for a, b in pairs)
+    return all(_same_arrays(a, b) for a, b in pairs)

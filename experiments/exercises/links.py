@@ -1,4 +1,4 @@
-"""Links on a string, each mass hanging on the one before, as students see them: the forces, with knobs for mistakes.
+"""The forces on a string whose masses hang one below the other, right ones and, with other parameters, wrong ones.
 
 The physics is that of slides 4-5 and 9-10, in one dimension or two: mass i hangs by spring i below mass i - 1, the
 first below the anchor. Written for small strings, in NumPy; the tests hold it against `reference.forces`.
@@ -19,7 +19,7 @@ def forces(
     v: Array,
     string: Any,
     *,
-    pulls: float = 1.0,
+    elastic: float = 1.0,
     gravity: float = 1.0,
     weight: str = "m g",
     drag: float = 1.0,
@@ -46,31 +46,31 @@ def forces(
         upper[1:2] = string.anchor
     k, rest_lengths = string.stiffness, rest * string.rest_lengths
 
-    def pull_of(low: Array, high: Array, k: Array, rest_lengths: Array) -> Array:
-        return pulls * _pull(low, high, k, rest_lengths, length, direction, slack)
+    def force_of(low: Array, high: Array, k: Array, rest_lengths: Array) -> Array:
+        return elastic * _spring_force(low, high, k, rest_lengths, length, direction, slack)
 
-    pull = pull_of(x, upper, k, rest_lengths)
+    above = force_of(x, upper, k, rest_lengths)
     # the spring below mass i is the spring above mass i + 1, or what a mistake takes it for
     under = {
-        "own": lambda: pull[1:],
-        "above": lambda: pull_of(x[1:], x[:-1], k[:-1], rest_lengths[:-1]),
-        "stiffness of above": lambda: pull_of(x[1:], x[:-1], k[:-1], rest_lengths[1:]),
-        "rest length of above": lambda: pull_of(x[1:], x[:-1], k[1:], rest_lengths[:-1]),
-        "own side": lambda: -pull_of(x[:-1], x[1:], k[1:], rest_lengths[1:]),
+        "own": lambda: above[1:],
+        "above": lambda: force_of(x[1:], x[:-1], k[:-1], rest_lengths[:-1]),
+        "stiffness of above": lambda: force_of(x[1:], x[:-1], k[:-1], rest_lengths[1:]),
+        "rest length of above": lambda: force_of(x[1:], x[:-1], k[1:], rest_lengths[:-1]),
+        "own side": lambda: -force_of(x[:-1], x[1:], k[1:], rest_lengths[1:]),
     }[below]()
     if anchor == "second, from above":
-        under = pull_of(x[1:], x[:-1], k[1:], rest_lengths[1:])
+        under = force_of(x[1:], x[:-1], k[1:], rest_lengths[1:])
     if anchor == "missing":
-        pull[0] = 0.0
-    total = pull.copy() if sides != "below" else np.zeros_like(pull)
+        above[0] = 0.0
+    total = above.copy() if sides != "below" else np.zeros_like(above)
     if sides != "above":
         total[:-1] += under if sides == "same" else -under
     if last in ("wraps", "ring") and len(x) > 1:
-        closing = pull_of(x[-1:], x[:1], k[:1], rest_lengths[:1])[0]
+        closing = force_of(x[-1:], x[:1], k[:1], rest_lengths[:1])[0]
         total[-1] += closing
         total[0] -= closing * (last == "ring")
     if last == "rolls":
-        total[-1] -= pull[0]
+        total[-1] -= above[0]
     total = total - gravity * _weights(string, weight, x.shape) - drag * _friction(string, v, friction)
     if skipped is not None:
         total[skipped] = 0.0
@@ -92,46 +92,49 @@ def _friction(string: Any, v: Array, friction: str) -> Array:
     return np.asarray(string.drag * {"c v": v, "m c v": m * v, "c v^2": speed * v, "c |v|": np.abs(v)}[friction])
 
 
-def _pull(x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, direction: str, slack: bool) -> Array:
+def _spring_force(
+    x: Array, upper: Array, k: Array, rest_lengths: Array, length: str, direction: str, slack: bool
+) -> Array:
     """The force of each spring on its lower mass, shape (n, d)."""
-    gap = upper - x
-    square = (gap**2).sum(axis=1)
-    # in one dimension a length may be less than nothing: that of who is above his anchor
-    long = {
+    separation = upper - x
+    square = (separation**2).sum(axis=1)
+    # in one dimension the length may come out negative: that of a mass above its anchor
+    lengths = {
         "root": np.sqrt(square),
         "square": square,
-        "sum": np.abs(gap).sum(axis=1),
-        "signed": gap[:, 0],
-        "y": -gap[:, 0],
+        "sum": np.abs(separation).sum(axis=1),
+        "signed": separation[:, 0],
+        "y": -separation[:, 0],
     }[length]
-    force = k * (np.maximum(long - rest_lengths, 0.0) if slack else long - rest_lengths)
+    force = k * (np.maximum(lengths - rest_lengths, 0.0) if slack else lengths - rest_lengths)
     if length in ("signed", "y") and direction == "unit":
         return np.asarray(force[:, None])
     if direction == "sloppy":
-        return np.asarray(force[:, None] * gap)
+        return np.asarray(force[:, None] * separation)
     if direction == "rest length":
-        return np.asarray(force[:, None] * gap / rest_lengths[:, None])
+        return np.asarray(force[:, None] * separation / rest_lengths[:, None])
     if direction == "each axis":
-        stretch = np.abs(gap) - rest_lengths[:, None]
-        return np.asarray(k[:, None] * (np.maximum(stretch, 0.0) if slack else stretch) * np.sign(gap))
+        elongation = np.abs(separation) - rest_lengths[:, None]
+        elongation = np.maximum(elongation, 0.0) if slack else elongation
+        return np.asarray(k[:, None] * elongation * np.sign(separation))
     if direction == "degrees":
-        angle = np.degrees(np.arctan2(gap[:, -1], gap[:, 0] if gap.shape[1] > 1 else 0.0))
-        return np.asarray(force[:, None] * np.stack([np.cos(angle), np.sin(angle)][-gap.shape[1] :], axis=1))
-    unit = gap / long[:, None]
+        angle = np.degrees(np.arctan2(separation[:, -1], separation[:, 0] if separation.shape[1] > 1 else 0.0))
+        return np.asarray(force[:, None] * np.stack([np.cos(angle), np.sin(angle)][-separation.shape[1] :], axis=1))
+    unit = separation / lengths[:, None]
     if direction == "swapped":
         unit = unit[:, ::-1]
     return np.asarray(force[:, None] * unit)
 
 
 class LinkMotion:
-    """The equations of motion of links, for the schemes of the catalogue, with all knobs of `forces`."""
+    """The equations of motion of links, for the schemes of `reference.schemes`, with all parameters of `forces`."""
 
-    def __init__(self, string: Any, inertia: str = "divided", **knobs: Any) -> None:
-        self._string, self._inertia, self._knobs = string, inertia, knobs
+    def __init__(self, string: Any, inertia: str = "divided", **parameters: Any) -> None:
+        self._string, self._inertia, self._parameters = string, inertia, parameters
 
     def acceleration(self, state: State) -> Array:
         """Of all masses [m/s^2]."""
-        total = forces(state.positions, state.velocities, self._string, **self._knobs)
+        total = forces(state.positions, state.velocities, self._string, **self._parameters)
         power = {"divided": -1, "forgotten": 0, "multiplied": 1}[self._inertia]
         return np.asarray(total * self._string.masses[:, None] ** power)
 
@@ -158,9 +161,10 @@ def random_string(random: np.random.Generator, count: int, dimension: int = 2) -
         "gravity": 9.81,
         "anchor": random.uniform(0.1, 0.3, dimension),
     }
-    long = rest_lengths * random.uniform(1.1, 1.4, count) * random.choice([1.0, 0.7], count)
-    turn = random.uniform(-2.6, -0.5, count)
-    steps = long[:, None] * (np.stack([np.cos(turn), np.sin(turn)], axis=1) if dimension == 2 else -1.0)
+    lengths = rest_lengths * random.uniform(1.1, 1.4, count) * random.choice([1.0, 0.7], count)
+    angles = random.uniform(-2.6, -0.5, count)
+    downwards = np.stack([np.cos(angles), np.sin(angles)], axis=1) if dimension == 2 else -1.0
+    steps = lengths[:, None] * downwards
     return string["anchor"] + np.cumsum(steps, axis=0), random.uniform(-1.0, 1.0, (count, dimension)), string
 
 

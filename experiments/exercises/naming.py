@@ -1,86 +1,101 @@
-"""A name for numbers: the mistakes that give just these; or what is to be seen of them without arithmetic."""
+"""The mistakes that explain answers: the simplest ones with which the solution gives the same numbers to rounding.
+
+The first of these that fits is taken:
+
+1. no mistake at all, or one, to the tolerance of the exercise;
+2. no mistake, or one, to single precision, where every other is much farther away;
+3. two mistakes at once, in different parameters of the solution;
+4. where students write several functions, the same for each function by itself.
+
+>>> from experiments.exercises.answer_catalogue import catalogue_of
+>>> from experiments.exercises.exercise import find
+>>> catalogue = catalogue_of(find("euler"), seed="", key=None)
+>>> given = catalogue.answers({"clock": "half", "gravity": -1.0})
+>>> [mistake.name for mistake in identify(catalogue, given).mistakes]
+['gravity_sign', 'half_a_step']
+>>> identify(catalogue, catalogue.right)
+Explanation(mistakes=(), distance=0.0)
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import islice, permutations
+from dataclasses import dataclass
 
 import numpy as np
 
-from experiments.exercises.answer_catalogue import Catalogue, answer_distance
+from experiments.exercises.answer_catalogue import AnswerCatalogue
 from experiments.exercises.exercise import Answer, Mistake
-from experiments.exercises.faults import Finding
 
-#: Numbers in single precision are the same up to SINGLE, if nothing else is less than APART times as far.
-SINGLE, APART = 2e-5, 30.0
+#: Numbers that were computed in single precision are this close to the double ones, as a fraction of the largest.
+SINGLE = 2e-5
 
-#: Mistakes, and how far the numbers are from theirs.
-Identified = tuple[tuple[Mistake, ...] | None, float]
-
-
-def identify(known: Catalogue, given: Sequence[Answer]) -> Identified:
-    """The mistakes whose numbers these are, none where they are right, None where nobody knows; and how far from them.
-
-    The simplest that fits: no mistake, one, two; then as many in each function by itself.
-    """
-    mistakes, error = _simplest(known, given)
-    if mistakes is not None or len(known.functions) < 2:
-        return mistakes, error
-    answers = list(zip(known.questions, given, strict=True))
-    found = [_simplest(part, [a for q, a in answers if q.function == name]) for name, part in known.functions.items()]
-    if any(those is None for those, _ in found):
-        return None, error
-    unlike = {mistake.name: mistake for those, _ in found for mistake in those or ()}
-    return tuple(unlike.values()), max(far for _, far in found)
+#: They count as the same if every other explanation is at least this many times as far away.
+APART = 30.0
 
 
-def _simplest(known: Catalogue, given: Sequence[Answer]) -> Identified:
-    tolerance, rough = known.exercise.tolerance, max(SINGLE, known.exercise.tolerance)
-    right = known.distance(given, known.right)
-    if right <= tolerance:
-        return (), right
-    errors = [known.distance(given, known.answers(m.knobs)) for m in known.exercise.mistakes]
-    ranking = sorted(range(len(errors)), key=lambda i: errors[i])
-    nearest = errors[ranking[0]] if ranking else np.inf
-    if nearest <= tolerance:
-        return (known.exercise.mistakes[ranking[0]],), nearest
-    if right <= rough and nearest > APART * right:
-        return (), right
-    second = min([right, *(errors[i] for i in ranking[1:2])])
-    if nearest <= rough and second > APART * nearest:
-        return (known.exercise.mistakes[ranking[0]],), nearest
-    for pair in known.pairs:
-        knobs = {**pair[0].knobs, **pair[1].knobs}
-        if known.distance(given, known.beginnings(knobs), first_steps=True) <= tolerance:
-            error = known.distance(given, known.answers(knobs))
-            if error <= tolerance:
-                return pair, error
-    return None, right
+@dataclass(frozen=True)
+class Explanation:
+    """Mistakes, none where the answers are right, and how far the answers are from those that they give."""
+
+    mistakes: tuple[Mistake, ...]
+    distance: float
 
 
-def told_by_the_exercise(known: Catalogue, given: Sequence[Answer]) -> Finding | None:
-    """What an exercise itself says of answers that no solution with a mistake gives."""
-    if known.exercise.fault is None:
-        return None
-    faults = (known.exercise.fault(q, answer[0][0]) for q, answer in zip(known.questions, given, strict=True))
-    return next((Finding(*words) for words in faults if words), None)
+def identify(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Explanation | None:
+    """The simplest explanation of the answers; None where there is none in the catalogue."""
+    return _of_all(catalogue, given) or _of_each_function(catalogue, given)
 
 
-def fault_of_form(known: Catalogue, given: Sequence[Answer]) -> Finding | None:
-    """Right numbers, in another order than was asked for: v before x."""
-    rows = list(zip(known.questions, given, known.right, known.scales, strict=True))
-    several = [row for row in rows if len(row[0].parts) > 1]
-    alone = max((answer_distance(a, r, s) for q, a, r, s in rows if len(q.parts) == 1), default=0.0)
-    if not several or alone > known.exercise.tolerance:
-        return None
-    question = several[0][0]
-    for order in islice(permutations(range(len(question.parts))), 1, None):
-        # the first step only: what is asked next is made of what was answered
-        apart = [answer_distance([[a[0][i] for i in order]], r[:1], s) for q, a, r, s in several]
-        if max(apart) <= known.exercise.tolerance:
-            return Finding(
-                "results_in_another_order",
-                "Your results are right, but not in the order that was asked for.",
-                f"What is to be returned are {', '.join(question.parts)}. Which comes first?",
-            )
+def _of_all(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Explanation | None:
+    """An explanation by at most two mistakes."""
+    tolerance = catalogue.exercise.tolerance
+    right = Explanation((), catalogue.distance(given, catalogue.right))
+    if right.distance <= tolerance:
+        return right
+    ranking = sorted([right, *_single_mistakes(catalogue, given)], key=lambda e: e.distance)
+    if ranking[0].distance <= tolerance or _in_single_precision(ranking, tolerance):
+        return ranking[0]
+    return _two_mistakes(catalogue, given)
+
+
+def _single_mistakes(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> list[Explanation]:
+    """How far the answers are from those of each mistake."""
+    return [
+        Explanation((mistake,), catalogue.distance(given, catalogue.answers(mistake.parameters)))
+        for mistake in catalogue.exercise.mistakes
+    ]
+
+
+def _in_single_precision(ranking: Sequence[Explanation], tolerance: float) -> bool:
+    """Whether the nearest explanation fits to single precision, and no other comes near."""
+    nearest, *others = (explanation.distance for explanation in ranking)
+    return nearest <= max(SINGLE, tolerance) and min(others, default=np.inf) > APART * nearest
+
+
+def _two_mistakes(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Explanation | None:
+    """The first pair of mistakes that fits; most pairs are ruled out by their first steps."""
+    tolerance = catalogue.exercise.tolerance
+    begun = [answer[:1] for answer in given]
+    for pair in catalogue.pairs:
+        parameters = {**pair[0].parameters, **pair[1].parameters}
+        if catalogue.distance(begun, catalogue.first_steps(parameters)) <= tolerance:
+            distance = catalogue.distance(given, catalogue.answers(parameters))
+            if distance <= tolerance:
+                return Explanation(pair, distance)
     return None
+
+
+def _of_each_function(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Explanation | None:
+    """The explanations of several functions together; None where one of them has none."""
+    if len(catalogue.by_function) < 2:
+        return None
+    found = []
+    for name, part in catalogue.by_function.items():
+        answers = [answer for q, answer in zip(catalogue.questions, given, strict=True) if q.function == name]
+        explanation = _of_all(part, answers)
+        if explanation is None:
+            return None
+        found.append(explanation)
+    mistakes = {mistake.name: mistake for explanation in found for mistake in explanation.mistakes}
+    return Explanation(tuple(mistakes.values()), max(explanation.distance for explanation in found))

@@ -18,7 +18,7 @@ EXAMPLE = {"mass": 0.05, "stiffness": 50.0, "rest_length": 0.15, "damping": 0.0,
 
 
 def step_of_one(
-    y: float, v: float, dt: float, spring: Any, scheme: str, own: Sequence[str] = (), **knobs: Any
+    y: float, v: float, dt: float, spring: Any, scheme: str, own: Sequence[str] = (), **parameters: Any
 ) -> tuple[float, float]:
     """A step of a mass at height y [m], below an anchor at height 0: a string of one link, in one dimension.
 
@@ -36,7 +36,7 @@ def step_of_one(
             "anchor": np.zeros(1),
         }
     )
-    x, u = step(np.array([[float(y)]]), np.array([[float(v)]]), dt, string, scheme, **knobs)
+    x, u = step(np.array([[float(y)]]), np.array([[float(v)]]), dt, string, scheme, **parameters)
     return float(x[0, 0]), float(u[0, 0])
 
 
@@ -47,7 +47,7 @@ def on_one_mass(mistakes: Iterable[Mistake]) -> tuple[Mistake, ...]:
     who takes the one makes the same mistake as who takes the other.
     """
     made = tuple(mistakes)
-    above = (replace(m, knobs={**m.knobs, "length": "signed"}) for m in made if m.name in FLY)
+    above = (replace(m, parameters={**m.parameters, "length": "signed"}) for m in made if m.name in FLY)
     return (*made, *above, Y_FOR_THE_LENGTH, *NUMBERS_OF_THE_EXAMPLE)
 
 

@@ -1,4 +1,4 @@
-"""A small plot of where an answer departs from the right one: in the terminal, and as a PNG."""
+"""A small plot of where an answer differs from the right one: in the terminal, and as a PNG."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 
 The process gets the submission's text and the arrays of the questions, works in a folder that has the files which the
 student was given and is removed afterwards, and leaves bytes, in which there is nothing but numbers and words (no
-pickle). This process reads them and judges; it never imports a submission. What stands around the process is in
-`confine`.
+pickle). This process reads them and judges; it never imports a submission. The layers of the sandbox are those of
+`sandbox_layers`.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ import numpy as np
 from experiments.exercises import child
 from experiments.exercises.sandbox_layers import MEMORY, SECONDS
 
-#: A process that sleeps, or waits, is ended after so long [s].
-WALL = 20.0
+#: A process that sleeps, or waits, is ended after this time [s].
+WALL_CLOCK = 20.0
 
 #: Its folder may fill up to that [bytes].
 FOLDER = 2**26
@@ -43,10 +43,10 @@ LONGEST = 2**23
 
 @dataclass(frozen=True)
 class Limits:
-    """What a submission may take: seconds of computing, seconds in all, memory [bytes]."""
+    """What a submission may take: seconds of computing, wall-clock seconds, memory [bytes]."""
 
     seconds: int = SECONDS
-    wall: float = WALL
+    wall_clock: float = WALL_CLOCK
     memory: int = MEMORY
 
 
@@ -59,14 +59,15 @@ class Reply:
         reason: of that, in a line.
         answers: one for each question, as `child.ask` makes them.
         error: what reading the submission raised: type, words, line.
-        walls: which stood.
+        layers: of the sandbox, those that were active.
+        names: what the submission defines.
     """
 
     ended: str
     reason: str = ""
     answers: Sequence[Mapping[str, Any]] = ()
     error: Mapping[str, Any] | None = None
-    walls: Sequence[str] = ()
+    layers: Sequence[str] = ()
     names: Sequence[str] = field(default_factory=list)
 
 
@@ -129,8 +130,8 @@ def _watch(process: subprocess.Popen[bytes], scratch: Path, limits: Limits) -> t
             with suppress(subprocess.TimeoutExpired):
                 return _cause(process.wait(LOOK), limits)
             waited, last = waited + min(time.monotonic() - last, STALL), time.monotonic()
-            if waited > limits.wall:
-                ending = ("timed out", f"no answer within {limits.wall:g} s")
+            if waited > limits.wall_clock:
+                ending = ("timed out", f"no answer within {limits.wall_clock:g} s")
             elif _size(scratch) > FOLDER:
                 ending = ("crashed", f"it wrote more than {FOLDER / 2**20:g} MiB of files")
     finally:
@@ -162,7 +163,7 @@ def _reply(ending: tuple[str, str], said: IO[bytes]) -> Reply:
     try:
         reply = child.unpack(data)
         answers = [a for a in reply["answers"] if isinstance(a["values"], list)]
-        return Reply("done", "", answers, reply.get("error"), list(reply["walls"]), list(reply.get("names", [])))
+        return Reply("done", "", answers, reply.get("error"), list(reply["layers"]), list(reply.get("names", [])))
     except (ValueError, KeyError, TypeError, AttributeError):
         return Reply("crashed", "what it answered is not readable")
 
@@ -196,6 +197,10 @@ def _readable() -> tuple[str, ...]:
     return tuple(dict.fromkeys(str(p.resolve()) for p in [*own, *numpy, *system] if p.exists()))
 
 
-def walls() -> list[str]:
-    """Which walls stand on this machine, by trying: of limits, landlock, seccomp."""
-    return list(run("", []).walls)
+def layers() -> list[str]:
+    """Which layers of the sandbox this machine has, by trying: of limits, landlock, user, seccomp."""
+    return list(run("", []).layers)
+
+
+#: The name that the command still calls it by.
+walls = layers

@@ -1,9 +1,9 @@
-"""Walls around the process that runs a submission, built from inside before the submission is read. Python's own only.
+"""The sandbox's layers: restrictions that the process of a submission puts on itself before it reads the submission.
 
-Each of them is the kernel's: limits on time, memory, file size (setrlimit); no file but those that are named (Landlock,
+Each layer is the kernel's: limits on time, memory, file size (setrlimit); no file but those that are named (Landlock,
 Linux 5.13), or where that is missing and we are root, another user, who may read only what everybody may; no other
-process, no network, no change of what a file may do (a seccomp filter). Once up, none comes down again before the
-process ends. Which of them stand is told: on other systems some are missing.
+process, no network, no change of what a file may do (a seccomp filter). None can be lifted again before the process
+ends. Which of them are active is told: on other systems some are missing. Imports Python's own library only.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ SECONDS, MEMORY, FILE = 10, 2**30, 2**24
 #: Numbers of system calls, the same on all machines (Linux, include/uapi/asm-generic/unistd.h).
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
 
-#: Rights to files (include/uapi/linux/landlock.h): what there is to be had of a file, and beyond it of a folder.
+#: Rights to files (include/uapi/linux/landlock.h): those to a file, and beyond them those to a folder.
 READ_FILE, READ_FOLDER, WRITE, TRUNCATE = 1 << 2, 1 << 3, 1 << 1, 1 << 14
 
 #: How many rights to files, and to the network, each version of Landlock knows; from 6 on it scopes signals.
@@ -52,8 +52,8 @@ NOBODY = 65534
 THREAD = 0x10000
 
 
-def confine(readable: Iterable[str], scratch: str, seconds: int, memory: int) -> list[str]:
-    """Build the walls. Returns which of "limits", "landlock", "user", "seccomp" stand.
+def apply(readable: Iterable[str], scratch: str, seconds: int, memory: int) -> list[str]:
+    """Apply all layers that this system has. Returns which of "limits", "landlock", "user", "seccomp" are active.
 
     Args:
         readable: files and folders that may be read; all others may not, nor be written.
@@ -68,17 +68,17 @@ def confine(readable: Iterable[str], scratch: str, seconds: int, memory: int) ->
     libc = ctypes.CDLL(None, use_errno=True)
     libc.prctl(1, signal.SIGKILL, 0, 0, 0)  # PR_SET_PDEATHSIG: end when the checker does
     libc.prctl(38, 1, 0, 0, 0)  # PR_SET_NO_NEW_PRIVS: asked for by both of the following
-    walls = {"limits": True, "landlock": landlock(libc, readable, scratch)}
-    if not walls["landlock"]:
-        walls["user"] = become_nobody(scratch)
-    walls["seccomp"] = seccomp(libc)
-    if not walls["seccomp"]:
+    active = {"limits": True, "landlock": landlock(libc, readable, scratch)}
+    if not active["landlock"]:
+        active["user"] = become_nobody(scratch)
+    active["seccomp"] = seccomp(libc)
+    if not active["seccomp"]:
         resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
-    return [name for name, stands in walls.items() if stands]
+    return [name for name, is_active in active.items() if is_active]
 
 
 def limit(seconds: int, memory: int) -> None:
-    """Limits that the kernel keeps: SIGXCPU after so much computing, no memory, no file beyond its size."""
+    """Limits that the kernel keeps: SIGXCPU after these seconds of computing, no memory, no file beyond its size."""
     wanted = {
         resource.RLIMIT_CPU: seconds,
         resource.RLIMIT_AS: memory,
@@ -114,9 +114,9 @@ def landlock(libc: ctypes.CDLL, readable: Iterable[str], scratch: str) -> bool:
             rule = struct.pack("=Qi", rights if os.path.isdir(path) else rights & of_files, place)
             libc.syscall(ADD_RULE, rules, 1, rule, 0)
             os.close(place)
-    stands = libc.syscall(RESTRICT_SELF, rules, 0) == 0
+    restricted = libc.syscall(RESTRICT_SELF, rules, 0) == 0
     os.close(rules)
-    return bool(stands)
+    return bool(restricted)
 
 
 def become_nobody(scratch: str) -> bool:
@@ -131,7 +131,7 @@ def become_nobody(scratch: str) -> bool:
 
 
 def seccomp(libc: ctypes.CDLL) -> bool:
-    """Refuse system calls: those of REFUSED, signals to others, new processes. False where that is not to be had."""
+    """Refuse system calls: those of REFUSED, signals to others, new processes. False where there is no filter."""
     if platform.machine() != "x86_64" or struct.calcsize("P") != 8:
         return False
     lines = _program()

@@ -5,8 +5,8 @@ from __future__ import annotations
 from experiments.exercises.exercise import Mistake, mistake
 
 
-def _another(name: str, words: str, **knobs: object) -> Mistake:
-    return Mistake(name, words, "It is a scheme in its own right; read again which one is asked for.", knobs, True)
+def _another(name: str, words: str, **parameters: object) -> Mistake:
+    return Mistake(name, words, "It is a scheme in its own right; read again which one is asked for.", parameters, True)
 
 
 #: Between a force and a step.

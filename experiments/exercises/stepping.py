@@ -31,7 +31,7 @@ def step(x: Array, v: Array, dt: float, string: Any, scheme: str, clock: str = "
 
     Args:
         clock: what the scheme takes for dt: dt, its square, 1, or half of it.
-        law: knobs of `links.forces` and `LinkMotion`.
+        law: parameters of `links.forces` and `LinkMotion`.
     """
     took = {"dt": dt, "twice": dt * dt, "none": 1.0, "half": dt / 2, "double": 2 * dt}[clock]
     end = _advance(scheme)(LinkMotion(string, **law), State(0.0, x, v), took)

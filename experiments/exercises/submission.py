@@ -11,7 +11,7 @@ from pathlib import Path
 from experiments.exercises.exercise import Exercise, find
 from reference.errors import InputError
 
-#: A file larger than that is no submission [bytes].
+#: A file larger than this is not a submission [bytes].
 LARGEST = 2**20
 
 #: The lines of a starter that say whose it is.
@@ -26,7 +26,7 @@ class Submission:
 
     Attributes:
         name: how it is called in tables.
-        seed: the student's, "" where the exercise has none. keyed: whether its answers hang on the teacher's key.
+        seed: the student's, "" where the exercise has none. keyed: whether its answers depend on the teacher's key.
     """
 
     name: str
@@ -40,7 +40,7 @@ class Submission:
         return f"{self.seed}\0{(key or '') if self.keyed else ''}" if self.exercise.keyed else self.seed
 
     def digest(self, key: str | None) -> str:
-        """Of all that its grade hangs on, but for springlab itself."""
+        """Of all that its grade depends on, but for springlab itself."""
         return hashlib.sha256(f"{self.exercise.name}\0{key}\0{self.source}".encode()).hexdigest()[:16]
 
 
@@ -51,7 +51,7 @@ def read(path: Path, name: str, exercise: Exercise | None = None) -> Submission:
         exercise: which it is of; left out, the one its line EXERCISE says.
 
     Raises:
-        InputError: for a file that is none, by name.
+        InputError: for a file that is not a submission, by name.
     """
     if path.is_symlink() or not path.is_file():
         raise InputError(f"{name}: expected a file")

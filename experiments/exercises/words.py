@@ -1,4 +1,4 @@
-"""A verdict in plain words: what it is, by which evidence, where it departs, and what to look at."""
+"""A verdict in plain words: what it is, by which evidence, where it first differs, and what to look at."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def evidence(verdict: Verdict) -> str | None:
 
 
 def far(distance: float) -> str:
-    """A distance as a part of the largest number, in words where it is too large for that."""
+    """A distance as a fraction of the largest number, in words where it is too large for that."""
     return f"{distance:.1e}" if distance < 1e3 else "very far"
 
 
@@ -61,6 +61,6 @@ def paragraphs(submission: Submission, given: Grade) -> list[str]:
             said.append(f"  Hint: {finding.hint}")
     why = evidence(verdict)
     said += [why] if why else []
-    if verdict.departure is not None:
-        said.append(f"Departs first: {verdict.departure}.")
+    if verdict.first_difference is not None:
+        said.append(f"First difference: {verdict.first_difference}.")
     return said

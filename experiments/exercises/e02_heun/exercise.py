@@ -13,9 +13,9 @@ from experiments.exercises.step_mistakes import OF_A_STEP, OF_HEUN, OF_INERTIA, 
 SAME = ("midpoint", "ralston")
 
 
-def step(y: float, v: float, dt: float, spring: Any, scheme: str = "heun", **knobs: Any) -> tuple[float, float]:
-    """Heun's step; see `one_mass` for its knobs."""
-    return step_of_one(y, v, dt, spring, scheme, **knobs)
+def step(y: float, v: float, dt: float, spring: Any, scheme: str = "heun", **parameters: Any) -> tuple[float, float]:
+    """Heun's step; see `one_mass` for its parameters."""
+    return step_of_one(y, v, dt, spring, scheme, **parameters)
 
 
 EXERCISE = Exercise(

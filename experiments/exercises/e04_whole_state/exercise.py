@@ -12,9 +12,9 @@ from experiments.exercises.stepping import step as any_step
 from reference.state import Array
 
 
-def step(x: Array, v: Array, dt: float, string: Any, scheme: str = "heun", **knobs: Any) -> tuple[Array, Array]:
-    """Heun's step; see `stepping` for its knobs."""
-    return any_step(x, v, dt, string, scheme, **knobs)
+def step(x: Array, v: Array, dt: float, string: Any, scheme: str = "heun", **parameters: Any) -> tuple[Array, Array]:
+    """Heun's step; see `stepping` for its parameters."""
+    return any_step(x, v, dt, string, scheme, **parameters)
 
 
 EXERCISE = Exercise(

@@ -21,13 +21,13 @@ FUNCTIONS = {
 
 
 def parameters(seed: str) -> dict[str, float]:
-    """The student's own numbers, to be had from the seed by anybody."""
+    """The student's own numbers, which follow from the seed."""
     random = np.random.default_rng(list(hashlib.sha256(seed.encode()).digest()))
     return {
         "mass": round(float(random.uniform(0.02, 0.2)), 3),
         "stiffness": round(float(random.uniform(50, 500)), 1),
         "damping": round(float(random.uniform(0.05, 0.3)), 3),
-        # so few that it shows, to three figures, what holds the ends
+        # few enough that it shows, to three figures, what holds the ends
         "masses": int(random.integers(3, 5)),
     }
 

@@ -18,8 +18,8 @@ def energy(
 ) -> tuple[float, float, float]:
     """Kinetic, elastic and gravitational energy [J]."""
     m, k = string.masses, string.stiffness
-    squares, long = (v**2).sum(axis=1), np.linalg.norm(np.diff(x, axis=0, prepend=string.anchor[None]), axis=1)
-    stretch = long - string.rest_lengths
+    squares, lengths = (v**2).sum(axis=1), np.linalg.norm(np.diff(x, axis=0, prepend=string.anchor[None]), axis=1)
+    elongation = lengths - string.rest_lengths
     moving = {
         "m v^2/2": m * squares / 2,
         "m v^2": m * squares,
@@ -28,12 +28,12 @@ def energy(
         "m y'^2/2": m * v[:, 1] ** 2 / 2,
     }[kinetic]
     spring = {
-        "k s^2/2": k * stretch**2 / 2,
-        "k s^2": k * stretch**2,
-        "k L^2/2": k * long**2 / 2,
-        "k s/2": k * stretch / 2,
-        "k (L^2 - l^2)/2": k * (long**2 - string.rest_lengths**2) / 2,
-        "one less": k * stretch**2 / 2 * (np.arange(len(k)) > 0),
+        "k s^2/2": k * elongation**2 / 2,
+        "k s^2": k * elongation**2,
+        "k L^2/2": k * lengths**2 / 2,
+        "k s/2": k * elongation / 2,
+        "k (L^2 - l^2)/2": k * (lengths**2 - string.rest_lengths**2) / 2,
+        "one less": k * elongation**2 / 2 * (np.arange(len(k)) > 0),
     }[elastic]
     high = {
         "m g y": m * x[:, 1],
@@ -63,15 +63,15 @@ def power(
     Args:
         half: the share of the springs, and of the drag.
     """
-    gap = np.diff(x, axis=0, prepend=string.anchor[None])
-    unit = gap / np.linalg.norm(gap, axis=1)[:, None]
+    separation = np.diff(x, axis=0, prepend=string.anchor[None])
+    unit = separation / np.linalg.norm(separation, axis=1)[:, None]
     relative = np.diff(v, axis=0, prepend=np.zeros((1, 2)))
     square = {
         "along": (relative * unit).sum(axis=1) ** 2,
         "all": (relative**2).sum(axis=1),
         "own": (v * unit).sum(axis=1) ** 2,
         "once": np.abs((relative * unit).sum(axis=1)),
-        "sloppy": (relative * gap).sum(axis=1) ** 2,
+        "sloppy": (relative * separation).sum(axis=1) ** 2,
     }[rate]
     speeds = (v**2).sum(axis=1)
     springs = half[0] * (string.damping @ square) * (lost != "drag")

@@ -24,9 +24,9 @@ def push_out(
 ) -> tuple[Array, Array]:
     """Masses inside go straight out to the surface, and lose the velocity that leads inwards."""
     middle = circle.centre if centre == "own" else 0 * circle.centre
-    gap = x - middle
-    far = np.linalg.norm(gap, axis=1)
-    n = gap if normal != "unit" else gap / far[:, None]
+    offset = x - middle
+    far = np.linalg.norm(offset, axis=1)
+    n = offset if normal != "unit" else offset / far[:, None]
     at = (v * n).sum(axis=1)[:, None]
     along = np.stack([n[:, 1], -n[:, 0]], axis=1)
     slides = (v * along).sum(axis=1)[:, None]
@@ -35,11 +35,11 @@ def push_out(
         "everywhere": np.full(len(x), True),
         "outside": far > circle.radius,
         "square": far**2 < circle.radius,
-        "box": (np.abs(gap) < circle.radius).all(axis=1),
+        "box": (np.abs(offset) < circle.radius).all(axis=1),
         "first": (far < circle.radius) & (np.arange(len(x)) == 0),
     }[where][:, None]
     new = {
-        "inwards off": v - np.minimum(at, 0) * n if normal != "gap, along" else np.where(at < 0, slides * along, v),
+        "inwards off": v - np.minimum(at, 0) * n if normal != "offset, along" else np.where(at < 0, slides * along, v),
         "tangential": v - at * n,
         "printed": v * along,
         "stopped": 0 * v,
@@ -54,7 +54,7 @@ def push_out(
         "anticlockwise": np.where(at < 0, -np.abs(slides) * along, v),
         "whole": np.where(at < 0, np.sign(slides) * np.linalg.norm(v, axis=1)[:, None] * along, v),
     }[velocity]
-    above = middle[1] + np.sqrt(np.maximum(circle.radius**2 - gap[:, 0] ** 2, 0))
+    above = middle[1] + np.sqrt(np.maximum(circle.radius**2 - offset[:, 0] ** 2, 0))
     out = {
         "surface": middle + circle.radius * n,
         "kept": x,
@@ -222,8 +222,8 @@ EXERCISE = Exercise(
             "not_normalised",
             "Your normal is not of length 1.",
             "How long is the vector from the centre to a mass?",
-            {"normal": "gap"},
-            {"normal": "gap, along"},
+            {"normal": "offset"},
+            {"normal": "offset, along"},
         ),
     ),
 )

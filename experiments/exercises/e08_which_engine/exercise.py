@@ -43,7 +43,7 @@ def as_in_the_text(question: Question, given: Any) -> Any:
     return np.strings.replace(np.strings.replace(np.strings.lower(np.strings.strip(given)), "-", "_"), " ", "_")
 
 
-def fault(question: Question, given: Any) -> tuple[str, str, str] | None:
+def diagnose(question: Question, given: Any) -> tuple[str, str, str] | None:
     """A name that is missing, that nobody has, or that two have."""
     if given.shape != (len(LETTERS),):
         return None
@@ -109,13 +109,13 @@ EXERCISE = Exercise(
     keyed=True,
     files=files,
     canonical=as_in_the_text,
-    fault=fault,
+    diagnose=diagnose,
     mistakes=(
         *ALIKE,
         *(
             _swapped(a, b, "Run both in your own program: how large is what is left after the second step?")
             for a, b in combinations(KNOWN, 2)
-            if not any({a, b} == set(mistake.knobs["swap"]) for mistake in ALIKE)
+            if not any({a, b} == set(mistake.parameters["swap"]) for mistake in ALIKE)
         ),
         *mistakes(
             "letters_off_by_one",

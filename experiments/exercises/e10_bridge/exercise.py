@@ -42,8 +42,9 @@ def heaviest(
     ]
     solve = np.linalg.solve if held != "turned" else lambda a, b: np.linalg.lstsq(a, b)[0]
     force = solve(matrix, weights)[:-3]
-    long = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
-    by = {"size": np.abs(force), "tension": force, "compression": -force, "length": long, "stiffness": bridge.stiffness}
+    lengths = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
+    by = {"size": np.abs(force), "tension": force, "compression": -force}
+    by |= {"length": lengths, "stiffness": bridge.stiffness}
     index = int(np.argmax(by[choice]))
     found = abs(force[index]) if told == "size" else sign * force[index]
     return index + first, float(found)
@@ -61,9 +62,10 @@ def largest_dt(
 ) -> float:
     """The largest stable dt [s] of kick-drift: 2 over the highest frequency of the bridge on its supports."""
     unit, count = _directions(bridge, in_stiffness), len(bridge.joints)
-    long = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
+    lengths = np.linalg.norm(np.diff(bridge.joints[bridge.members], axis=1)[:, 0], axis=1)
     stiffness = np.zeros((2 * count, 2 * count))
-    for (a, b), u, k in zip(bridge.members, unit, bridge.stiffness / (long if material == "EA" else 1.0), strict=True):
+    stiffness_of = bridge.stiffness / (lengths if material == "EA" else 1.0)
+    for (a, b), u, k in zip(bridge.members, unit, stiffness_of, strict=True):
         at = [2 * a, 2 * a + 1, 2 * b, 2 * b + 1]
         way = np.concatenate([u, -u])
         stiffness[np.ix_(at, at)] += k * np.outer(way, way)
@@ -92,8 +94,9 @@ def largest_dt(
 def _directions(bridge: Any, length: str) -> Array:
     """Of each member, from its first joint to its second, of length 1."""
     a, b = np.asarray(bridge.members).T
-    gap = bridge.joints[b] - bridge.joints[a]
-    return np.asarray(gap / np.linalg.norm(gap, axis=1)[:, None] if length == "unit" else gap)
+    separation = bridge.joints[b] - bridge.joints[a]
+    norm = np.linalg.norm(separation, axis=1)[:, None]
+    return np.asarray(separation / norm if length == "unit" else separation)
 
 
 def _slants(bridge: dict[str, Any]) -> bool:
@@ -191,9 +194,9 @@ EXERCISE = Exercise(
             "not_normalised",
             "The directions of your members are not of length 1.",
             "How long is the vector from joint to joint?",
-            {"in_joints": "gap"},
-            {"in_stiffness": "gap"},
-            {"in_joints": "gap", "in_stiffness": "gap"},
+            {"in_joints": "separation"},
+            {"in_stiffness": "separation"},
+            {"in_joints": "separation", "in_stiffness": "separation"},
         ),
         mistake("weight_without_g", "Your loads are masses, not weights.", "What is the unit of a load?", load="m"),
         mistake("half_the_weight", "Your loads are half of the weights.", "What hangs on a joint?", load="m g/2"),

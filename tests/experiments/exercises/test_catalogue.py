@@ -9,7 +9,7 @@ from math import sqrt
 import numpy as np
 import pytest
 
-from experiments.exercises.answer_catalogue import Catalogue, catalogue
+from experiments.exercises.answer_catalogue import catalogue_of
 from experiments.exercises.exercise import Exercise, exercises, find
 from experiments.exercises.links import forces, namespace, random_string
 from experiments.exercises.stepping import step
@@ -98,15 +98,15 @@ def test_no_mistake_can_be_taken_for_another(exercise: Exercise, key: str | None
 
     Rounding is 1e-9 at most (TOLERANCE). Mistakes of one name are one.
     """
-    known = catalogue(exercise, "somebody", key)
-    answers = [(m.name, known.answers(m.knobs)) for m in exercise.mistakes]
+    catalogue = catalogue_of(exercise, "somebody", key)
+    answers = [(m.name, catalogue.answers(m.parameters)) for m in exercise.mistakes]
     if exercise.keyed:  # names that are not behind this student's letters cannot be mixed up
-        answers = [(name, answer) for name, answer in answers if known.distance(answer, known.right) > 0]
+        answers = [(name, answer) for name, answer in answers if catalogue.distance(answer, catalogue.right) > 0]
         assert len(answers) >= 3
-    answers.append(("", known.right))
+    answers.append(("", catalogue.right))
     for i, (one, mine) in enumerate(answers):
         for other, theirs in answers[:i]:
-            assert one == other or known.distance(mine, theirs) > max(1e-5, 2 * exercise.tolerance), (one, other)
+            assert one == other or catalogue.distance(mine, theirs) > max(1e-5, 2 * exercise.tolerance), (one, other)
 
 
 @ALL
@@ -126,7 +126,7 @@ def test_every_mistake_has_words_and_a_hint_that_tells_no_number(exercise: Exerc
 def test_hidden_questions_hang_on_the_key() -> None:
     """Another key, other numbers; the same key, the same; and none of them are the public ones."""
     first = [
-        hashlib.sha256(Catalogue(find("4"), "", key).questions[0].arguments[0].tobytes()).hexdigest()
+        hashlib.sha256(catalogue_of(find("4"), "", key).questions[0].arguments[0].tobytes()).hexdigest()
         for key in (None, "a", "a", "b")
     ]
     assert first[1] == first[2]

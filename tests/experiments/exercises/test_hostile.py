@@ -17,7 +17,7 @@ from experiments.exercises.judge import judge
 from experiments.exercises.submission import files_of
 from tests.experiments.exercises.hostile import HOSTILE, text_of
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the walls are those of Linux")
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the sandbox's layers are those of Linux")
 
 MODELS = Path(__file__).parent / "models"
 
@@ -30,7 +30,7 @@ def everything(folder: Path) -> dict[str, tuple[bytes, int, int]]:
 
 def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(tmp_path: Path) -> None:
     """Between right ones, which pass; what is outside of their folders stays as it was, and no process is left."""
-    missing = {"landlock", "seccomp"} - set(sandbox.walls())
+    missing = {"landlock", "seccomp"} - set(sandbox.layers())
     if missing:
         pytest.skip(f"this machine has no {' and no '.join(sorted(missing))}")
     outside, folder = tmp_path / "outside", tmp_path / "class"
@@ -62,7 +62,7 @@ def _works_in(process: Path, folder: str) -> bool:
 
 def test_a_wall_less_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """Shown to fail: with the whole machine readable, the model solution is read, and told to be right."""
-    if "landlock" not in sandbox.walls():
+    if "landlock" not in sandbox.layers():
         pytest.skip("this machine has no landlock")
     thief = f"exec(open({str(MODELS / 'e01_euler.py')!r}).read())\n"
     assert judge(find("1"), thief).name == "reaches_out"
@@ -78,7 +78,7 @@ def test_a_machine_that_stands_still_costs_nobody_a_grade(monkeypatch: pytest.Mo
     text = (MODELS / "e01_euler.py").read_text(encoding="utf-8")
     clock = count(step=3600.0)
     monkeypatch.setattr(sandbox.time, "monotonic", lambda: next(clock))
-    limits = sandbox.Limits(wall=600.0)
+    limits = sandbox.Limits(wall_clock=600.0)
     assert judge(find("1"), text, limits=limits).name == "right"
     monkeypatch.setattr(sandbox, "STALL", 3600.0)
     assert judge(find("1"), text, limits=limits).name == "timed_out"
@@ -94,7 +94,7 @@ def test_a_machine_that_stands_still_costs_nobody_a_grade(monkeypatch: pytest.Mo
         b"\x04" + b"\0" * 7 + b"[[[[" + b"[" * 10000,
         child.pack({"answers": 1}) + b"rest",
         child.pack([1, 2, 3]),
-        child.pack({"walls": [], "answers": [{"values": [[1]]}]}),
+        child.pack({"layers": [], "answers": [{"values": [[1]]}]}),
         re.sub(rb"3", b"9", child.pack({"x": __import__("numpy").arange(3.0)})),
     ],
 )

@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from experiments.exercises.answer_catalogue import catalogue
+from experiments.exercises.answer_catalogue import catalogue_of
 from experiments.exercises.exercise import exercises, find
+from experiments.exercises.findings import of_order
 from experiments.exercises.grading import Grade, grade
 from experiments.exercises.handout import hand_out
 from experiments.exercises.judge import judge
-from experiments.exercises.naming import fault_of_form
 from experiments.exercises.submission import read
 from tests.experiments.exercises.confusion import confusion, wrongly
 from tests.experiments.exercises.corpus import RIGHT, Program, programs, solution, wrong
@@ -65,7 +65,7 @@ def test_mistakes_are_called_by_their_name(request: pytest.FixtureRequest) -> No
 
 
 def test_two_mistakes_at_once_are_both_found() -> None:
-    """In the forces, and in the step: each is turned by another knob."""
+    """In the forces, and in the step: each is turned by another parameter."""
     text = wrong("arrays", "gravity_sign").replace("(v + v1) / 2", "(v + v1)").replace("(a + b) / 2", "(a + b)")
     verdict = judge(find("4"), text)
     assert verdict.outcome == "mistakes"
@@ -91,19 +91,19 @@ def test_what_nobody_knows_is_not_given_a_name() -> None:
     """A force that is a third too large: no name, but the step, the mass and the numbers where it departs."""
     verdict = judge(find("4"), solution("loops").replace("force = k *", "force = 1.333 * k *"))
     assert (verdict.outcome, verdict.findings, verdict.error) == ("not in the catalogue", (), None)
-    assert verdict.departure is not None
-    assert (verdict.departure.step, verdict.departure.index) == (1, (0, 0))
+    assert verdict.first_difference is not None
+    assert (verdict.first_difference.step, verdict.first_difference.index) == (1, (0, 0))
 
 
 def test_right_at_first_is_not_another_order() -> None:
     """Two results that have changed places are seen in the first step; where that is right, they have not."""
-    known = catalogue(find("1"), "", None)
-    other = [[[v, y], *steps[1:]] for (y, v), *steps in known.right]
-    later = [[*steps[:-1], [1.1 * part for part in steps[-1]]] for steps in known.right]
-    finding = fault_of_form(known, other)
+    catalogue = catalogue_of(find("1"), "", None)
+    other = [[[v, y], *steps[1:]] for (y, v), *steps in catalogue.right]
+    later = [[*steps[:-1], [1.1 * part for part in steps[-1]]] for steps in catalogue.right]
+    finding = of_order(catalogue, other)
     assert finding is not None
     assert finding.name == "results_in_another_order"
-    assert fault_of_form(known, later) is None
+    assert of_order(catalogue, later) is None
 
 
 def test_link_by_link_departs_at_the_second_mass() -> None:
@@ -112,8 +112,12 @@ def test_link_by_link_departs_at_the_second_mass() -> None:
     In the first step, positions of mass 0 are x + dt/2 (v + v + dt a): as they should be.
     """
     verdict = judge(find("4"), wrong("loops", "heun_link_by_link"))
-    assert verdict.departure is not None
-    assert (verdict.departure.step, verdict.departure.part, verdict.departure.index[0]) == (1, "x", 1)
+    assert verdict.first_difference is not None
+    assert (verdict.first_difference.step, verdict.first_difference.part, verdict.first_difference.index[0]) == (
+        1,
+        "x",
+        1,
+    )
     assert verdict.error is not None
     assert verdict.error < 1e-12
 

@@ -1,23 +1,34 @@
-"""What can be wrong with a submission that no arithmetic explains: errors, shapes, numbers that are none."""
+"""What is found without the answer catalogue: errors, wrong shapes, numbers that are not finite, changed inputs."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice, permutations
 from typing import Any
 
 import numpy as np
 
+from experiments.exercises.answer_catalogue import AnswerCatalogue
+from experiments.exercises.answer_distance import answer_distance
 from experiments.exercises.exercise import Answer, Question
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing that was found: its name in tables, what it is in words, and what to look at."""
+    """One thing that was found.
+
+    Attributes:
+        name: how it is called in tables.
+        words: what it is, in a sentence or two.
+        hint: what to look at.
+        line: of the submission, where an error has one.
+    """
 
     name: str
     words: str
     hint: str = ""
+    line: int | None = None
 
 
 #: Errors that are known by their type: a name and a hint.
@@ -39,25 +50,35 @@ ERRORS = {
 }
 
 
-def fault_of_error(error: Mapping[str, Any] | None, missing: str | None) -> Finding:
-    """What an exception says, with the student's own line; or that a function is not there."""
-    if error is None:
-        return Finding("missing_function", f"There is no function {missing}.", "Keep the names of the starter.")
-    kind, words, line = (clean(str(error.get(name))) for name in ("type", "words", "line"))
-    where = f"line {line}: " if line != "None" else ""
+def missing_function(name: str) -> Finding:
+    """A function that was asked for is not there."""
+    return Finding("missing_function", f"There is no function {name}.", "Keep the names of the starter.")
+
+
+def of_error(error: Mapping[str, Any]) -> Finding:
+    """What an exception says, with the student's own line.
+
+    Args:
+        error: type, words and line, as `child.story` makes them.
+    """
+    kind, words = (clean(str(error.get(name))) for name in ("type", "words"))
+    line = error["line"] if isinstance(error.get("line"), int) else None
+    where = f"line {line}: " if line is not None else ""
     if kind == "ValueError" and words.startswith("it returns"):
         name = "returns_nothing" if "nothing" in words else "returns_a_dict" if "dict" in words else "wrong_count"
-        return Finding(name, f"Your function does not return what it should: {words}.", "What does the text ask for?")
+        words = f"Your function does not return what it should: {words}."
+        return Finding(name, words, "What does the text ask for?", line)
     if kind == "ValueError" and "not made of real numbers" in words:
-        return Finding("not_numbers", f"Your function does not return numbers: {words}.", "Look at what you return.")
+        words = f"Your function does not return numbers: {words}."
+        return Finding("not_numbers", words, "Look at what you return.", line)
     name, hint = ERRORS.get(kind, ("raises_an_error", "Look at that line, and at what its names hold there."))
     if name == "not_written_yet":
-        return Finding(name, f"{where}this is not written yet.", hint)
-    return Finding(name, f"{where}{kind}: {words}".rstrip(": ") + ".", hint)
+        return Finding(name, f"{where}this is not written yet.", hint, line)
+    return Finding(name, f"{where}{kind}: {words}".rstrip(": ") + ".", hint, line)
 
 
-def fault_of_values(questions: Sequence[Question], given: Sequence[Answer], right: Sequence[Answer]) -> Finding | None:
-    """Whole numbers where there are none, wrong shapes, what is no number."""
+def of_form(questions: Sequence[Question], given: Sequence[Answer], right: Sequence[Answer]) -> Finding | None:
+    """Whole numbers where fractions are expected, wrong shapes, words for numbers, numbers that are not finite."""
     firsts = [pair for answer, want in zip(given, right, strict=True) for pair in zip(answer[0], want[0], strict=True)]
     whole = [_whole(part) and not _whole(want) for part, want in firsts if want.dtype.kind == "f"]
     if whole and all(whole) and any(part.any() or part.dtype.kind in "iu" for part, _ in firsts):
@@ -66,13 +87,13 @@ def fault_of_values(questions: Sequence[Question], given: Sequence[Answer], righ
     for question, answer, expected in zip(questions, given, right, strict=True):
         for step, want in zip(answer, expected, strict=False):
             for name, part, other in zip(question.parts, step, want, strict=True):
-                fault = _fault(name, part, other)
-                if fault:
-                    return fault
+                found = _of_part(name, part, other)
+                if found:
+                    return found
     return None
 
 
-def _fault(name: str, part: Any, want: Any) -> Finding | None:
+def _of_part(name: str, part: Any, want: Any) -> Finding | None:
     if want.dtype.kind == "U" and part.dtype.kind == "U" and part.shape == ():
         words = f"{name} are one text: expected {want.size} texts, one after another."
         return Finding("one_text", words, "A list has brackets, and every name quotes of its own.")
@@ -95,8 +116,37 @@ def _whole(part: Any) -> bool:
     return bool(part.dtype.kind in "iub" or (np.round(part) == part).all())
 
 
-def beside(answers: Sequence[Mapping[str, Any]]) -> tuple[Finding, ...]:
-    """What is wrong whatever the numbers are."""
+def of_the_exercise(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Finding | None:
+    """What the exercise itself says of an answer that cannot be right."""
+    diagnose = catalogue.exercise.diagnose
+    if diagnose is None:
+        return None
+    found = (diagnose(question, answer[0][0]) for question, answer in zip(catalogue.questions, given, strict=True))
+    return next((Finding(*words) for words in found if words), None)
+
+
+def of_order(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Finding | None:
+    """Right results, but returned in another order than was asked for: v before x."""
+    rows = list(zip(catalogue.questions, given, catalogue.right, catalogue.scales, strict=True))
+    several = [row for row in rows if len(row[0].parts) > 1]
+    single = max((answer_distance(a, right, scales) for q, a, right, scales in rows if len(q.parts) == 1), default=0.0)
+    if not several or single > catalogue.exercise.tolerance:
+        return None
+    parts = several[0][0].parts
+    for order in islice(permutations(range(len(parts))), 1, None):
+        # the first step only: what is asked next is made of what was answered
+        distances = [answer_distance([[a[0][i] for i in order]], right[:1], scales) for _, a, right, scales in several]
+        if max(distances) <= catalogue.exercise.tolerance:
+            return Finding(
+                "results_in_another_order",
+                "Your results are right, but not in the order that was asked for.",
+                f"What is to be returned are {', '.join(parts)}. Which comes first?",
+            )
+    return None
+
+
+def side_effects(answers: Sequence[Mapping[str, Any]]) -> tuple[Finding, ...]:
+    """Arrays that a function changes beside what it returns: wrong, whatever the numbers are."""
     found = []
     if any(answer.get("modified") for answer in answers):
         words = "Your function changes the arrays that it is given."
@@ -107,7 +157,7 @@ def beside(answers: Sequence[Mapping[str, Any]]) -> tuple[Finding, ...]:
     return tuple(found)
 
 
-def not_repeated(same: bool) -> Finding:
+def not_repeatable(same: bool) -> Finding:
     """A call that answers differently the second time: because of the first, or by chance or time.
 
     Args:
@@ -121,5 +171,5 @@ def not_repeated(same: bool) -> Finding:
 
 
 def clean(words: str) -> str:
-    """Words that somebody else wrote, on one line, of printable characters, and not too long."""
+    """Words that a submission brought, on one line, of printable characters, at most 200."""
     return "".join(c if c.isprintable() else " " for c in " ".join(words.split()))[:200]
