@@ -67,6 +67,7 @@ class Registry(Generic[T]):
     @contextmanager
     def as_it_is(self) -> Iterator[None]:
         """Within this, things may be entered on trial: afterwards all is as it was before."""
+        self.all()  # files that are imported within it would not enter what is theirs again
         before = dict(self._entries)
         try:
             yield

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import json
+import os
 import re
+import shutil
+import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -27,14 +31,20 @@ from tests import wrong
 CONTRIBUTING = Path(__file__).parents[1] / "CONTRIBUTING.md"
 
 
+def code_of(recipe: str) -> str:
+    """The code of a recipe, by the comment it begins with."""
+    blocks = re.findall(r"```python\n(.*?)```", CONTRIBUTING.read_text(encoding="utf-8"), flags=re.S)
+    (code,) = (block for block in blocks if block.startswith(f"# {recipe}\n"))
+    return str(code)
+
+
 @pytest.fixture
 def follow() -> Iterator[Any]:
     """The module that a recipe's code makes; what it enters into the catalogue is taken out again."""
     made: list[str] = []
 
     def recipe(name: str) -> ModuleType:
-        blocks = re.findall(r"```python\n(.*?)```", CONTRIBUTING.read_text(encoding="utf-8"), flags=re.S)
-        (code,) = (block for block in blocks if block.startswith(f"# {name}\n"))
+        code = code_of(name)
         module = ModuleType(f"recipe_{name}")
         sys.modules[module.__name__] = module
         made.append(module.__name__)
@@ -61,6 +71,73 @@ def test_the_scheme_of_the_recipe_is_catalogued_of_its_order_and_identified(foll
     scheme = catalogue.find("midpoint")
     assert measured_order(scheme) == pytest.approx(scheme.order, abs=0.05)
     assert identify(SchemeStepper(scheme), find("string").system({}), 1e-3, 100).identified_as == "midpoint"
+
+
+#: The recipes of schemes, with the name each enters, and what it asks of the machinery.
+SCHEMES = {
+    "scheme": "midpoint",
+    "scheme with a parameter": "second_order",
+    "scheme with memory": "adams_bashforth",
+    "scheme with a branch": "careful_euler",
+    "scheme that stops early": "damped_by_jacobi",
+}
+
+
+@pytest.mark.parametrize("recipe", SCHEMES)
+def test_every_recipe_of_a_scheme_has_its_order(follow: Any, recipe: str) -> None:
+    """The one it says, by the slope of its error, within 0.05."""
+    follow(recipe)
+    scheme = catalogue.find(SCHEMES[recipe])
+    assert measured_order(scheme) == pytest.approx(scheme.order, abs=0.05)
+
+
+def test_parameters_of_a_recipe_make_it_other_methods(follow: Any) -> None:
+    """With its second slope half-way it is the midpoint rule, at the end it is Heun: to rounding."""
+    follow("scheme")
+    follow("scheme with a parameter")
+    system = find("string").system({})
+    for part, name in (("0.5", "midpoint"), ("1.0", "heun")):
+        same = SchemeStepper(catalogue.find(f"second_order(part={part})"))
+        matches = identify(same, system, 1e-3, 100).matches
+        assert name in [match.scheme for match in matches]
+
+
+#: Every command that takes a stepper, on a small string; {name} is the scheme's.
+COMMANDS = (
+    "list --json",
+    "compare string --set masses=3 --duration 0.05 --stepper {name} --stepper heun --json",
+    "identify {name} string --set masses=3 --duration 0.05 --json",
+    "stability string --set masses=3 --set damping=0.1 --stepper {name} --json --out {out}",
+    "stability string --set masses=2 --map dt damping --range dt=1e-3:2e-2 --stepper {name} --out {out}",
+    "sweep string --set masses=3 --stepper {name} --over dt=1e-3:2e-3:2 --duration 0.02 --store {out}/store.sqlite",
+)
+
+
+def project_with_recipes(folder: Path) -> Path:
+    """A copy of the rooms in which every recipe of a scheme has been followed: a file each in reference/schemes."""
+    for room in ("reference", "engines", "experiments", "report"):
+        ignored = shutil.ignore_patterns("__pycache__", "sample", "docs")
+        shutil.copytree(CONTRIBUTING.parent / room, folder / room, ignore=ignored)
+    for i, recipe in enumerate(SCHEMES):
+        (folder / "reference" / "schemes" / f"recipe_{i}.py").write_text(code_of(recipe), encoding="utf-8")
+    return folder
+
+
+def test_a_scheme_of_every_recipe_goes_through_every_command(tmp_path: Path) -> None:
+    """Nothing but a new file in reference/schemes: listed, compared, identified, its limit found, mapped and swept."""
+    folder = project_with_recipes(tmp_path)
+    names = [*SCHEMES.values(), "second_order(part=0.5)"]
+    calls = [[word.format(name=name, out=tmp_path / "out") for word in c.split()] for name in names for c in COMMANDS]
+    program = f"from report.commands.main import springlab\nfor words in {calls!r}:\n" + (
+        "    print('>>>', words, flush=True)\n    assert not springlab(words, standalone_mode=False), words\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(folder)}
+    words = [sys.executable, "-c", program]
+    done = subprocess.run(words, capture_output=True, text=True, env=environment, cwd=tmp_path, check=False)
+    assert done.returncode == 0, done.stdout[-500:] + done.stderr[-2000:]
+    listed = json.loads(done.stdout.partition("\n")[2].partition(">>>")[0])
+    assert set(SCHEMES.values()) <= {row["stepper"] for row in listed["schemes"]}
+    assert done.stdout.count('"outcome": "done"') >= 2 * len(names)
 
 
 def check_swing(scheme: Scheme) -> None:
@@ -113,8 +190,7 @@ def test_the_exercise_of_the_recipe_names_its_mistakes(tmp_path: Path, monkeypat
     from experiments.exercises import exercise
     from experiments.exercises.judge import judge
 
-    blocks = re.findall(r"```python\n(.*?)```", CONTRIBUTING.read_text(encoding="utf-8"), flags=re.S)
-    (code,) = (block for block in blocks if block.startswith("# exercise\n"))
+    code = code_of("exercise")
     folder = tmp_path / "e11_momentum"
     folder.mkdir()
     (folder / "exercise.py").write_text(code)
