@@ -79,6 +79,11 @@ class EngineStepper:
         return self.pinned or version(self.engine)
 
     @property
+    def claims(self) -> tuple[str, ...]:
+        """The schemes that the engine claims to step by: identification tries them too."""
+        return tuple(dict.fromkeys(self.engine.identified_as.values()))
+
+    @property
     def interactive_up_to(self) -> int | None:
         """How many masses the engine steps some hundred times within half a minute; None where it does not say."""
         return getattr(self.engine, "interactive_up_to", None)
