@@ -11,7 +11,7 @@ import pkgutil
 from collections.abc import Callable, Mapping
 from functools import cache
 from importlib import metadata
-from typing import Protocol
+from typing import Literal, Protocol
 
 import engines
 from reference.errors import Unsupported as Unsupported
@@ -48,6 +48,10 @@ CAPABILITIES = {
 }
 
 
+#: In which floating-point numbers an engine keeps positions and velocities.
+Precision = Literal["double", "single"]
+
+
 class Simulation(Protocol):
     """One system inside an engine, at one time."""
 
@@ -69,7 +73,7 @@ class Engine(Protocol):
 
     One whose steps cost much more than masses and springs may have `interactive_up_to` besides, the largest system for
     interactive use: so many masses it steps some hundred times within half a minute. `compare` leaves it out beyond,
-    unless it is asked for by name.
+    unless it is asked for by name. One that computes in single precision has `precision` "single" (see `precision`).
     """
 
     @property
@@ -90,7 +94,10 @@ class Engine(Protocol):
 
     @property
     def identified_as(self) -> Mapping[str, str]:
-        """The catalogue scheme it is known to step by: "plain", with "damping" of the springs, with "drag"."""
+        """The scheme it claims to step by: "plain", with "damping" of the springs, with "drag".
+
+        By its name in the catalogue, with parameters where they are not the scheme's own: sweeps(rounds=3).
+        """
 
     @property
     def semantics(self) -> str:
@@ -168,6 +175,17 @@ def changed(engine: Engine, system: MassSpringSystem, parameter: str, value: Val
 def version(engine: Engine) -> str | None:
     """The installed version of the engine's package, or None where it is not installed."""
     return installed_version(engine.package)
+
+
+def precision(engine: Engine) -> Precision:
+    """In which floating-point numbers an engine keeps its state: "double", unless it has a `precision` of its own."""
+    found: Precision = getattr(engine, "precision", "double")
+    return found
+
+
+def recorded_settings(engine: Engine) -> dict[str, object]:
+    """What is recorded with every result of an engine: its settings and its precision."""
+    return {**engine.settings, "precision": precision(engine)}
 
 
 @cache

@@ -5,8 +5,12 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
-from engines.engine import registry
+from engines.engine import Engine, registry, version
+from engines.process.isolation import EngineStepper
+from experiments.engine_versions.conformance import IDENTIFIED, identified
 from experiments.experiment import find
+from reference.errors import InputError
+from reference.outcome import Outcome
 from report.commands.runner_options import STORE, chosen_runner
 from report.commands.terminal import progress
 from report.page.overview import explained
@@ -19,13 +23,31 @@ PICTURES = Path(__file__).parent / "pictures"
 
 
 def engine_table() -> str:
-    """The engines and the schemes they are identified with, as a Markdown table."""
-    cases = ("plain", "damping", "drag")
-    lines = ["| engine | undamped | damped springs | drag |", "| --- | --- | --- | --- |"]
-    for engine in registry().values():
-        schemes = [f"`{engine.identified_as[case]}`" if case in engine.identified_as else "-" for case in cases]
-        lines.append(f"| `{engine.name}` | " + " | ".join(schemes) + " |")
-    return "\n".join(lines) + "\n"
+    """The engines and the schemes they are identified with, as a Markdown table: each is run.
+
+    Raises:
+        InputError: where one is not installed.
+    """
+    rows = [engine_row(engine) for engine in registry().values()]
+    return "\n".join(["| engine | undamped | damped springs | drag |", "| --- | --- | --- | --- |", *rows]) + "\n"
+
+
+def engine_row(engine: Engine) -> str:
+    """What short runs of an engine identify it as; "-" where it refuses, and why where it is nothing that is known.
+
+    Raises:
+        InputError: where it is not installed.
+    """
+    if version(engine) is None:
+        raise InputError(f"engine {engine.name!r} is not installed: expected {engine.package}, as the table is of runs")
+    return f"| `{engine.name}` | " + " | ".join(_cell(engine, case) for case in IDENTIFIED) + " |"
+
+
+def _cell(engine: Engine, case: str) -> str:
+    found = identified(EngineStepper(engine), case)
+    if isinstance(found, Outcome):
+        return "-" if found.ending == "unsupported" else found.ending
+    return f"`{found.identified_as}`" if found.identified_as else "not identified"
 
 
 def with_engine_table(text: str) -> str:

@@ -221,14 +221,6 @@ def test_the_papers_are_there() -> None:
         assert words in licence
 
 
-def test_the_readme_has_the_table_of_engines_that_the_project_makes() -> None:
-    """What it says of each engine is what the engine's own file says."""
-    from report.readme import README, with_engine_table
-
-    text = README.read_text(encoding="utf-8")
-    assert with_engine_table(text) == text, "run `python -m report.readme`"
-
-
 def test_continuous_integration_runs_make_test() -> None:
     """From wherever it is called; and the Makefile has the project's two commands."""
     script = ROOT / ".ci" / "run"

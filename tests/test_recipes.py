@@ -25,7 +25,6 @@ from reference.schemes.catalogue import Scheme
 from reference.simulate import simulate
 from reference.stepper import SchemeStepper
 from reference.theory.exact import exact
-from report.readme import README, with_engine_table
 from tests import wrong
 
 CONTRIBUTING = Path(__file__).parents[1] / "CONTRIBUTING.md"
@@ -203,9 +202,3 @@ def test_the_exercise_of_the_recipe_names_its_mistakes(tmp_path: Path, monkeypat
     assert judge(found, right, key="k").name == "right"
     assert judge(found, right.replace("sum(", "-sum(")).name == "sign"
     assert judge(found, right.replace("sum(", "-1 / len(v) * sum(")).name == "sign + mean"
-
-
-def test_readme_has_the_table_of_engines_as_they_are() -> None:
-    """`python -m report.readme` would change nothing."""
-    text = README.read_text(encoding="utf-8")
-    assert with_engine_table(text) == text

@@ -80,7 +80,7 @@ class EngineStepper:
 
     @property
     def claims(self) -> tuple[str, ...]:
-        """The schemes the engine is known to step by, which its runs are compared with besides the catalogue."""
+        """The schemes that the engine claims to step by: identification tries them too."""
         return tuple(dict.fromkeys(self.engine.identified_as.values()))
 
     @property

@@ -8,7 +8,7 @@ drift-kick, with damping by sequential impulses.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -19,6 +19,9 @@ from engines.pymunk.obstacles import add_obstacles
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
+#: Pymunk's default.
+ROUNDS = 10
+
 
 @dataclass(frozen=True)
 class PymunkSprings:
@@ -28,24 +31,24 @@ class PymunkSprings:
         rounds: of sequential impulses in a step (`Space.iterations`; 10 is Pymunk's default).
         backward_euler: whether to give Pymunk the c' for which its damping, converged, is backward Euler with the
             system's c: c' = (m/dt) ln(1 + dt c/m), m the spring's effective mass.
-        identified_as: see engines.engine.Engine.
     """
 
     name: str = "pymunk_springs"
-    rounds: int = 10
+    rounds: int = ROUNDS
     backward_euler: bool = False
-    identified_as: Mapping[str, str] = field(
-        default_factory=lambda: {
-            "plain": "drift_kick",
-            "damping": "drift_kick_sequential_damping",
-            "drag": "drift_kick",
-        }
-    )
     package: str = "pymunk"
     capabilities: frozenset[str] = frozenset(
         {"mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping", "drag"}
         | {"tilted gravity", "no fixed mass", "circle", "plane", "box"}
     )
+
+    @property
+    def identified_as(self) -> Mapping[str, str]:
+        """With damping: as many rounds of it as there are, ten being the scheme's own; or, converted, the implicit."""
+        rounds = "" if self.rounds == ROUNDS else f"(rounds={self.rounds})"
+        sequential = f"drift_kick_sequential_damping{rounds}"
+        damping = "drift_kick_implicit_damping" if self.backward_euler else sequential
+        return {"plain": "drift_kick", "damping": damping, "drag": "drift_kick"}
 
     @property
     def settings(self) -> Mapping[str, object]:
@@ -159,10 +162,5 @@ def _body(pymunk: Any, system: MassSpringSystem, i: int) -> Any:
 
 ENGINES = (
     PymunkSprings(),
-    PymunkSprings(
-        "pymunk_springs_backward",
-        rounds=400,
-        backward_euler=True,
-        identified_as={"plain": "drift_kick", "damping": "drift_kick_implicit_damping", "drag": "drift_kick"},
-    ),
+    PymunkSprings("pymunk_springs_backward", rounds=400, backward_euler=True),
 )

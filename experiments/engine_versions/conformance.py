@@ -13,11 +13,11 @@ from engines.capability_cases import for_each_capability
 from engines.engine import demands
 from engines.process.isolation import EngineStepper
 from experiments.stability import measure_engine
-from reference.identification import candidates, identify_run
+from reference.identification import Identification, candidates, identify_run
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.state import Trajectory
-from reference.stepper import catalogued
+from reference.stepper import catalogued, stepper_named
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
 from reference.theory.limits import fastest_rate
@@ -53,13 +53,24 @@ def measure(stepper: EngineStepper) -> dict[str, Value]:
     }
 
 
-def _identity(stepper: EngineStepper, case: str) -> str:
-    """The scheme it is to rounding; else how far the nearest is."""
+def identified(stepper: EngineStepper, case: str) -> Identification | Outcome:
+    """What a short run of the string identifies it as, in a case of IDENTIFIED; how it ended, if not in a trajectory.
+
+    It is compared with the whole catalogue, and with what it claims to be where that has parameters.
+    """
     system = _string(**IDENTIFIED[case])
     outcome = stepper.run(system, DT, STEPS)
     if outcome.trajectory is None:
-        return f"{outcome.ending}: {outcome.reason}"
-    found = identify_run(stepper.name, outcome, system, _catalogue(case))
+        return outcome
+    known = _catalogue(case, tuple(claim for claim in stepper.claims if claim not in catalogued()))
+    return identify_run(stepper.name, outcome, system, known)
+
+
+def _identity(stepper: EngineStepper, case: str) -> str:
+    """The scheme it is to rounding; else how far the nearest is."""
+    found = identified(stepper, case)
+    if isinstance(found, Outcome):
+        return f"{found.ending}: {found.reason}"
     if found.identified_as:
         return found.identified_as
     return f"none; nearest {found.ranking[0].scheme} at {found.error:.0e} m"
@@ -94,8 +105,8 @@ def _string(**settings: float) -> MassSpringSystem:
 
 
 @cache
-def _catalogue(case: str) -> Mapping[str, Trajectory]:
-    return candidates(_string(**IDENTIFIED[case]), DT, STEPS)
+def _catalogue(case: str, claims: tuple[str, ...]) -> Mapping[str, Trajectory]:
+    return candidates(_string(**IDENTIFIED[case]), DT, STEPS, claims=claims)
 
 
 @cache
@@ -111,6 +122,6 @@ def _trials() -> Mapping[str, MassSpringSystem]:
 
 @cache
 def _claimed(scheme: str, trial: str) -> Trajectory:
-    trajectory = catalogued()[scheme].run(_trials()[trial], DT, STEPS).trajectory
+    trajectory = stepper_named(scheme).run(_trials()[trial], DT, STEPS).trajectory
     assert trajectory is not None, f"{scheme} cannot step {trial}"
     return trajectory

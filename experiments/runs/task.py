@@ -19,7 +19,7 @@ import numpy as np
 
 import engines
 import reference
-from engines.engine import version
+from engines.engine import recorded_settings, version
 from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT
 from reference.system import MassSpringSystem
 
@@ -62,7 +62,7 @@ class Job:
             "task": self.task.__name__,
             "stepper": getattr(engine, "name", None) or self._argument("stepper"),
             "version": self._version,
-            "settings": dict(engine.settings) if engine is not None else None,
+            "settings": recorded_settings(engine) if engine is not None else None,
             "system": digest(system)[:12] if isinstance(system, MassSpringSystem) else None,
             "parameters": dict(self.parameters),
             "dt": self._one_number("dt"),

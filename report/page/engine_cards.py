@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from engines.crash_cases import crash_list
-from engines.engine import CAPABILITIES, Engine, installed_version, registry
+from engines.engine import CAPABILITIES, Engine, installed_version, recorded_settings, registry
 from experiments.engine_versions.baseline import read
 
 #: The cases that engines are identified in, as people say them.
@@ -19,8 +19,8 @@ class Card:
     """One engine setting, in words.
 
     Attributes:
-        settings: what was chosen, as "name = value".
-        schemes: the scheme it steps by, by case.
+        settings: what was chosen, and the precision, as "name = value".
+        schemes: the scheme it claims to step by, by case.
         here: what this report identified it as, and how closely; empty where it did not.
         can, lacks: what a system may ask of it, and what not.
         semantics: what its stiffness, damping and drag mean in SI units.
@@ -71,7 +71,7 @@ def packages(identified: Mapping[str, str]) -> list[Package]:
 def _card(engine: Engine, here: str) -> Card:
     return Card(
         engine.name,
-        [f"{name} = {_in_words(value)}" for name, value in engine.settings.items()],
+        [f"{name} = {_in_words(value)}" for name, value in recorded_settings(engine).items()],
         {words: engine.identified_as[case] for case, words in CASES.items() if case in engine.identified_as},
         here,
         [words for name, words in CAPABILITIES.items() if name in engine.capabilities],

@@ -17,7 +17,7 @@ from engines.process.isolation import isolated, run_engine
 from reference.outcome import Outcome
 from reference.state import Array
 from reference.system import MassSpringSystem
-from tests.conformance.strings import Case
+from tests.conformance.case import Case
 
 T = TypeVar("T")
 

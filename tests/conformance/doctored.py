@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, refuse_beyond
+from engines.engine import CAPABILITIES, Unsupported, refuse_beyond
 from reference.obstacles import project_out
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -27,23 +27,23 @@ class KickDrift:
         """Advance by dt."""
         self.v += self.dt * self.acceleration()
         self.x += self.dt * self.v
-        self.meet_obstacles()
+        self.project()
 
-    def meet_obstacles(self) -> None:
-        """The masses inside come out."""
+    def project(self) -> None:
+        """Masses inside an obstacle are put on its surface."""
         self.x, self.v = project_out(self.system.obstacles, self.system.fixed[:, None], self.x, self.v)
 
     def acceleration(self) -> Array:
         """Of all masses [m/s^2], shape (n, d)."""
         system = self.system
         a, b = system.springs.T
-        gap, w = self.x[b] - self.x[a], self.v[b] - self.v[a]
-        length = np.linalg.norm(gap, axis=1)
-        u = gap / length[:, None]
-        pull = self.stiffness() * (length - system.rest_lengths) + system.damping * (u * w).sum(axis=1)
+        separation, w = self.x[b] - self.x[a], self.v[b] - self.v[a]
+        length = np.linalg.norm(separation, axis=1)
+        u = separation / length[:, None]
+        spring_force = self.stiffness() * (length - system.rest_lengths) + system.damping * (u * w).sum(axis=1)
         force = system.masses[:, None] * system.gravity - system.drag * self.v
-        np.add.at(force, a, pull[:, None] * u)
-        np.subtract.at(force, b, pull[:, None] * u)
+        np.add.at(force, a, spring_force[:, None] * u)
+        np.subtract.at(force, b, spring_force[:, None] * u)
         return np.where(system.fixed[:, None], 0.0, force / system.masses[:, None])
 
     def stiffness(self) -> Array:
@@ -94,27 +94,27 @@ class OneMassForAll(KickDrift):
 class PassesThrough(KickDrift):
     """Knows of no obstacle, and does not say so."""
 
-    def meet_obstacles(self) -> None:
+    def project(self) -> None:
         """Nothing."""
 
 
 class Bounces(KickDrift):
     """Is thrown back by an obstacle as fast as it came."""
 
-    def meet_obstacles(self) -> None:
+    def project(self) -> None:
         """The velocity across is turned."""
         before = self.v
-        super().meet_obstacles()
+        super().project()
         self.v = 2 * self.v - before
 
 
 class Rubs(KickDrift):
     """Loses some of the velocity along an obstacle."""
 
-    def meet_obstacles(self) -> None:
-        """A tenth of it, at each meeting."""
+    def project(self) -> None:
+        """A tenth of it, at each projection."""
         before = self.v
-        super().meet_obstacles()
+        super().project()
         self.v = np.where((self.v != before).any(axis=1, keepdims=True), 0.9 * self.v, self.v)
 
 
@@ -154,6 +154,28 @@ class ChangesAllAlike(KickDrift):
         """One number."""
         first = value if isinstance(value, int | float) else value[0]
         super().change(parameter, first)
+
+
+class RefusesEverything(KickDrift):
+    """Can do whatever it is asked, so it says, and refuses all of it."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        raise Unsupported("not today")
+
+
+class RefusesWhatItCan(KickDrift):
+    """Refuses everything for the lack of a capability that it says it has."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        raise Unsupported(f"RefusesWhatItCan cannot do {CAPABILITIES['3d']}")
+
+
+class RefusesChanges(KickDrift):
+    """Refuses every change by its name."""
+
+    def change(self, parameter: str, value: Value) -> None:
+        """None."""
+        raise Unsupported(f"a change of {parameter} is not for it")
 
 
 class HandsOutItsMemory(KickDrift):

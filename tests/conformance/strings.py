@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from engines.capability_cases import chain, swinging
-from reference.changes import Change
 from reference.system import MassSpringSystem
+from tests.conformance.case import Case
 
 #: A random string is run for so many steps. With rods for links, for so many at most, and no longer than so many times
 #: (l/g)^(1/2), in which a link falls by about its length.
@@ -20,17 +20,6 @@ STEPS, ROD_STEPS, ROD_FALLS = 100, 40, 2.0
 
 #: A random string hangs, at rest, longer than its springs' rest lengths by at most so many times their length.
 LONGEST = 2.0
-
-
-@dataclass(frozen=True, eq=False)
-class Case:
-    """A run without its stepper."""
-
-    name: str
-    system: MassSpringSystem
-    dt: float
-    steps: int
-    changes: Sequence[Change] = ()
 
 
 @dataclass(frozen=True)
@@ -51,8 +40,9 @@ STIFFNESS, MASS, LENGTH = Range(10, 1e4), Range(1e-3, 1), Range(0.02, 0.5)
 def limit(system: MassSpringSystem, rods: bool = False) -> float:
     """A dt [s] up to which semi-implicit Euler is stable on a string, everything that acts on it taken explicitly.
 
-    A mode of frequency w, its velocity decaying at the rate r, asks for h^2 w^2 + 2 r h < 4 (engine-facts.md, with
-    r = gamma). On a string of springs w^2 < 4 k/m and r < 4 c/m + Cd/m; as a pendulum of n rods that hangs,
+    For a mode of frequency w, its velocity decaying at the rate r, the step v' = (1 - r h) v - h w^2 x, x' = x + h v'
+    has determinant 1 - r h and trace 2 - r h - h^2 w^2: it is stable while |trace| < 1 + determinant, which is
+    h^2 w^2 + 2 r h < 4. On a string of springs w^2 < 4 k/m and r < 4 c/m + Cd/m; as a pendulum of n rods that hangs,
     w^2 < 4 n g/l (a bound on the zeros of the Laguerre polynomial L_n) and r = Cd/m.
     """
     lightest, shortest = system.masses.min(), system.rest_lengths.min()

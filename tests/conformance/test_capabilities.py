@@ -2,30 +2,25 @@
 
 from __future__ import annotations
 
-from functools import cache
+from typing import get_args
 
 import pytest
 
-from engines.capability_cases import for_each_capability
-from engines.engine import CAPABILITIES, Engine, demands, find
-from reference.outcome import Outcome
-from reference.stepper import catalogued
-from tests.conformance.checks import check_capability, outcomes
-from tests.conformance.strings import Case
-
-CASES = {name: Case(name, system, 1e-3, 200) for name, system in for_each_capability().items()}
-
-
-@cache
-def runs(engine: str) -> dict[str, Outcome]:
-    """How all cases end for an engine."""
-    return dict(zip(CASES, outcomes(find(engine), list(CASES.values())), strict=True))
+from engines.engine import CAPABILITIES, Engine, Precision, demands, precision
+from reference.stepper import stepper_named
+from tests.conformance.cases import CAPABILITIES as CASES
+from tests.conformance.checks import check_capability
+from tests.conformance.refusals import refused_as_expected
+from tests.conformance.runs import outcome_of
 
 
 @pytest.mark.parametrize("capability", CASES)
 def test_a_capability_is_kept_or_its_lack_is_said(engine: Engine, capability: str) -> None:
     """A system that asks for it is stepped as claimed, to 1e-12 of its size; or `unsupported` says what is lacking."""
-    check_capability(engine, CASES[capability], runs(engine.name)[capability])
+    case = CASES[capability]
+    outcome = outcome_of(engine, case)
+    check_capability(engine, case, outcome)
+    refused_as_expected(engine, "capabilities", case, outcome)
 
 
 @pytest.mark.parametrize("capability", CAPABILITIES)
@@ -37,13 +32,18 @@ def test_there_is_a_system_that_asks_for_every_capability(capability: str) -> No
 
 
 def test_an_engine_declares_known_capabilities_and_catalogued_schemes(engine: Engine) -> None:
-    """Its claims cover the plain case and every kind of damping it can do."""
+    """Its claims cover the plain case and every kind of damping it can do, each by the name the catalogue gives it.
+
+    So a parameter is named where it is not as the scheme has it, and only there.
+    """
     assert engine.capabilities <= set(CAPABILITIES)
-    assert set(engine.identified_as.values()) <= set(catalogued())
+    for claim in engine.identified_as.values():
+        assert stepper_named(claim).name == claim
     assert set(engine.identified_as) == {"plain"} | ({"damping", "drag"} & engine.capabilities)
 
 
 def test_an_engine_says_what_its_numbers_mean_and_what_was_chosen(engine: Engine) -> None:
-    """Its semantics name stiffness, damping and drag; its settings are on record."""
+    """Its semantics name stiffness, damping and drag; its settings are on record, and its precision."""
     assert all(word in engine.semantics for word in ("stiffness", "damping", "drag"))
     assert engine.settings
+    assert precision(engine) in get_args(Precision)

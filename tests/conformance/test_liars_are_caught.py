@@ -7,10 +7,13 @@ from dataclasses import replace
 import pytest
 
 from engines.capability_cases import for_each_capability
-from tests.conformance import doctored, test_capabilities, test_changes, test_default_string
-from tests.conformance.checks import check_capability, check_change, check_follows, check_state, looks, outcomes
+from tests.conformance import doctored, test_default_string
+from tests.conformance.case import Case
+from tests.conformance.cases import CAPABILITIES, CHANGES, EACH
+from tests.conformance.checks import check_capability, check_change, check_follows, check_state, looks
 from tests.conformance.doctored import Doctored, KickDrift
-from tests.conformance.strings import Case, random_strings
+from tests.conformance.runs import outcome_of, outcomes
+from tests.conformance.strings import random_strings
 
 HONEST = Doctored()
 
@@ -58,40 +61,40 @@ def test_the_random_strings_fail_on(liar: type[KickDrift]) -> None:
 
 def test_the_honest_engine_changes_on_the_fly_and_the_liar_is_caught() -> None:
     """The check of changes refuses an engine that ignores them, whatever the parameter."""
-    for name, case in test_changes.CASES.items():
-        (right,), (wrong,) = outcomes(HONEST, [case]), outcomes(Doctored(doctored.IgnoresChanges), [case])
-        check_change(HONEST, case, right)
+    for name, case in CHANGES.items():
+        liar = Doctored(doctored.IgnoresChanges)
+        check_change(HONEST, case, outcome_of(HONEST, case))
         with pytest.raises(AssertionError, match=name):
-            check_change(Doctored(doctored.IgnoresChanges), case, wrong)
+            check_change(liar, case, outcome_of(liar, case))
 
 
 def test_an_engine_that_takes_one_number_for_each_as_one_for_all_is_caught() -> None:
     """Whatever the parameter; it passes where there is one number only."""
     liar = Doctored(doctored.ChangesAllAlike)
-    for name in test_changes.EACH:
-        case = test_changes.CASES[f"{name} of each"]
+    for name in EACH:
+        case = CHANGES[f"{name} of each"]
         with pytest.raises(AssertionError):
-            check_change(liar, case, *outcomes(liar, [case]))
-        plain = test_changes.CASES[name]
-        check_change(liar, plain, *outcomes(liar, [plain]))
+            check_change(liar, case, outcome_of(liar, case))
+        plain = CHANGES[name]
+        check_change(liar, plain, outcome_of(liar, plain))
 
 
 def test_a_capability_an_engine_only_says_it_has_is_caught() -> None:
     """The check of capabilities passes the honest engine, and refuses one that gives all masses the same mass."""
-    case = test_capabilities.CASES["masses"]
+    case = CAPABILITIES["masses"]
     for engine in (HONEST, replace(HONEST, capabilities=HONEST.capabilities - {"masses"})):
-        check_capability(engine, case, *outcomes(engine, [case]))
+        check_capability(engine, case, outcome_of(engine, case))
     liar = Doctored(doctored.OneMassForAll)
     with pytest.raises(AssertionError):
-        check_capability(liar, case, *outcomes(liar, [case]))
+        check_capability(liar, case, outcome_of(liar, case))
 
 
 def test_a_lack_that_is_not_said_is_caught() -> None:
     """The check of capabilities refuses an engine that steps what it should refuse."""
-    case = test_capabilities.CASES["damping"]
+    case = CAPABILITIES["damping"]
     engine = replace(HONEST, capabilities=HONEST.capabilities - {"damping"}, refuses=False)
     with pytest.raises(AssertionError, match="lacks"):
-        check_capability(engine, case, *outcomes(engine, [case]))
+        check_capability(engine, case, outcome_of(engine, case))
 
 
 def test_the_check_of_states_fails_on_views_and_on_a_wrong_start() -> None:

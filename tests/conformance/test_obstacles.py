@@ -10,9 +10,10 @@ from reference.obstacles import Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.outcome import Outcome
 from reference.system import MassSpringSystem
 from tests.conformance import doctored
-from tests.conformance.checks import outcomes, require
+from tests.conformance.case import Case
+from tests.conformance.checks import require
 from tests.conformance.doctored import Doctored
-from tests.conformance.strings import Case
+from tests.conformance.runs import outcome_of
 
 #: Each with its top at the origin; the cylinder lies along the first axis, in which the mass moves.
 KINDS: dict[str, Obstacle] = {
@@ -92,7 +93,7 @@ def test_a_mass_that_falls_on_an_obstacle_stays_on_it(engine: Engine, kind: str)
         require(engine, "3d")
         require(engine, "mesh")
     case = falling(obstacle, 0.0)
-    check_stopped(case, *outcomes(engine, [case]))
+    check_stopped(case, outcome_of(engine, case))
 
 
 @pytest.mark.parametrize("kind", ["plane", "plane in space", "cylinder", "box", "box in space"])
@@ -104,19 +105,19 @@ def test_a_mass_slides_without_friction(engine: Engine, kind: str) -> None:
         require(engine, "3d")
         require(engine, "mesh")
     case = falling(obstacle, 0.5)
-    check_slides(case, *outcomes(engine, [case]))
+    check_slides(case, outcome_of(engine, case))
 
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_both_checks_pass_the_honest_engine_and_fail_on_liars(kind: str) -> None:
     """One that passes through, one that bounces, one that rubs."""
     still, sliding = falling(KINDS[kind], 0.0), falling(KINDS[kind], 0.5)
-    check_stopped(still, *outcomes(Doctored(), [still]))
+    check_stopped(still, outcome_of(Doctored(), still))
     for liar in (doctored.PassesThrough, doctored.Bounces):
         with pytest.raises(AssertionError):
-            check_stopped(still, *outcomes(Doctored(liar), [still]))
+            check_stopped(still, outcome_of(Doctored(liar), still))
     if kind in ("circle", "sphere"):
         return
-    check_slides(sliding, *outcomes(Doctored(), [sliding]))
+    check_slides(sliding, outcome_of(Doctored(), sliding))
     with pytest.raises(AssertionError):
-        check_slides(sliding, *outcomes(Doctored(doctored.Rubs), [sliding]))
+        check_slides(sliding, outcome_of(Doctored(doctored.Rubs), sliding))

@@ -23,13 +23,14 @@ from __future__ import annotations
 import pytest
 
 from engines.engine import Engine
-from tests.conformance.checks import check_follows, outcomes, supported, swings_rods
+from tests.conformance.checks import check_follows, on_rods, supported
+from tests.conformance.runs import outcomes
 from tests.conformance.strings import random_strings
 
 
 def test_every_random_string_is_stepped_as_claimed(engine: Engine) -> None:
     """On all strings within its capabilities, max |x_engine - x_scheme| <= 1e-12 of the string's size."""
-    cases = supported(engine, random_strings(swings_rods(engine)))
+    cases = supported(engine, random_strings(on_rods(engine)))
     if not cases:
         pytest.skip(f"{engine.name} can do none of the random strings")
     for case, outcome in zip(cases, outcomes(engine, cases), strict=True):
@@ -40,4 +41,4 @@ def test_at_least_25_random_strings_fit_every_engine(engine: Engine) -> None:
     """Straight strings at rest ask for damping and drag at most, and every engine gets at least 25 strings."""
     if not {"damping", "drag"} <= engine.capabilities:
         pytest.skip(f"{engine.name} lacks damping or drag")
-    assert len(supported(engine, random_strings(swings_rods(engine)))) >= 25
+    assert len(supported(engine, random_strings(on_rods(engine)))) >= 25

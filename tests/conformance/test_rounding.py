@@ -7,9 +7,10 @@ import pytest
 from engines.engine import Engine
 from reference.identification import TOLERANCE
 from reference.scenes import find
-from tests.conformance.checks import check_follows, expected, rounding
+from tests.conformance.case import Case
+from tests.conformance.checks import check_follows
 from tests.conformance.doctored import Doctored, KickDrift
-from tests.conformance.strings import Case
+from tests.conformance.runs import expected, rounding
 
 STRING = find("string").system({})
 QUIET, TORN = Case("stable", STRING, 1e-3, 500), Case("too large a step", STRING, 0.02, 200)
@@ -17,12 +18,12 @@ QUIET, TORN = Case("stable", STRING, 1e-3, 500), Case("too large a step", STRING
 
 @pytest.mark.parametrize("scheme", ["kick_drift", "velocity_verlet", "rk4"])
 def test_a_stable_motion_makes_little_of_rounding(scheme: str) -> None:
-    """Pushed by 1e-14 of the size, it is less than 1e-13 off after 0.5 s: the tolerance stays what it is."""
+    """Perturbed by 1e-14 of the size, it is less than 1e-13 off after 0.5 s: the tolerance stays what it is."""
     assert rounding(scheme, QUIET) < 1e-13
 
 
 def test_a_motion_that_blows_up_makes_much_of_it() -> None:
-    """RK4 at 1.4 times its limit multiplies a push by more than 1e4 before the string tears, and by less than 1e9."""
+    """RK4 at 1.4 times its limit multiplies a perturbation by 1e4 to 1e9 before the string tears."""
     assert TOLERANCE < 100 * TOLERANCE < rounding("rk4", TORN) < 1e-5
 
 

@@ -12,7 +12,7 @@ from engines.bullet.mesh import sorted_pairs, two_apart
 from engines.bullet.softbody import in_space
 from reference.state import Array
 from reference.system import MassSpringSystem
-from tests.conformance.strings import Case
+from tests.conformance.case import Case
 
 
 def on_springs(

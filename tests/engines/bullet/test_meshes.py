@@ -16,8 +16,9 @@ from reference.changes import Change
 from reference.errors import Unsupported
 from reference.obstacles import Plane, Sphere
 from reference.scenes import find as find_scene
-from tests.conformance.checks import check_follows, outcomes
-from tests.conformance.strings import Case
+from tests.conformance.case import Case
+from tests.conformance.checks import check_follows
+from tests.conformance.runs import outcomes
 from tests.engines.meshes import (
     PLACES,
     cloth,
@@ -76,7 +77,7 @@ CHANGES = [Change(0.05, "stiffness", 80.0), Change(0.1, "damping", 0.1), Change(
 
 @needs_bullet
 def test_bullet_steps_meshes_as_claimed() -> None:
-    """Over 200 steps max |x_bullet - x_scheme| <= 1e-12 of the size; 8.3e-16 m on the cloth, by engine-facts.md."""
+    """Over 200 steps max |x_bullet - x_scheme| <= 1e-12 of the size; 8.3e-16 m was measured on the cloth."""
     assert len(MESHES["cloth"].springs) == 161
     assert len(MESHES["jello"].springs) == 279
     cases = [*CASES, *random_cases(16)]

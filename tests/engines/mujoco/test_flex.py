@@ -15,9 +15,10 @@ from engines.mujoco.rope import MujocoRope
 from engines.process.isolation import run_engine
 from reference.scenes import find as find_scene
 from reference.system import MassSpringSystem
-from tests.conformance.checks import check_follows, outcomes
+from tests.conformance.case import Case
+from tests.conformance.checks import check_follows
 from tests.conformance.children import answer_of
-from tests.conformance.strings import Case
+from tests.conformance.runs import outcomes
 
 NAMES = ("mujoco_flex", "mujoco_flex_rk4", "mujoco_rope")
 

@@ -333,7 +333,7 @@ def test_labels_say_what_a_job_is_about() -> None:
         "task": "stepped",
         "stepper": "pymunk_springs",
         "version": run_job().labels["version"],
-        "settings": dict(PymunkSprings().settings),
+        "settings": {**PymunkSprings().settings, "precision": "double"},
         "system": digest(STRING)[:12],
         "parameters": {"masses": 3.0},
         "dt": 1e-3,

@@ -1,0 +1,60 @@
+"""What Pymunk makes of contacts, by measurement: the facts that the adapter's settings rest on."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from engines.engine import find, version
+from engines.process.isolation import isolated
+
+DT = 1e-3
+
+pytestmark = pytest.mark.skipif(version(find("pymunk_springs")) is None, reason="pymunk is not installed")
+
+
+def bounce(first: float, second: float) -> float:
+    """The part of its speed that a body has after a shape has thrown it back, their elasticities being these."""
+    import pymunk
+
+    space = pymunk.Space()
+    space.collision_slop = space.collision_bias = 0.0
+    body = pymunk.Body(0.02, float("inf"))
+    body.position, body.velocity = (0.0, 1.01), (0.0, -2.0)
+    point, circle = pymunk.Circle(body, 0.0), pymunk.Circle(space.static_body, 1.0)
+    point.elasticity, circle.elasticity = first, second
+    space.add(body, point, circle)
+    for _ in range(20):
+        space.step(DT)
+    return float(body.velocity.y / 2.0)
+
+
+def overlap(slop: float | None) -> float:
+    """How deep [m] a mass that rests on a circle of 1 m is in it after 2 s."""
+    import pymunk
+
+    space = pymunk.Space()
+    space.gravity = (0.0, -9.81)
+    if slop is not None:
+        space.collision_slop, space.collision_bias = slop, 0.0
+    body = pymunk.Body(0.02, float("inf"))
+    body.position = (0.0, 1.01)
+    space.add(body, pymunk.Circle(body, 0.0), pymunk.Circle(space.static_body, 1.0))
+    for _ in range(2000):
+        space.step(DT)
+    return float(1.0 - body.position.y)
+
+
+def test_restitution_is_the_product_of_elasticities() -> None:
+    """So it is 0 unless both are set, which the adapter does not."""
+    for first, second in ((0.0, 0.0), (1.0, 0.0), (0.8, 0.5), (1.0, 1.0)):
+        assert isolated(bounce, first, second) == pytest.approx(first * second, abs=1e-12)
+
+
+def test_masses_are_left_inside_unless_told() -> None:
+    """By its default slop a mass stays as deep as it came, up to v dt; without slop it is out, but for g dt^2."""
+    left, out = isolated(overlap, None), isolated(overlap, 0.0)
+    assert isinstance(left, float)
+    assert isinstance(out, float)
+    assert 0.1 * np.sqrt(2 * 9.81 * 0.01) * DT < left < np.sqrt(2 * 9.81 * 0.01) * DT
+    assert abs(out) <= 1.01 * 9.81 * DT**2 < left
