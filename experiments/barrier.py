@@ -126,6 +126,22 @@ def run(progress: Progress) -> Result:
     motions = dict(_strings(string, scene.dt, round(scene.duration / scene.dt), progress))
     strings = {name: o.trajectory for name, o in motions.items() if o.trajectory is not None}
     failures += [f"{name}, string: {o.ending}, {o.reason}" for name, o in motions.items() if o.ending != "done"]
+    return result_of(slides, string, strings, failures)
+
+
+def result_of(
+    slides: dict[tuple[str, str], list[Slide | None]],
+    string: MassSpringSystem,
+    strings: dict[str, Trajectory],
+    failures: Sequence[str] = (),
+) -> Result:
+    """Slides and strings as findings and tables.
+
+    Args:
+        slides: by stepper and rule, one for each of STEPS; None where there was no motion.
+        string: the scene with its circle.
+        strings: by stepper, its motion.
+    """
     tables = [_slide_table(slides), _string_table(string, strings)]
     data = {"slides": slides, "strings": strings, "circle": string.obstacles[0]}
     return Result(_findings(slides), tables, data, failures)

@@ -155,6 +155,11 @@ def run(progress: Progress) -> Result:
             failures.append(f"{name}, bending length {c:g} m: {found.ending}, {found.reason}")
             continue
         cloths.append({"by": name, "length": c, "spacing": spacing, "sample": sample, **found})
+    return result_of(cloths, failures)
+
+
+def result_of(cloths: Sequence[Mapping[str, Any]], failures: Sequence[str] = ()) -> Result:
+    """Cloths, each with what `hung` says of it and what it is, as findings and a table."""
     return Result(_findings(cloths), [_table(cloths)], {"cloths": cloths}, failures)
 
 
@@ -185,6 +190,8 @@ def _table(cloths: Sequence[Mapping[str, Any]]) -> Table:
 
 def _findings(cloths: Sequence[Mapping[str, Any]]) -> list[str]:
     rows = rows_of(cloths, SPACING)
+    if not rows:
+        return [f"No cloth of {1e3 * SPACING:g} mm between masses came to an end."]
     (limp, low, _), (stiff, high, _) = rows[0], rows[-1]
     falls = [(a, b) for a, b in pairwise(rows) if b[1] < a[1]]
     scatter = max(spread for _, _, spread in rows)

@@ -6,6 +6,8 @@ it in deserves to know. Each remark here is executed, and carries the number tha
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
@@ -40,6 +42,20 @@ def run(progress: Progress) -> Result:
         *_next_spring(),
         *_derivative_listing(),
     ]
+    return result_of(remarks, orders, barrier)
+
+
+def result_of(
+    remarks: list[Remark],
+    orders: Mapping[str, tuple[list[float], list[float], float]],
+    barrier: tuple[Array, Array, Array],
+) -> Result:
+    """Remarks as findings and a table.
+
+    Args:
+        orders: what the figure draws on the left: by scheme, steps [s], errors [m], and the order.
+        barrier: what it draws on the right: angles [rad], and what printed and projected rule leave of 1 m/s.
+    """
     columns = ["slide", "as printed", "measured", "value", "unit"]
     return Result(_findings(remarks), [Table("errata", columns, remarks)], {"orders": orders, "barrier": barrier})
 

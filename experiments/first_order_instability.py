@@ -70,6 +70,11 @@ def run(progress: Progress) -> Result:
     for name in SCHEMES:
         progress(name)
         fates.append(fate(system, find_scheme(name), true))
+    return result_of(fates, true)
+
+
+def result_of(fates: Sequence[Fate], true: Trajectory) -> Result:
+    """Fates, and the true motion that they are measured by, as findings and tables."""
     columns = ["scheme", "growth - 1 in a step, predicted", "measured: pushed", "measured: swinging"]
     columns += ["predicted: tenfold in [s]", f"distance from the truth at {DURATION:g} s [m]"]
     rows = [

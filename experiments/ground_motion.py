@@ -9,7 +9,7 @@ weight wherever it is; a fast one makes it swing.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -69,8 +69,21 @@ def run(progress: Progress) -> Result:
     for engine in engines:
         if engine.name in rows:
             rows[engine.name] = _with_distance(engine, rows[engine.name], ends)
-    linear, line = predicted_sway(), influence_line()
-    data = {"rows": rows, "natural": natural_frequencies(), "linear": linear, "line": line}
+    return result_of(rows, natural_frequencies(), predicted_sway(), influence_line(), failures)
+
+
+def result_of(
+    rows: Mapping[str, Ran], natural: Array, linear: Array, line: tuple[Array, Array], failures: Sequence[str] = ()
+) -> Result:
+    """Runs and what is predicted for them as findings and tables.
+
+    Args:
+        rows: by stepper.
+        natural: natural frequencies [Hz].
+        linear: the sway of the linear bridge [m], one for each step of the sweep.
+        line: the influence line: positions of the truck [m], and how far the middle is down [m].
+    """
+    data = {"rows": rows, "natural": natural, "linear": linear, "line": line}
     tables = [_resonance_table(rows, linear), _truck_table(rows, line), _sway_table(rows, linear)]
     return Result(_findings(rows, linear, line), tables, data, failures)
 

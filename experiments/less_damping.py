@@ -57,6 +57,11 @@ def run(progress: Progress) -> Result:
         progress(f"drag {drag:g} N s/m")
         system = find("string").system({"drag": drag})
         swings.append(swing(system, exact(system, DT, round(DURATION / DT))))
+    return result_of(swings)
+
+
+def result_of(swings: Sequence[Swing]) -> Result:
+    """Swings as findings and tables."""
     tables = [_summary(swings), _over_time(swings)]
     return Result(_findings(swings), tables, {"swings": swings})
 

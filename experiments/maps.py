@@ -46,6 +46,11 @@ def run(progress: Progress, finer: int = 1) -> Result:
             maps.append(stability_map(all_steppers()[name], system_at, dt, x, y, progress, finer * resolution))
         except InputError as error:
             failures.append(str(error))
+    return result_of(maps, failures)
+
+
+def result_of(maps: Sequence[StabilityMap], failures: Sequence[str] = ()) -> Result:
+    """Maps as findings and a table."""
     rows = [[m.stepper, m.y.name, m.growth.size, m.predicted_by, _beyond(m), agreement(m)] for m in maps]
     columns = ["stepper", "dt and", "runs", "predicted by", "part predicted unstable [1]", "part that agrees [1]"]
     return Result(_findings(maps), [Table("maps", columns, rows)], {"maps": maps}, failures)

@@ -63,6 +63,15 @@ def run(progress: Progress) -> Result:
         [] if dask is None else [Hand("a portion of runs to a Dask worker and back", dask, "on a cluster, a portion")]
     )
     failures = [] if dask is not None else ["Dask: not installed; expected the extra springlab[cluster]"]
+    return result_of(kinds, hands, size, failures)
+
+
+def result_of(kinds: Sequence[Kind], hands: Sequence[Hand], size: float, failures: Sequence[str] = ()) -> Result:
+    """Costs as findings and tables.
+
+    Args:
+        size: what a run takes in the store [bytes].
+    """
     tables = [_predictions(kinds, hands), _costs(kinds, hands)]
     return Result(_findings(kinds, hands, size), tables, {"kinds": kinds, "hands": hands}, failures)
 

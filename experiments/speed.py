@@ -87,6 +87,11 @@ def run(progress: Progress) -> Result:
     adapters = [row for engine in registry().values() for row in time_adapter(engine)]
     progress("NumPy arrays")
     rows.append(time_numpy())
+    return result_of(rows, adapters)
+
+
+def result_of(rows: Sequence[Timing], adapters: Sequence[Sequence[object]]) -> Result:
+    """Timings, and rows of `time_adapter`, as findings and tables."""
     columns = [
         "what",
         "threads",

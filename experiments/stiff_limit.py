@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from engines.engine import find as find_engine
@@ -39,13 +41,24 @@ def run(progress: Progress) -> Result:
         to_cable = None if cable is None else float(np.linalg.norm(springs.positions - cable, axis=2).max())
         rows.append([stiffness, float(springs.distance(rods).max()), to_cable])
     own = None if cable is None else float(np.linalg.norm(rods.positions - cable, axis=2).max())
+    failures = [] if cable is not None else [f"mujoco_cable_rk4: {outcome.ending}, {outcome.reason}"]
+    return result_of(rows, own, failures)
+
+
+def result_of(rows: list[list[float | None]], cable_error: float | None, failures: Sequence[str] = ()) -> Result:
+    """Distances as findings and a table.
+
+    Args:
+        rows: stiffness [N/m], distance of the string from the pendulum and from the cable [m]; at least four.
+        cable_error: how far the cable is from the pendulum [m]; None where it did not run.
+    """
     stiff = np.array([row[:2] for row in rows[2:]], dtype=float)
     stiffness, distance = np.log(stiff.T)
     slope = float(np.polyfit(stiffness, distance, 1)[0])
     columns = ["stiffness [N/m]", "string to pendulum [m]", "string to MuJoCo cable [m]"]
     tables = [Table("stiff_limit", columns, [[finite(v) for v in row] for row in rows])]
-    failures = [] if cable is not None else [f"mujoco_cable_rk4: {outcome.ending}, {outcome.reason}"]
-    return Result(_findings(slope, rows, own), tables, {"rows": rows, "slope": slope, "cable_error": own}, failures)
+    data = {"rows": rows, "slope": slope, "cable_error": cable_error}
+    return Result(_findings(slope, rows, cable_error), tables, data, failures)
 
 
 def _findings(slope: float, rows: list[list[float | None]], cable_error: float | None) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from io import StringIO
 from threading import RLock
@@ -81,6 +82,23 @@ def few_ticks(axes: Any) -> None:
     axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
     axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
+
+
+def from_nothing(axis: Any, nothing: float, labels: Mapping[float, str]) -> None:
+    """Label a logarithmic axis that has a place for zero, too, which has no logarithm.
+
+    Args:
+        axis: one of the axes' two.
+        nothing: where zero is drawn.
+        labels: what else is labelled, and how.
+    """
+    axis.set_ticks([nothing, *labels], ["none", *labels.values()])
+    axis.set_ticks([], minor=True)
+
+
+def powers(*exponents: int) -> dict[float, str]:
+    """Powers of ten and their labels."""
+    return {10.0**n: f"$10^{{{n}}}$" for n in exponents}
 
 
 def look(i: int) -> dict[str, str]:

@@ -1,4 +1,4 @@
-"""How long a step each engine takes on somebody's scene: limits, and the scene's own dt."""
+"""How long a step each engine takes on a user's own scene: limits, and the scene's own dt."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from experiments.experiment import Result
 from reference.scenes import Setup
 from report.figures import COLOURS, MEASURED, PREDICTED, Picture, few_ticks, new_figure
 
-#: The axis goes so many times beyond the numbers on it to the left; to the right, where words stand, a part of itself.
+#: The axis goes this many times beyond its numbers to the left; to the right, where words stand, a part of itself.
 LEFT, RIGHT = 2.0, 0.35
 
-#: Beyond so large a quotient of numbers on the axis, 1, 2 and 5 of every decade would run into one another.
+#: Beyond this quotient of numbers on the axis, 1, 2 and 5 of every decade would run into one another.
 FEW_DECADES = 100
+
+#: How a scene that does not come to its end is said to have ended.
+ENDED = {"diverged": "blows up", "crashed": "crashes", "timed out": "takes too long"}
 
 
 def draw(result: Result) -> Picture:
@@ -51,12 +54,13 @@ def _row(axes: Any, y: int, advice: Advice, setup: Setup) -> None:
 
 
 def _words(advice: Advice, setup: Setup) -> str:
+    ended = "" if advice.own.ending == "done" else f"{ENDED[advice.own.ending]}; "
     if advice.limit is None:
-        return f"{'' if advice.own.ending == 'done' else 'blows up; '}limit not measured"
+        return f"{ended}limit not measured"
     if setup.dt > advice.limit:
-        return f"blows up: {setup.dt / advice.limit:.2g} times too long"
-    if advice.own.ending != "done":
-        return f"{advice.own.ending}, for another reason"
+        return f"{ended}dt is {setup.dt / advice.limit:.2f} times the limit"
+    if ended:
+        return f"{ended}not for its dt, margin {advice.limit / setup.dt:.2f}"
     return f"stable, margin {advice.limit / setup.dt:.2f}"
 
 

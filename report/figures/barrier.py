@@ -11,7 +11,7 @@ from experiments.barrier import OWN, STEPS, Slide, predicted
 from experiments.experiment import Result
 from reference.obstacles import Circle
 from reference.state import Trajectory
-from report.figures import COLOURS, Picture, few_ticks, look, new_figure
+from report.figures import Picture, few_ticks, from_nothing, look, new_figure, powers
 from report.figures.filmstrip import Strip, draw_row
 
 #: When the string is drawn [s], and how far a frame reaches to either side of the anchor, below and above it [m].
@@ -21,7 +21,7 @@ FRAME = (1.35, 1.4, 0.15)
 #: What is drawn in the first row of the film.
 RULES = ("heun", "kick_drift", "lecture_barrier")
 
-#: A depth of nothing has no place on a logarithmic axis [m].
+#: Where a depth of nothing is drawn, which has no place on a logarithmic axis [m].
 FLOOR = 1e-17
 
 
@@ -39,13 +39,14 @@ def draw(result: Result) -> Picture:
         angles.axhline(height, color="#333333", linewidth=1, linestyle=":")
         angles.text(STEPS[-1], height + 1.2, f"predicted, {says}", fontsize=9)
     angles.set_ylim(0, 70)
-    angles.set_ylabel("leaves the circle, or stays on it, at [deg]")
+    angles.set_ylabel("angle from the top where it leaves, or is in the end [deg]")
     depths.set_ylabel("deepest inside [m]")
     depths.set_yscale("log")
     for plot in (angles, depths):
         plot.set_xscale("log")
         plot.set_xlabel("dt [s]")
         few_ticks(plot)
+    from_nothing(depths.yaxis, FLOOR, powers(*range(-15, 0, 3)))
     angles.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.35))
     strings = result.data["strings"]
     _film(_row(figure, axes, 1), {name: strings[name] for name in RULES if name in strings}, result.data["circle"])
@@ -73,17 +74,19 @@ def _row(figure: Any, axes: Any, row: int) -> Any:
 
 
 def _film(axes: Any, motions: Mapping[str, Trajectory], circle: Circle) -> None:
+    from matplotlib.lines import Line2D
     from matplotlib.patches import Circle as Disc
 
-    colours = {name: COLOURS[i % len(COLOURS)] for i, name in enumerate(motions)}
-    style = {"linewidth": 1.0, "marker": ".", "markersize": 3}
-    strips = [Strip(motion, {**style, "color": colours[name]}) for name, motion in motions.items()]
+    styles: dict[str, dict[str, Any]] = {
+        name: {"linewidth": 1.0, "markersize": 3, **look(i)} for i, name in enumerate(motions)
+    }
+    strips = [Strip(motion, styles[name]) for name, motion in motions.items()]
     draw_row(axes, strips, TIMES, FRAME)
     for i in range(len(TIMES)):
         x, y = circle.centre
         axes.add_patch(Disc((2 * FRAME[0] * i + x, y), circle.radius, color="#dddddd", zorder=0))
-    for i, (name, colour) in enumerate(colours.items()):
-        axes.text(1.01, 0.95 - 0.12 * i, name, transform=axes.transAxes, color=colour, fontsize=7)
+    handles = [Line2D([], [], label=name, **style) for name, style in styles.items()]
+    axes.legend(handles=handles, fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.15))
 
 
 def _alt(result: Result) -> str:

@@ -73,9 +73,9 @@ def draw(result: Result) -> Picture:
         axes.set_xscale("log")
         axes.set_yscale("log")
     left.set_xlabel(f"wall time of {DURATION:g} s of motion [s]")
-    left.set_ylabel("largest distance of any mass from the truth at the end [m]")
+    left.set_ylabel("largest distance of any mass from the true motion at the end [m]")
     left.set_title(f"Measured: a string of {MASSES[0]} masses, five dt", loc="left", fontsize=11)
-    right.set_xlabel("masses")
+    right.set_xlabel("masses [1]")
     right.set_ylabel("steps per second [1/s]")
     right.set_title("Measured: speed on larger strings", loc="left", fontsize=11)
     title = "scheme: engines (solid), our own (dashed);\nshaded: from cheapest to dearest"

@@ -11,7 +11,7 @@ import numpy as np
 from experiments.experiment import Result
 from experiments.runs.comparison import Comparison, Run
 from reference.state import Array
-from report.figures import IDENTIFIED, Picture, look, new_figure
+from report.figures import IDENTIFIED, Picture, from_nothing, look, new_figure, powers
 from report.figures.labels import End, label_ends
 
 #: Where no difference at all is drawn: a logarithm has no place for it.
@@ -30,7 +30,8 @@ def draw(result: Result) -> Picture:
     figure, axes = new_figure(figsize=(10.5, max(HEIGHT, LINE * (lines + 4))))
     times = comparison.times
     axes.set_yscale("log")
-    axes.set_ylim(FLOOR / 2, 10)
+    axes.set_ylim(FLOOR / 2, max(10.0, 3 * max((_most(run.error) for run in runs), default=0.0)))
+    from_nothing(axes.yaxis, FLOOR, powers(*range(-15, 2, 3)))
     axes.set_xlim(0, times[-1])
     axes.set_xlabel("time [s]")
     axes.set_ylabel("largest distance of any mass [m]")
@@ -43,8 +44,8 @@ def draw(result: Result) -> Picture:
         if deviation is not None:
             _line(axes, times, deviation, i, len(groups), "--", IDENTIFIED)
     note = {"transform": axes.get_yaxis_transform(), "fontsize": 11, "fontweight": "bold", "color": "#333333"}
-    axes.text(0.01, 2.0, "measured: from the true motion (dots)", **note)
-    axes.text(0.05, 1e-12, "identified: from the scheme named on the right (rings)", **note)
+    axes.text(0.01, 2.0, "measured: from the true motion (full markers)", **note)
+    axes.text(0.05, 1e-12, "identified: from the scheme named on the right (hollow, dashed)", **note)
     label_ends(axes, [end for end in ends if np.isfinite(end.y)], LINE / figure.get_figheight() * 1.15, fontsize=8.5)
     return Picture(figure, _alt(runs))
 
@@ -67,7 +68,13 @@ def _largest(curves: Sequence[Array | None]) -> Array | None:
 
 
 def _shown(values: Array) -> Array:
-    return np.where(np.isfinite(values), np.clip(values, FLOOR, 10), np.nan)
+    return np.where(np.isfinite(values), np.maximum(values, FLOOR), np.nan)
+
+
+def _most(values: Array | None) -> float:
+    """The largest that is a finite number."""
+    finite = np.zeros(0) if values is None else values[np.isfinite(values)]
+    return float(finite.max(initial=0.0))
 
 
 def _line(axes: Any, times: Array, values: Array, i: int, count: int, style: str, marks: dict[str, Any]) -> None:

@@ -55,7 +55,7 @@ def _coefficients(axes: Any, cloths: Sequence[Mapping[str, Any]]) -> None:
     few_ticks(axes)
     axes.set_ylim(0, 1)
     axes.set_xlabel("bending length [mm]")
-    axes.set_ylabel("drape coefficient, measured")
+    axes.set_ylabel("drape coefficient, measured [1]")
     axes.legend(fontsize=9, loc="upper left")
 
 

@@ -11,10 +11,10 @@ import numpy as np
 from experiments.energy import DURATION, KINDS, Row
 from experiments.experiment import Result
 from reference.state import Array
-from report.figures import COLOURS, Picture, new_figure
+from report.figures import COLOURS, Picture, from_nothing, new_figure, powers
 from report.figures.labels import End, label_ends
 
-#: Each kind of energy's colour and marker, none if it was not told.
+#: Each kind of energy's colour and marker; there is no marker if it could not be told.
 LOOKS: dict[str | None, dict[str, str]] = {
     "bounded": {"color": COLOURS[2], "marker": "o"},
     "growing": {"color": COLOURS[1], "marker": "^"},
@@ -22,10 +22,16 @@ LOOKS: dict[str | None, dict[str, str]] = {
     None: {"color": COLOURS[6], "marker": ""},
 }
 
-#: The largest error is drawn of each of so many spans of time.
+#: The largest error is drawn of each of this many spans of time.
 SPANS = 20
 
 LOWEST, HIGHEST = 1e-9, 1e5
+
+#: What is beyond them is drawn on them, and their labels say so.
+LABELS = {LOWEST: "$10^{-9}$ or less", **powers(*range(-7, 4, 2)), HIGHEST: "$10^{5}$ or more"}
+
+#: The panels' heights [inches]: above; below, with no stepper, and for each.
+ABOVE, BELOW, EACH = 6.9, 0.9, 0.155
 
 #: What a kind of stepper is called in a label, where that is not its own word.
 WORDS = {"engine_scheme": "engine scheme", "lecture": "lecture listing"}
@@ -38,7 +44,8 @@ def draw(result: Result) -> Picture:
     """Energy above, one line for all steppers that do the same; momentum below, two dots for each."""
     rows: Sequence[Row] = result.data["rows"]
     free = [row for row in rows if row.momentum is not None]
-    figure, (above, below) = new_figure(nrows=2, figsize=(11, 12.5), height_ratios=[1.25, 1])
+    under = BELOW + EACH * len(free)
+    figure, (above, below) = new_figure(nrows=2, figsize=(11, ABOVE + under), height_ratios=[ABOVE, under])
     _energy(above, rows)
     _momentum(below, free, result.data["rounding"])
     return Picture(figure, _alt(rows, free))
@@ -48,29 +55,30 @@ def _energy(axes: Any, rows: Sequence[Row]) -> None:
     axes.set_yscale("log")
     axes.set_xlim(0, DURATION)
     axes.set_ylim(LOWEST, HIGHEST)
+    axes.set_yticks([*LABELS], [*LABELS.values()])
     axes.set_xlabel("time [s]")
-    axes.set_ylabel("largest energy error in a second [of what falling to rest releases]")
+    axes.set_ylabel("largest energy error in a second [1],\nas a part of what falling to rest releases")
     axes.set_title(
-        "Measured: energy of an undamped string (dashed: with rods for springs; rings: engines)",
+        "Measured: energy of an undamped string (dashed: distance constraints for springs; rings: engines)",
         loc="left",
         fontsize=11,
     )
     ends: list[End] = []
-    torn: list[End] = []
+    diverged: list[End] = []
     for group in _groups(rows):
         times, errors = _largest(group[0].times, group[0].errors)
-        look, line = LOOKS[group[0].measured], "--" if _on_rods(group[0]) else "-"
+        look, line = LOOKS[group[0].measured], "--" if _on_constraints(group[0]) else "-"
         axes.plot(times, errors, line, markersize=5, markevery=3, **look)
         if any(row.stepper.kind == "engine" for row in group):
             axes.plot(times, errors, "o", fillstyle="none", color="#000000", markersize=9, markevery=(1, 7))
         end = End(float(times[-1]), float(errors[-1]), _label(group), look["color"])
-        (ends if group[0].outcome.ending == "done" else torn).append(end)
+        (ends if group[0].outcome.ending == "done" else diverged).append(end)
     label_ends(axes, ends, line=0.031)
-    beside = max((end.x for end in torn), default=0.0) / DURATION + 0.04
-    for i, end in enumerate(torn):
+    beside = max((end.x for end in diverged), default=0.0) / DURATION + 0.04
+    for i, end in enumerate(diverged):
         place = {"textcoords": "axes fraction", "fontsize": 9, "color": "#222222", "va": "center"}
         leader = {"arrowstyle": "-", "color": end.color, "relpos": (0, 0.5)}
-        text = f"{end.text}, torn at {end.x:.2g} s"
+        text = f"{end.text}, diverged at {end.x:.2g} s"
         axes.annotate(text, (end.x, end.y), (beside, 0.9 - 0.035 * i), arrowprops=leader, **place)
 
 
@@ -90,7 +98,7 @@ def _label(group: Sequence[Row]) -> str:
     return f"{', '.join(names)}: {first.measured or 'not told'}{predicted}"
 
 
-def _on_rods(row: Row) -> bool:
+def _on_constraints(row: Row) -> bool:
     return row.scheme is not None and row.scheme.on_rods
 
 
@@ -113,9 +121,13 @@ def _momentum(axes: Any, rows: Sequence[Row], rounding: float) -> None:
     axes.text(rounding, -1.1, " rounding up to here", fontsize=9, color="#555555", va="center")
     axes.set_xscale("log")
     axes.set_xlim(FLOOR / 2, 5)
+    from_nothing(axes.xaxis, FLOOR, powers(*range(-15, 1, 3)))
     axes.set_ylim(len(rows) - 0.4, -1.8)
     axes.set_yticks(range(len(rows)), [row.stepper.name for row in rows], fontsize=9)
-    axes.set_xlabel("largest error: dots, momentum [of sum m |v|]; diamonds, angular momentum [of that times size]")
+    axes.set_xlabel(
+        "largest error [1]: dots, of momentum, as a part of sum m |v|;\n"
+        "diamonds, of angular momentum, as a part of that times size"
+    )
     axes.set_title("Measured: momentum of a free string", loc="left", fontsize=11)
 
 

@@ -34,7 +34,8 @@ def draw_row(axes: Any, strips: Sequence[Strip], times: Sequence[float], frame: 
         for strip in strips:
             positions = _at(strip.motion, time)
             if positions is not None:
-                axes.plot(middle + positions[:, 0], positions[:, 1], clip_path=window, **strip.style)
+                (drawn,) = axes.plot(middle + positions[:, 0], positions[:, 1], **strip.style)
+                drawn.set_clip_path(window)  # afterwards: whoever is plotted is clipped by the axes
         axes.plot(middle, 0, marker="v", markersize=6, color="#333333")
         if i:
             axes.axvline(middle - side, color="#cccccc", linewidth=0.8)

@@ -1,4 +1,4 @@
-"""The same string under Euler and under Heun at several times, and how far each is from the truth."""
+"""The same string under Euler and under Heun at several times, and how far each is from the true motion."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def _distances(axes: Any, fates: list[Fate]) -> None:
     axes.set_ylim(1e-9, 100)
     axes.set_xlim(0, 1.08 * TIMES[-1])
     axes.set_xlabel("time [s]")
-    axes.set_ylabel("distance from the truth [m]")
+    axes.set_ylabel("distance from the true motion [m]")
     what = "Measured: largest distance of any mass (markers), and its part in the fastest mode (thin)"
     axes.set_title(what, loc="left", fontsize=11)
 
@@ -60,7 +60,7 @@ def _predicted(axes: Any, fate: Fate, times: Any) -> None:
 
 
 def _alt(fates: list[Fate]) -> str:
-    ends = [f"{f.scheme.name} {'no number' if last(f) is None else f'{last(f):.1e} m'}" for f in fates]
+    ends = [f"{f.scheme.name} {'not a finite number' if last(f) is None else f'{last(f):.1e} m'}" for f in fates]
     growths = [f"{f.scheme.name} {f.predicted:.5f} predicted, {f.pushed:.5f} measured" for f in fates]
     return (
         f"A string at {len(TIMES)} times under {' and '.join(f.scheme.name for f in fates)}, over its true motion; "

@@ -13,8 +13,11 @@ from reference.state import Array
 from reference.system import IntArray
 from report.figures import COLOURS, MARKERS, Picture, look, new_figure
 
-#: Predicted is drawn so, everywhere.
+#: What is predicted lies on what is measured, and is dotted so that both can be seen.
 PREDICTED = {"color": "#333333", "linewidth": 1.2, "linestyle": ":"}
+
+#: The axis of the sways goes this many times as far as these, for the legend's sake.
+HEADROOM = 1.5
 
 
 def draw(result: Result) -> Picture:
@@ -54,12 +57,13 @@ def _draw_sway(axes: Any, rows: Mapping[str, Ran], natural: Array, linear: Array
             **look(i),
         )
     axes.set_xlabel("frequency of the ground [Hz]")
-    axes.set_ylabel("crests of the sway of the middle [mm]")
-    axes.legend(fontsize=8, loc="upper right", bbox_to_anchor=(1.0, 0.95))
+    axes.set_ylabel("amplitude of the sway of the middle [mm]")
+    axes.set_ylim(0, HEADROOM * 1e3 * max(np.abs(sway).max() for sway in (linear, *(r.shaken for r in rows.values()))))
+    axes.legend(fontsize=8, loc="upper right")
 
 
 def _draw_truck(axes: Any, rows: Mapping[str, Ran], line: tuple[Array, Array]) -> None:
-    axes.plot(line[0], 1e3 * line[1], label="stands there, predicted", zorder=5, **PREDICTED)
+    axes.plot(line[0], 1e3 * line[1], label="influence line: it stands there, predicted", zorder=5, **PREDICTED)
     for i, speed in enumerate(SPEEDS):
         for k, ran in enumerate(rows.values()):
             sag = ran.crossed[speed]
@@ -69,8 +73,8 @@ def _draw_truck(axes: Any, rows: Mapping[str, Ran], line: tuple[Array, Array]) -
             label = f"crosses at {speed:g} m/s, {len(rows)} steppers" if k == 0 else None
             axes.plot(places, 1e3 * sag, label=label, markevery=(k * spread // max(1, len(rows)), spread), **style)
     axes.invert_yaxis()
-    axes.set_xlabel("where the truck is [m]")
-    axes.set_ylabel("the middle is down by [mm]")
+    axes.set_xlabel("position of the truck [m]")
+    axes.set_ylabel("sag of the middle [mm]")
     axes.legend(fontsize=8)
 
 

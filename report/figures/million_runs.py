@@ -23,11 +23,12 @@ def draw(result: Result) -> Picture:
         hours = [predicted(kind, hands, n) / 3600 for n in CORES]
         axes.plot(CORES, hours, linestyle="none", label=f"{kind.name}: {1e3 * kind.seconds:.0f} ms", **style)
     floor = predicted(kinds[-1], hands, 100 * max(CORES)) / 3600
-    text = "flat: the one process that hands out jobs and keeps answers"
+    text = "flat: the one process that hands out tasks and keeps results"
     axes.annotate(text, (cores[-1], 0.9 * floor), ha="right", va="top", fontsize=9)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel("cores")
+    axes.set_ylim(bottom=floor / 2)
+    axes.set_xlabel("cores [1]")
     axes.set_ylabel("predicted time of a million runs [h]")
     axes.legend(title="a run, measured", loc="upper right")
     slowest = kinds[0]

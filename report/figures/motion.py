@@ -1,4 +1,4 @@
-"""Engines on somebody's scene over time: drawn as the string's divergence is."""
+"""Engines on a user's own scene over time: drawn as the string's divergence is."""
 
 from report.figures.divergence import draw
 

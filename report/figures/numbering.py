@@ -1,4 +1,4 @@
-"""What other names for masses and springs change, stepper by stepper, and in Pymunk with more and more rounds."""
+"""What permuting masses and springs changes, stepper by stepper, and in Pymunk with more and more rounds."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from experiments.experiment import Result
 from experiments.numbering import DAMPINGS, ROUNDS, Convergence, Row, names
 from experiments.runs.permutation import CHANGES
-from report.figures import Picture, look, new_figure
+from report.figures import Picture, from_nothing, look, new_figure, powers
 
 #: Where no difference at all is drawn: a logarithm has no place for it.
 FLOOR = 1e-18
@@ -34,15 +34,16 @@ def _dots(axes: Any, rows: list[Row], rounding: float) -> None:
         axes.plot(*zip(*places, strict=True), linestyle="none", markersize=6, label=change, **look(i))
     axes.set_xscale("log")
     axes.set_xlim(FLOOR / 4, 1)
-    axes.set_xticks([FLOOR, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 1], ["none", "1e-15", "1e-12", "1e-9", "1e-6", "1e-3", "1"])
+    from_nothing(axes.xaxis, FLOOR, powers(*range(-15, 1, 3)))
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.set_yticks(range(len(rows)), [row.stepper.name for row in rows])
-    axes.set_xlabel("largest distance from the motion under the old names [m]")
+    axes.set_xlabel("largest distance from the motion before the permutation [m]")
     axes.annotate(
         "rounding", (rounding, 0), (-6, 0), textcoords="offset points", ha="right", va="center", color="#555555"
     )
     beside = {"transform": axes.get_yaxis_transform(), "va": "center", "color": "#333333"}
-    axes.text(1.02, -1.5, "predicted:\norder of", **beside)
+    # Above the legend, whose last entry reaches as far.
+    axes.text(1.02, 1.05, "predicted:\norder of", transform=axes.transAxes, va="bottom", color="#333333")
     for y, row in enumerate(rows):
         axes.text(1.02, y, names(row.predicted) or "-", fontweight="bold" if row.predicted else None, **beside)
     axes.set_title(f"Measured: springs damped with {DAMPINGS[0]:g} N s/m", loc="left", fontsize=11, pad=28)
@@ -81,8 +82,9 @@ def _lines(axes: Any, convergences: list[Convergence], rounding: float) -> None:
     axes.set_yscale("log")
     axes.set_xlim(0, 1.15 * ROUNDS[-1])
     axes.set_ylim(FLOOR / 4, 1)
-    axes.set_xlabel("rounds of sequential impulses in a step")
-    axes.set_ylabel("largest distance from the motion under the old names [m]")
+    from_nothing(axes.yaxis, FLOOR, powers(*range(-15, 1, 3)))
+    axes.set_xlabel("rounds of sequential impulses in a step [1]")
+    axes.set_ylabel("largest distance from the motion before the permutation [m]")
     axes.set_title("Measured: Pymunk, springs reversed", loc="left", fontsize=11)
 
 
@@ -95,6 +97,6 @@ def _alt(rows: list[Row], convergences: list[Convergence], rounding: float) -> s
         for c in convergences
     ]
     return (
-        f"Left: dots of what other names for masses and springs change; above rounding are only "
+        f"Left: dots of what permuting masses and springs changes; above rounding are only "
         f"{', '.join(seen) or 'none'}. Right: Pymunk's difference against its rounds, {'; '.join(parts)}."
     )

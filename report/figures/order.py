@@ -17,8 +17,11 @@ SLOPES = {1: 6e-2, 2: 6e-4, 4: 3e-6}
 
 LOWEST, HIGHEST = 1e-16, 1e-1
 
-#: The figure's height [inches] up to so many lines of labels beside a panel; with more, the figure grows.
+#: The figure's height [inches] up to this number of lines of labels beside a panel; with more, the figure grows.
 HEIGHT, LINES = 9.5, 20
+
+#: Lines that end no farther apart than this part of a panel's height have their labels in one.
+TOGETHER = 0.012
 
 
 def draw(result: Result) -> Picture:
@@ -50,7 +53,7 @@ def _families(rows: Sequence[Row]) -> dict[str, list[Row]]:
             for row in rows
             if row.stepper.kind == "engine_scheme" or row.stepper.name in theirs or row in on_springs
         ],
-        "With rods for springs: pendulum and rope, and engines (rings)": [
+        "With distance constraints: pendulum, rope, and engines (rings)": [
             row for row in rows if row.stepper.kind == "pendulum" or (row in engines and row not in on_springs)
         ],
     }
@@ -86,7 +89,7 @@ def _panel(axes: Any, title: str, rows: Sequence[Row], line: float) -> None:
     named = [(row.stepper.name, row.string) for row in lines]
     strangers = [row for row in rings if (row.scheme is None or (row.scheme.name, row.string) not in named)]
     ends += [End(DTS[0], r.errors[0], _label(r, []), "#000000") for r in strangers if np.isfinite(r.errors[0])]
-    label_ends(axes, ends, line)
+    label_ends(axes, ends, line, together=TOGETHER)
 
 
 def _label(row: Row, rings: Sequence[Row]) -> str:

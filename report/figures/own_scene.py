@@ -1,4 +1,4 @@
-"""Somebody's scene at its end, its springs coloured by strain."""
+"""A user's own scene at its end, its springs coloured by strain."""
 
 from __future__ import annotations
 

@@ -13,7 +13,13 @@ def draw(result: Result) -> Picture:
     """A row per mesh, a mark for one thread and one for all; left of the line we are quicker than tuned C."""
     rows: Sequence[Timing] = [row for row in result.data["rows"] if row.ratio is not None]
     names = list(dict.fromkeys(row.what for row in rows))
-    figure, axes = new_figure(figsize=(8.5, 1.6 + 0.32 * len(names)))
+    figure, axes = new_figure(figsize=(8.5, 1.6 + 0.32 * max(len(names), 1)))
+    if not rows:
+        axes.set_axis_off()
+        axes.text(0, 0.5, "no ratios: there is no C compiler here")
+        return Picture(
+            figure, "There is no C compiler here to compare with, and so there are no ratios of times: 0 meshes."
+        )
     for i, threads in enumerate(sorted({row.threads for row in rows})):
         some = [row for row in rows if row.threads == threads]
         label = f"{threads} thread{'s' if threads > 1 else ''}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -27,25 +28,24 @@ def draw(result: Result) -> Picture:
     return Picture(figure, _alt(rows))
 
 
-def _panel(panel: object, case: str, rows: Sequence[Row], names: Sequence[str]) -> None:
+def _panel(axes: Any, case: str, rows: Sequence[Row], names: Sequence[str]) -> None:
     from matplotlib.ticker import NullFormatter
 
-    axes: object = panel
     for row in rows:
         y = names.index(row.stepper)
         if row.predicted.dt is not None:
-            axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)  # type: ignore[attr-defined]
+            axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)
         if row.measured.dt is not None:
-            axes.plot(row.measured.dt, y, color=COLOURS[1], markersize=5, **MEASURED)  # type: ignore[attr-defined]
+            axes.plot(row.measured.dt, y, color=COLOURS[1], markersize=5, **MEASURED)
         if row.predicted.dt is not None and row.measured.dt is None:
-            axes.text(1.2 * row.predicted.dt, y, "not measured", va="center", fontsize=8, color="#555555")  # type: ignore[attr-defined]
+            axes.text(1.2 * row.predicted.dt, y, "not measured", va="center", fontsize=8, color="#555555")
         if row.predicted.dt is None and row.measured.dt is None:
             word = _short(row)
-            axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), va="center", fontsize=8, color="#555555")  # type: ignore[attr-defined]
-    axes.set_xscale("log")  # type: ignore[attr-defined]
-    axes.xaxis.set_minor_formatter(NullFormatter())  # type: ignore[attr-defined]
-    axes.set_title(case, fontsize=10, loc="left")  # type: ignore[attr-defined]
-    axes.set_xlabel("dt [s]")  # type: ignore[attr-defined]
+            axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), va="center", fontsize=8, color="#555555")
+    axes.set_xscale("log")
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.set_title(case, fontsize=10, loc="left")
+    axes.set_xlabel("dt [s]")
 
 
 def _short(row: Row) -> str:

@@ -47,7 +47,7 @@ def add_scale(figure: Any, axes: Any, field: Any) -> None:
     """What the colours mean."""
     bar = figure.colorbar(field, ax=axes, label="measured growth in a step [1]")
     bar.set_ticks([-MOST, -0.01, -LEAST, 0, LEAST, 0.01, MOST])
-    bar.set_ticklabels(["-5 %", "-1 %", "-0.1 %", "0", "0.1 %", "1 %", "5 % or more"])
+    bar.set_ticklabels(["-5 % or less", "-1 %", "-0.1 %", "0", "0.1 %", "1 %", "5 % or more"])
 
 
 def words(found: StabilityMap) -> str:
@@ -64,5 +64,5 @@ def _prediction(found: StabilityMap) -> str:
 
 
 def _label(axis: Axis) -> str:
-    units = {"dt": "s", "masses": "how many", **{name: text.partition(",")[0] for name, text in PARAMETERS.items()}}
+    units = {"dt": "s", "masses": "1", **{name: text.partition(",")[0] for name, text in PARAMETERS.items()}}
     return f"{axis.name} [{units[axis.name]}]"

@@ -200,4 +200,5 @@ def add_strain_bar(
     bar = figure.colorbar(ScalarMappable(Normalize(-100 * most, 100 * most), colour_map()), cax=axes, extend="both")
     bar.set_label(label, fontsize=9)
     bar.ax.tick_params(labelsize=9)
+    bar.ax.grid(visible=False)
     bar.outline.set_visible(False)
