@@ -16,7 +16,8 @@ test: $(READY)  ## Run all tests, with formatting and types
 	$(BIN)/python -m pytest --numprocesses auto
 
 soak: $(READY)  ## What `make test` does in small, in full: thousands of runs and kills, all kept versions of the engines
-	$(BIN)/python -m pytest tests/soak tests/reference/files/test_fuzzed_files.py tests/report/live --full -s -p no:xdist
+	$(BIN)/python -m pytest tests/soak tests/reference/files/test_fuzzed_files.py tests/report/live tests/experiments/exercises \
+		--full -s -p no:xdist
 	$(BIN)/springlab versions --check
 
 check: $(READY)  ## Formatting and types only

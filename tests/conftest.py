@@ -1,4 +1,4 @@
-"""What all tests share: which engines the conformance suite runs, and what it does where one is missing."""
+"""What all tests share: which engines the conformance suite runs, and which of the students' programs are checked."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import pytest
 
 from engines.engine import Engine, find, registry, version
 from reference.errors import InputError
+from tests.parts import PARTS, part, todays
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -25,10 +26,20 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="Run the soak tests, the fuzz test and the live page in full: 2,000 runs, 20 kills; 1,000 files.",
     )
+    parser.addoption(
+        "--part",
+        type=int,
+        metavar="N",
+        help=f"Check this part of the students' programs, 0 to {PARTS - 1}; today's if left out, all with --full.",
+    )
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Refuse an unknown engine before anything runs."""
+    """Refuse an unknown engine or part before anything runs; workers are given the part that was chosen here."""
+    if config.option.part is None:
+        config.option.part = todays()
+    if not 0 <= config.option.part < PARTS:
+        raise pytest.UsageError(f"--part {config.option.part}: expected a number from 0 to {PARTS - 1}")
     for name in config.getoption("--engine"):
         try:
             find(name)
@@ -36,8 +47,18 @@ def pytest_configure(config: pytest.Config) -> None:
             raise pytest.UsageError(f"--engine: {error}") from None
 
 
+def pytest_report_header(config: pytest.Config) -> str:
+    """Which part of the students' programs is checked, and how to check it again."""
+    chosen = "all" if config.option.full else f"--part {config.option.part} of 0 to {PARTS - 1}"
+    return f"students' programs: {chosen}"
+
+
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """Give every test that asks for an `engine` each engine of the registry in turn."""
+    """Give every test that asks for an `engine` each engine of the registry in turn; and the chosen `part`."""
+    if "part" in metafunc.fixturenames:
+        option = metafunc.config.option
+        chosen, name = (slice(None), "all") if option.full else (part(option.part), f"part_{option.part}")
+        metafunc.parametrize("part", [chosen], ids=[name])
     if "engine" in metafunc.fixturenames:
         names = metafunc.config.getoption("--engine") or list(registry())
         metafunc.parametrize("engine", names, indirect=True)

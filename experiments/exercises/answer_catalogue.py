@@ -40,7 +40,7 @@ class AnswerCatalogue:
     def __init__(self, exercise: Exercise, questions: Sequence[Question]) -> None:
         self.exercise = exercise
         self.questions = list(questions)
-        self._computed: dict[tuple[Any, ...], list[Answer]] = {}
+        self._computed: dict[tuple[Any, ...], Answer] = {}
 
     @property
     def right(self) -> list[Answer]:
@@ -49,16 +49,13 @@ class AnswerCatalogue:
 
     def answers(self, parameters: Mapping[str, Any]) -> list[Answer]:
         """The answers of the solution with these parameters changed, one for each question."""
-        return self._answers(parameters, None)
+        return [self._answer(i, parameters, None) for i in range(len(self.questions))]
 
-    def first_steps(self, parameters: Mapping[str, Any]) -> list[Answer]:
-        """The same, the first step of each answer only."""
-        return self._answers(parameters, 1)
-
-    def _answers(self, parameters: Mapping[str, Any], steps: int | None) -> list[Answer]:
-        key = (steps, *sorted(parameters.items()))
+    def _answer(self, i: int, parameters: Mapping[str, Any], steps: int | None) -> Answer:
+        """The answer to question i; to its first steps only, if a number is given."""
+        key = (i, steps, *sorted(parameters.items()))
         if key not in self._computed:
-            self._computed[key] = [self.exercise.answer(q, parameters, steps) for q in self.questions]
+            self._computed[key] = self.exercise.answer(self.questions[i], parameters, steps)
         return self._computed[key]
 
     @cached_property
@@ -73,6 +70,13 @@ class AnswerCatalogue:
     def distance(self, given: Sequence[Answer], expected: Sequence[Answer]) -> float:
         """The largest of these distances."""
         return max(self.distances(given, expected), default=0.0)
+
+    def begins_with(self, given: Sequence[Answer], parameters: Mapping[str, Any], tolerance: float) -> bool:
+        """Whether the first step of every answer is the solution's; mostly the first question says that it is not."""
+        rows = enumerate(zip(given, self.scales, strict=True))
+        return all(
+            answer_distance(a[:1], self._answer(i, parameters, 1), scales) <= tolerance for i, (a, scales) in rows
+        )
 
     @cached_property
     def pairs(self) -> list[tuple[Mistake, Mistake]]:
@@ -94,27 +98,32 @@ class AnswerCatalogue:
         return all(a == b or self.distance(x, y) > DIFFERENT for (a, x), (b, y) in combinations(answers, 2))
 
 
-@lru_cache(maxsize=64)
 def catalogue_of(exercise: Exercise, seed: str, key: str | None) -> AnswerCatalogue:
     """The catalogue of a check; made once for all submissions that are asked the same.
 
-    By chance two mistakes may give the same answers, as when the longest member of a bridge is also the stiffest: then
-    the questions are drawn anew. That chance is nil where there are steps.
-
     Args:
-        seed: the student's, in an exercise where everybody has numbers of their own.
+        seed: the student's; it matters in an exercise where everybody has numbers of their own.
         key: the teacher's, for the hidden check; None for the public one.
     """
+    return _catalogue(exercise, seed if exercise.seeded else "", key)
+
+
+@lru_cache(maxsize=64)
+def _catalogue(exercise: Exercise, seed: str, key: str | None) -> AnswerCatalogue:
+    """Questions are drawn anew while two mistakes give the same answers: a longest member may also be the stiffest.
+
+    That does not happen where there are steps; and what a student was handed out cannot be drawn anew.
+    """
     for draw in range(DRAWS):
-        questions = _draw(exercise, seed if exercise.seeded else "", key, draw)
+        questions = draw_questions(exercise, seed, key, draw)
         catalogue = AnswerCatalogue(exercise, questions)
         if exercise.seeded or any(question.steps for question in questions) or catalogue.all_differ():
             break
     return catalogue
 
 
-def _draw(exercise: Exercise, seed: str, key: str | None, draw: int) -> Sequence[Question]:
-    """The questions that follow from these words, and from nothing else."""
+def draw_questions(exercise: Exercise, seed: str, key: str | None, draw: int) -> Sequence[Question]:
+    """The questions that follow from seed, key and the number of the draw, and from nothing else."""
     words = f"{exercise.name}\0{seed}\0{key or ''}\0{draw}"
     random = np.random.default_rng(list(hashlib.sha256(words.encode()).digest()))
     return exercise.questions(random, key is not None, seed)

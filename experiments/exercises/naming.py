@@ -74,12 +74,11 @@ def _in_single_precision(ranking: Sequence[Explanation], tolerance: float) -> bo
 
 
 def _two_mistakes(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Explanation | None:
-    """The first pair of mistakes that fits; most pairs are ruled out by their first steps."""
+    """The first pair of mistakes that fits; most pairs are ruled out by a first step."""
     tolerance = catalogue.exercise.tolerance
-    begun = [answer[:1] for answer in given]
     for pair in catalogue.pairs:
         parameters = {**pair[0].parameters, **pair[1].parameters}
-        if catalogue.distance(begun, catalogue.first_steps(parameters)) <= tolerance:
+        if catalogue.begins_with(given, parameters, tolerance):
             distance = catalogue.distance(given, catalogue.answers(parameters))
             if distance <= tolerance:
                 return Explanation(pair, distance)

@@ -7,21 +7,27 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from experiments.exercises.sandbox import Limits
+
+#: Nothing that ends by itself comes near to these, on a machine that has much else to do either.
+AMPLE = Limits(seconds=60, wall_clock=3600.0, memory=2**29)
+
 
 @dataclass(frozen=True)
 class Hostile:
-    """Its text, and what the checker is to say: outcome and finding."""
+    """Its text, what the checker is to say, outcome and finding, and what it may take."""
 
     text: str
     outcome: str
     finding: str
+    limits: Limits = AMPLE
 
 
 _STEP = "\ndef step(y, v, dt, spring):\n    return y, v\n"
 
 HOSTILE = {
-    "infinite_loop": Hostile("while True:\n    pass\n", "timed out", "timed_out"),
-    "sleeps": Hostile("import time\ntime.sleep(1000)\n", "timed out", "timed_out"),
+    "infinite_loop": Hostile("while True:\n    pass\n", "timed out", "timed_out", Limits(seconds=1, wall_clock=3600.0)),
+    "sleeps": Hostile("import time\ntime.sleep(10000)\n", "timed out", "timed_out", Limits(wall_clock=1.0)),
     "forks": Hostile("import os\nwhile True:\n    os.fork()\n", "error", "reaches_out"),
     "forks_and_carries_on": Hostile(
         "import os\nfor i in range(50):\n    try:\n        os.fork()\n    except OSError:\n        pass\n" + _STEP,
@@ -90,7 +96,7 @@ HOSTILE = {
         "line = 'x' * 2**20\nfor i in range(1024):\n    print(line)\n" + _STEP, "error", "raises_an_error"
     ),
     "fills_its_folder": Hostile(
-        "import time\nfor i in range(100):\n    open(f'{{i}}', 'wb').write(b'x' * 2**23)\ntime.sleep(5)\n" + _STEP,
+        "import time\nfor i in range(9):\n    open(f'{{i}}', 'wb').write(b'x' * 2**23)\ntime.sleep(10000)\n" + _STEP,
         "crashed",
         "crashed",
     ),

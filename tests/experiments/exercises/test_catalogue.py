@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-import hashlib
+import doctest
 from collections import Counter
+from itertools import combinations
 from math import sqrt
+from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
 
-from experiments.exercises.answer_catalogue import catalogue_of
+from experiments.exercises import answer_catalogue, answer_distance, naming
+from experiments.exercises import exercise as exercise_module
+from experiments.exercises.answer_catalogue import catalogue_of, draw_questions
 from experiments.exercises.exercise import Exercise, exercises, find
 from experiments.exercises.links import forces, namespace, random_string
 from experiments.exercises.stepping import step
@@ -123,19 +128,51 @@ def test_every_mistake_has_words_and_a_hint_that_tells_no_number(exercise: Exerc
     assert len(words) == len(names)
 
 
-def test_hidden_questions_hang_on_the_key() -> None:
-    """Another key, other numbers; the same key, the same; and none of them are the public ones."""
-    first = [
-        hashlib.sha256(catalogue_of(find("4"), "", key).questions[0].arguments[0].tobytes()).hexdigest()
-        for key in (None, "a", "a", "b")
-    ]
-    assert first[1] == first[2]
-    assert len(set(first)) == 3
+def test_hidden_questions_depend_on_the_key() -> None:
+    """Another key or draw, other numbers; the same, the same; and the hidden questions are not the public ones."""
+    drawn = [(None, 0), ("a", 0), ("b", 0), ("a", 1)]
+    numbers = [draw_questions(find("4"), "", key, draw)[0].arguments[0].tolist() for key, draw in drawn]
+    again = [draw_questions(find("4"), "", key, draw)[0].arguments[0].tolist() for key, draw in drawn]
+    assert numbers == again
+    assert all(one != other for one, other in combinations(numbers, 2))
+
+
+def test_questions_depend_on_the_seed_where_everybody_has_numbers_of_their_own() -> None:
+    """In exercise 5; in the others all students share one catalogue."""
+    own = [catalogue_of(find("5"), seed, None).right[0][0][0].item() for seed in ("ada", "bob")]
+    assert own[0] != own[1]
+    assert catalogue_of(find("4"), "ada", None) is catalogue_of(find("4"), "bob", None)
 
 
 def test_an_unknown_exercise_is_refused_in_one_line() -> None:
-    """With what was expected, or the nearest name."""
-    with pytest.raises(InputError, match="expected a number from 1 to"):
+    """With the numbers that there are, or the nearest name."""
+    with pytest.raises(InputError, match=f"^exercise 99: .* 1 .* {max(exercises())}$"):
         find("99")
-    with pytest.raises(InputError, match="did you mean 'bridge'"):
+    with pytest.raises(InputError, match=r"'brigde'.*'bridge'"):
         find("brigde")
+
+
+@pytest.mark.parametrize(
+    ("folders", "field"), [(("e11_waves", "e11_tides"), "11"), (("e11_waves", "e12_waves"), "waves")]
+)
+def test_two_exercises_of_one_number_or_name_are_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folders: tuple[str, str], field: str
+) -> None:
+    """In one line that names what is taken, and both folders; wherever these are, and before their code is run."""
+    monkeypatch.setattr(exercise_module, "FOLDERS", [tmp_path / "a", tmp_path / "b"])
+    for where, folder in zip("ab", folders, strict=True):
+        (tmp_path / where / folder).mkdir(parents=True)
+    with pytest.raises(InputError, match=folders[1]) as refused:
+        exercises()
+    message = str(refused.value)
+    assert folders[0] in message
+    assert f" {field} " in message
+    assert "\n" not in message
+
+
+@pytest.mark.parametrize("module", [answer_distance, answer_catalogue, naming], ids=lambda m: m.__name__.split(".")[-1])
+def test_the_worked_examples_are_true(module: ModuleType) -> None:
+    """What the docstrings show is what comes out."""
+    tried = doctest.testmod(module, optionflags=doctest.FAIL_FAST)
+    assert tried.attempted > 2
+    assert tried.failed == 0

@@ -18,19 +18,12 @@ from experiments.exercises.handout import hand_out
 from experiments.exercises.judge import judge
 from experiments.exercises.submission import read
 from tests.experiments.exercises.confusion import confusion, wrongly
-from tests.experiments.exercises.corpus import RIGHT, Program, programs, solution, wrong
+from tests.experiments.exercises.corpus import RIGHT, programs, solution, wrong
+from tests.parts import PARTS
+from tests.parts import part as part_of
 
 FOLDER = Path(__file__).parent
 MODELS = sorted((FOLDER / "models").glob("*.py"))
-
-
-#: The programs are in so many parts, of which one is tried: no multiple of the three styles.
-PARTS = 13
-
-
-def some(chosen: list[Program], request: pytest.FixtureRequest) -> list[Program]:
-    """A part of them; with --full all."""
-    return chosen if request.config.getoption("--full") else chosen[::PARTS]
 
 
 def graded(files: list[Path]) -> dict[str, Grade]:
@@ -41,12 +34,12 @@ def graded(files: list[Path]) -> dict[str, Grade]:
         )
 
 
-def test_right_programs_pass_in_whatever_style(request: pytest.FixtureRequest) -> None:
+def test_right_programs_pass_in_whatever_style(part: slice) -> None:
     """Loops, arrays, classes, complex numbers, lists, single precision, in place on copies ...: all pass."""
     right = [program for program in programs() if program.name == RIGHT]
     assert len(right) >= 60
     assert {program.exercise for program in right} == set(exercises())
-    assert wrongly(confusion(some(right, request))) == {}
+    assert wrongly(confusion(right[part])) == {}
 
 
 def test_every_exercise_has_a_model_solution_that_passes() -> None:
@@ -56,16 +49,24 @@ def test_every_exercise_has_a_model_solution_that_passes() -> None:
     assert {name: (g.verdict.name, g.score) for name, g in found.items()} == {m.stem: ("right", 100.0) for m in MODELS}
 
 
-def test_mistakes_are_called_by_their_name(request: pytest.FixtureRequest) -> None:
+def test_mistakes_are_called_by_their_name(part: slice) -> None:
     """A part of them; with --full all, as `python -m tests.experiments.exercises.confusion` does."""
     mistakes = [program for program in programs() if program.name != RIGHT]
     for exercise in exercises():
         assert len({program.name for program in mistakes if program.exercise == exercise}) >= 10
-    assert wrongly(confusion(some(mistakes, request))) == {}
+    assert wrongly(confusion(mistakes[part])) == {}
+
+
+@pytest.mark.parametrize("count", [0, 1, PARTS, 100])
+def test_every_program_is_in_one_part(count: int) -> None:
+    """So that after as many days as there are parts all have been checked."""
+    programs = list(range(count))
+    parts = [programs[part_of(day)] for day in range(PARTS)]
+    assert sorted(program for part in parts for program in part) == programs
 
 
 def test_two_mistakes_at_once_are_both_found() -> None:
-    """In the forces, and in the step: each is turned by another parameter."""
+    """In the forces, and in the step: each changes another parameter of the solution."""
     text = wrong("arrays", "gravity_sign").replace("(v + v1) / 2", "(v + v1)").replace("(a + b) / 2", "(a + b)")
     verdict = judge(find("4"), text)
     assert verdict.outcome == "mistakes"
@@ -88,7 +89,7 @@ def test_mistakes_in_several_functions_are_all_found() -> None:
 
 
 def test_what_nobody_knows_is_not_given_a_name() -> None:
-    """A force that is a third too large: no name, but the step, the mass and the numbers where it departs."""
+    """A force that is a third too large: no name, but the step, the mass and the numbers where it first differs."""
     verdict = judge(find("4"), solution("loops").replace("force = k *", "force = 1.333 * k *"))
     assert (verdict.outcome, verdict.findings, verdict.error) == ("not in the catalogue", (), None)
     assert verdict.first_difference is not None
@@ -106,8 +107,8 @@ def test_right_at_first_is_not_another_order() -> None:
     assert of_order(catalogue, later) is None
 
 
-def test_link_by_link_departs_at_the_second_mass() -> None:
-    """The first mass's predictor still sees everything as it was: x of mass 0 departs later than that of mass 1.
+def test_link_by_link_first_differs_at_the_second_mass() -> None:
+    """The first mass's predictor still sees everything as it was: x of mass 0 is right for longer than that of mass 1.
 
     In the first step, positions of mass 0 are x + dt/2 (v + v + dt a): as they should be.
     """
@@ -145,15 +146,21 @@ def test_every_starter_runs_and_fails_politely(exercise, tmp_path: Path) -> None
     assert judge(exercise, changed, "somebody").outcome in ("mistake", "mistakes", "not in the catalogue", "error")
 
 
-def test_errors_name_the_students_own_line() -> None:
-    """Syntax, an exception, a missing function, a missing module."""
-    for text, name, words in (
-        ("EXERCISE = 1\ndef step(:\n", "syntax", "line 2"),
-        ("def step(y, v, dt, s):\n    return y / 0, v\n", "division_by_zero", "line 2"),
-        ("def steps(y, v, dt, s):\n    return y, v\n", "missing_function", "step"),
-        ("import scipy\n", "missing_module", "scipy"),
-    ):
-        verdict = judge(find("1"), text)
-        assert verdict.outcome == "error"
-        assert verdict.name == name
-        assert words in verdict.findings[0].words
+@pytest.mark.parametrize(
+    ("text", "name", "line"),
+    [
+        ("EXERCISE = 1\ndef step(:\n", "syntax", 2),
+        ("def step(y, v, dt, s):\n    return y / 0, v\n", "division_by_zero", 2),
+        ("def step(y, v, dt, s):\n    return f(y), v\ndef f(y):\n    return [][1]\n", "index_error", 4),
+        ("\nimport scipy\n", "missing_module", 2),
+        ("def step(y, v, dt, s):\n    return None\n", "returns_nothing", None),
+        ("def step(y, v, dt, s):\n    return y\n", "wrong_count", None),
+        ("def step(y, v, dt, s):\n    return {y: v}, v\n", "returns_a_dict", None),
+        ("def step(y, v, dt, s):\n    return y + 1j, v\n", "not_numbers", None),
+        ("def steps(y, v, dt, s):\n    return y, v\n", "missing_function", None),
+    ],
+)
+def test_errors_name_the_students_own_line(text: str, name: str, line: int | None) -> None:
+    """The line of the submission that is nearest to the error; none where a result is wrong as a whole."""
+    verdict = judge(find("1"), text)
+    assert (verdict.outcome, verdict.name, verdict.findings[0].line) == ("error", name, line)

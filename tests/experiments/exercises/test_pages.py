@@ -2,36 +2,46 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from experiments.exercises.exercise import Exercise, exercises
+from experiments.exercises.exercise import exercises
 from experiments.exercises.page import page
 from tests.report.browser import VIEWS, Shown, chromium
 
 
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    """One browser for all tests of this file."""
-    with chromium() as found:
-        yield found
+def test_the_texts_have_no_violation_and_ask_for_nothing(tmp_path: Path, request: pytest.FixtureRequest) -> None:
+    """Zero by axe-core, no request, nothing cut or too wide, tables neither: in one view; with --full in all.
+
+    One test for all texts, as starting the browser is most of what they take.
+    """
+    wrong = {}
+    with chromium() as browser:
+        check_that_faults_are_noticed(browser, tmp_path / "wrong.html")
+        for exercise in exercises().values():
+            file = tmp_path / f"{exercise.name}.html"
+            file.write_text(page(exercise), encoding="utf-8")
+            views = VIEWS if request.config.getoption("--full") else [VIEWS[(exercise.number + 1) % len(VIEWS)]]
+            wrong |= {(exercise.name, view): complaints(Shown(browser, file, view)) for view in views}
+    assert {where: found for where, found in wrong.items() if found} == {}
 
 
-@pytest.mark.parametrize("exercise", exercises().values(), ids=lambda e: e.name)
-def test_a_text_has_no_violation_and_asks_for_nothing(
-    browser: Any, exercise: Exercise, tmp_path: Path, request: pytest.FixtureRequest
-) -> None:
-    """Zero by axe-core, no request, nothing cut or too wide, tables neither: in one view; with --full in all."""
-    file = tmp_path / "text.html"
-    file.write_text(page(exercise), encoding="utf-8")
-    views = VIEWS if request.config.getoption("--full") else [VIEWS[(exercise.number + 1) % len(VIEWS)]]
-    for view in views:
-        shown = Shown(browser, file, view)
-        assert shown.violations() == []
-        assert (shown.requests, shown.complaints) == ([], [])
-        assert (shown.sideways(), shown.cut_off()) == (0, [])
-        assert shown.page.evaluate("[...document.querySelectorAll('table')].every(t => t.scrollWidth <= t.clientWidth)")
-        shown.page.close()
+def complaints(shown: Shown) -> list[str]:
+    """What there is to say against a text as it is shown; closes its page."""
+    found = [*shown.violations(), *shown.requests, *shown.complaints, *shown.cut_off()]
+    found += [f"{shown.sideways()} px too wide"] if shown.sideways() else []
+    narrow = shown.page.evaluate("[...document.querySelectorAll('table')].every(t => t.scrollWidth <= t.clientWidth)")
+    found += [] if narrow else ["a table is too wide"]
+    shown.page.close()
+    return found
+
+
+def check_that_faults_are_noticed(browser: Any, file: Path) -> None:
+    """Shown to fail: a picture without words from elsewhere, and a table and a line that are too wide."""
+    wide = "a" * 400
+    file.write_text(f"<p>{wide}</p><img src='nowhere.png'><table style='display: block'><td>{wide}</td></table>")
+    found = " ".join(complaints(Shown(browser, file, VIEWS[0])))
+    for word in ("image-alt", "nowhere.png", "px too wide", "a table"):
+        assert word in found
