@@ -21,7 +21,7 @@ from reference.system import BoolArray, IntArray, MassSpringSystem
 #: Up to this many unknowns a dense solve is quicker than a sparse one.
 DENSE_UP_TO = 200
 
-#: From this many unknowns on, so many rounds of an iteration are tried before a matrix is made. They do where masses
+#: From ITERATE_FROM unknowns on, ROUNDS rounds of an iteration are tried before a matrix is made. They do where masses
 #: weigh more than what springs do in a step, as with all steps that explicit schemes can take.
 ITERATE_FROM, ROUNDS = 60, 40
 
@@ -88,8 +88,8 @@ def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Block
 def damping_blocks(system: MassSpringSystem, state: State, coefficients: Array) -> Blocks:
     """How the damping of springs with these coefficients, shape (s,), answers velocities: B_j = c_j u u^T."""
     a, b = system.springs.T
-    gap = state.positions[b] - state.positions[a]
-    u = gap / np.linalg.norm(gap, axis=1)[:, None]
+    separation = state.positions[b] - state.positions[a]
+    u = separation / np.linalg.norm(separation, axis=1)[:, None]
     return Blocks(coefficients[:, None, None] * _outer(u, u), np.zeros(len(system.masses)))
 
 

@@ -33,14 +33,14 @@ class PendulumMotion:
         if reason:
             raise InputError(f"no pendulum: {reason}")
         self.system = system
-        gap = np.diff(system.positions, axis=0)
+        separation = np.diff(system.positions, axis=0)
         self._anchor = system.positions[0]
         self._lengths = system.rest_lengths
         self._masses = system.masses[1:]
         hanging = np.cumsum(self._masses[::-1])[::-1]
         longest = np.maximum.outer(np.arange(len(hanging)), np.arange(len(hanging)))
         self._inertia = np.outer(self._lengths, self._lengths) * hanging[longest]
-        angles = np.arctan2(gap[:, 0], -gap[:, 1])
+        angles = np.arctan2(separation[:, 0], -separation[:, 1])
         across = np.stack([np.cos(angles), np.sin(angles)], axis=1)
         rates = (np.diff(system.velocities, axis=0) * across).sum(axis=1) / self._lengths
         self.start = State(0.0, angles, rates)
@@ -50,9 +50,9 @@ class PendulumMotion:
         angles, rates = state.positions, state.velocities
         difference = angles[:, None] - angles[None, :]
         torque = np.asarray(-(self._inertia * np.sin(difference)) @ rates**2)
-        pull = self._masses[:, None] * self.system.gravity - self.system.drag * self._mass_velocities(state)
-        # Every mass pulls at all the rods above it: rod i feels the sum over the masses i, i+1, ...
-        below = np.cumsum(pull[::-1], axis=0)[::-1]
+        load = self._masses[:, None] * self.system.gravity - self.system.drag * self._mass_velocities(state)
+        # Every mass loads all the rods above it: rod i feels the sum over the masses i, i+1, ...
+        below = np.cumsum(load[::-1], axis=0)[::-1]
         torque = torque + self._lengths * (below[:, 0] * np.cos(angles) + below[:, 1] * np.sin(angles))
         return np.asarray(np.linalg.solve(self._inertia * np.cos(difference), torque))
 
@@ -82,12 +82,12 @@ def why_no_pendulum(system: MassSpringSystem) -> str | None:
     if system.dimension != 2 or not system.is_string:
         return "expected a string in 2D, fixed at its first mass only"
     if system.obstacles:
-        return "expected no obstacles: a rod that meets one is no pendulum"
-    gap = np.diff(system.positions, axis=0)
-    length = np.linalg.norm(gap, axis=1)
+        return "expected no obstacles: a pendulum that meets one is something else"
+    separation = np.diff(system.positions, axis=0)
+    length = np.linalg.norm(separation, axis=1)
     if (np.abs(length - system.rest_lengths) > 1e-12 * length).any():
         return "expected every spring to start at its rest length"
-    stretching = (gap * np.diff(system.velocities, axis=0)).sum(axis=1) / length
+    stretching = (separation * np.diff(system.velocities, axis=0)).sum(axis=1) / length
     if (np.abs(stretching) > 1e-12 * np.abs(system.velocities).max()).any():
         return "expected velocities that do not stretch any spring"
     return None

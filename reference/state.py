@@ -115,6 +115,6 @@ class Trajectory:
         result = np.full(m, np.inf)
         both = min(len(self), len(other))
         with np.errstate(over="ignore", invalid="ignore"):
-            gap = np.linalg.norm(self.positions[:both] - other.positions[:both], axis=2).max(axis=1)
-        result[:both] = np.where(np.isfinite(gap), gap, np.inf)
+            apart = np.linalg.norm(self.positions[:both] - other.positions[:both], axis=2).max(axis=1)
+        result[:both] = np.where(np.isfinite(apart), apart, np.inf)
         return result

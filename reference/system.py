@@ -56,7 +56,7 @@ class MassSpringSystem:
         gravity: [m/s^2], shape (d,); a single number g means downwards, along the second axis.
         velocities: [m/s], shape (n, d); zero unless given.
         fixed: which masses never move, shape (n,).
-        obstacles: what free masses may not enter; they are pushed out at the end of every step, in this order.
+        obstacles: what free masses may not enter; they are projected out at the end of every step, in this order.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.

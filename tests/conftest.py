@@ -54,11 +54,11 @@ def pytest_report_header(config: pytest.Config) -> str:
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
-    """Give every test that asks for an `engine` each engine of the registry in turn; and the chosen `part`."""
-    if "part" in metafunc.fixturenames:
+    """Give every test that asks for an `engine` each engine of the registry in turn; and the chosen `corpus_part`."""
+    if "corpus_part" in metafunc.fixturenames:
         option = metafunc.config.option
         chosen, name = (slice(None), "all") if option.full else (part(option.part), f"part_{option.part}")
-        metafunc.parametrize("part", [chosen], ids=[name])
+        metafunc.parametrize("corpus_part", [chosen], ids=[name])
     if "engine" in metafunc.fixturenames:
         names = metafunc.config.getoption("--engine") or list(registry())
         metafunc.parametrize("engine", names, indirect=True)

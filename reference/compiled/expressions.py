@@ -120,7 +120,7 @@ class _Recorded:
         return self._apply(function, *inputs)
 
     def _with(self, function: Any, other: object, *inputs: object) -> Any:
-        """An operator with another number; what is none may know itself what it is to be with one."""
+        """An operator with another number; what is not a number may know itself what to do."""
         known = isinstance(other, (_Recorded, *NUMBERS))
         return self._apply(function, *inputs) if known else NotImplemented
 

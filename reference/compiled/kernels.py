@@ -25,7 +25,7 @@ THREADS_FROM = 300_000
 
 
 def advance(system: MassSpringSystem, scheme: Scheme, dt: float, steps: int, threads: int | None = None) -> State:
-    """The state after so many steps of dt [s]; the same bits for any number of threads.
+    """The state after a number of steps of dt [s]; the same bits for any number of threads.
 
     Args:
         threads: how many; left out, all there are for large systems and one for others.
@@ -60,7 +60,7 @@ class Kernel:
         return sum(arrays.values())
 
     def advance(self, dt: float, steps: int) -> None:
-        """So many steps of dt [s]."""
+        """A number of steps of dt [s]."""
         if self._threads > 1:
             import numba
 

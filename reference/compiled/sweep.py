@@ -18,7 +18,7 @@ from reference.schemes.catalogue import Scheme
 from reference.state import Array
 from reference.system import PARAMETERS, BoolArray, MassSpringSystem
 
-#: After so many steps blown-up systems are looked for, and blocks of nothing else are left alone.
+#: After each chunk of this many steps blown-up systems are looked for, and blocks of nothing else are left alone.
 CHUNK = 100
 
 

@@ -25,7 +25,7 @@ from reference.system import IntArray
 #: By the end of a file's name, the number of its first vertex.
 FORMATS = {".obj": 1, ".vtk": 0}
 
-#: A triangle with less area than this part of its longest side squared is none; so for tetrahedra, volume and cube.
+#: A triangle with less area than this part of its longest side squared is refused; so are tetrahedra, volume and cube.
 FLAT = 1e-12
 
 #: Edges of elements by the kinds' names in meshio, as corners of the element.

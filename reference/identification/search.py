@@ -15,7 +15,7 @@ from reference.system import MassSpringSystem
 #: Systems of more masses than that are large: not every scheme is followed on them to the end.
 LARGE = 50
 
-#: Schemes that differ at all differ by far more than rounding after so many steps.
+#: Schemes that differ at all differ by far more than rounding after this many steps.
 FIRST_STEPS = 10
 
 
@@ -69,7 +69,7 @@ class _Search:
 
     Args:
         followed: the trajectories that have been made to the end, by scheme.
-        make: the trajectory of a scheme for so many steps at most; None where it cannot step the system.
+        make: the trajectory of a scheme for a number of steps at most; None where it cannot step the system.
     """
 
     def __init__(

@@ -1,1 +1,1 @@
-"""The lecture's own algorithms, executed, and its barrier as it is printed."""
+"""The lecture's own algorithms, executed, and its obstacle as it is printed."""

@@ -13,7 +13,7 @@ from reference.obstacles.kinds import KINDS, obstacle_of
 from reference.obstacles.obstacle import Obstacle
 from reference.state import Array
 
-#: A mass may start inside by this part of the system's size: a state that was pushed out and rounded is a start too.
+#: A mass may start inside by this part of the system's size: a state that was projected out and rounded is a start too.
 ROUNDING = 1e-9
 
 

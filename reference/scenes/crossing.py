@@ -83,16 +83,16 @@ def cambered(system: MassSpringSystem) -> MassSpringSystem:
     from scipy.sparse.linalg import spsolve
 
     a, b = system.springs.T
-    gap = system.positions[b] - system.positions[a]
-    length = np.linalg.norm(gap, axis=1)
+    separation = system.positions[b] - system.positions[a]
+    length = np.linalg.norm(separation, axis=1)
     free = np.repeat(~system.fixed, system.dimension)
     axes = np.arange(system.dimension)
     rows = np.concatenate([a[:, None] * system.dimension + axes, b[:, None] * system.dimension + axes], axis=1)
-    pulls = np.concatenate([gap, -gap], axis=1) / length[:, None]
+    directions = np.concatenate([separation, -separation], axis=1) / length[:, None]
     springs = np.repeat(np.arange(len(length)), rows.shape[1])
-    along = coo_array((pulls.ravel(), (rows.ravel(), springs)), shape=(system.positions.size, len(length))).tocsr()[
-        free
-    ]
+    along = coo_array(
+        (directions.ravel(), (rows.ravel(), springs)), shape=(system.positions.size, len(length))
+    ).tocsr()[free]
     weight = (system.masses[:, None] * system.gravity).ravel()[free]
     tensions = np.zeros(len(length))
     matrix = (along @ diags_array(system.stiffness) @ along.T).tocsc()

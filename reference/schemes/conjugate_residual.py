@@ -28,7 +28,7 @@ def conjugate_residual(
         right_hand_side: b, any shape.
         precondition: r -> P r, near to A^-1 r, with P symmetric too.
         tolerance: x is good enough once no component of r exceeds this; r has the unit of x.
-        iterations: after so many, the best x there was.
+        iterations: at most this many; then the best x there was.
 
     Returns:
         x, in the shape of b: zero, if the first r is within the tolerance already.

@@ -15,7 +15,7 @@ def rope_kick_drift(motion: MotionOfRods, state: State, dt: float) -> State:
     """Kick-drift of masses on rods that are brought back to their lengths: MuJoCo's soft equality constraints.
 
     A rod that is r too long asks for -b J v - k r with b = 2 / (d T), k = 1 / (d T^2) and the time constant T = 2 dt.
-    With d = 1 that is J v' = -r / (4 dt): no lengthening is left, and of r three quarters are left after the step.
+    With d = 1 that is J v' = -r / (4 dt): no elongation rate is left, and of r three quarters are left after the step.
     To first order it is the rods' true motion: their turning, which `target` leaves out, costs some dt^2 of length.
     (MuJoCo's manual, *Computation*, "Constraint model".)
     """

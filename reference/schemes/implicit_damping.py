@@ -2,7 +2,7 @@
 
 All kick the velocities by the undamped forces to v*, then slow them down along the springs, so that
 
-    (M + dt C) v = M v*,    C = sum over springs of c_j J_j^T J_j,   J_j v = the rate at which spring j lengthens.
+    (M + dt C) v = M v*,    C = sum over springs of c_j J_j^T J_j,   J_j v = the rate at which spring j gets longer.
 
 They differ in when positions move, in what they put for c_j, and in how far they solve. Without damping they are
 `kick_drift` and `drift_kick` to the bit. Which engine does which is said by `springlab list` and shown by the tests.
@@ -89,7 +89,7 @@ def drift_kick_implicit_damping(motion: MotionOfSprings, state: State, dt: float
 def drift_kick_sequential_damping(motion: MotionOfSprings, state: State, dt: float, *, rounds: int = ROUNDS) -> State:
     """Drift-kick, then rounds of damping spring by spring in their order: sequential impulses.
 
-    Each spring in turn gives up the part 1 - exp(-dt c / m) of what its lengthening rate is off its target, zero at
+    Each spring in turn gives up the part 1 - exp(-dt c / m) of what its elongation rate is off its target, zero at
     first, and remembers the rate that leaves as its new target: later rounds take only what its neighbours have put
     back. With ten `rounds` (Pymunk's default) the order of the springs shows where damping is strong. Sequential
     impulses: Catto, GDC 2006; as in Chipmunk's cpDampedSpring.
@@ -170,5 +170,5 @@ def effective_masses(system: MassSpringSystem) -> Array:
 def spring_directions(system: MassSpringSystem, state: State) -> Array:
     """The unit vector from each spring's first mass to its second, shape (s, d)."""
     a, b = system.springs.T
-    gap = state.positions[b] - state.positions[a]
-    return gap / np.linalg.norm(gap, axis=1)[:, None]
+    separation = state.positions[b] - state.positions[a]
+    return separation / np.linalg.norm(separation, axis=1)[:, None]

@@ -24,7 +24,9 @@ def equilibrium(system: MassSpringSystem) -> State:
         SolverError: if there is none nearby (a free system falls for ever); for a system with obstacles.
     """
     if system.obstacles:
-        raise SolverError("no equilibrium: with obstacles the forces need not balance, and a push is no small push")
+        raise SolverError(
+            "no equilibrium: with obstacles the forces need not balance, and a small perturbation may meet one"
+        )
     if system.is_string and system.stiffness.all() and not system.gravity[0] and not system.gravity[2:].any():
         return hanging_string(system)
     from scipy.optimize import minimize
@@ -42,8 +44,8 @@ def equilibrium(system: MassSpringSystem) -> State:
         return State(0.0, positions, np.zeros_like(positions))
 
     def force(coordinates: Array) -> Array:
-        pull = motion.acceleration(at(coordinates)) * system.masses[:, None]
-        return np.asarray(pull[free].ravel())
+        forces = motion.acceleration(at(coordinates)) * system.masses[:, None]
+        return np.asarray(forces[free].ravel())
 
     weight = float((system.masses[:, None] * np.abs(system.gravity)).sum()) or 1.0
     found = minimize(

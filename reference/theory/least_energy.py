@@ -65,8 +65,8 @@ class _Search:
 
     def force(self, q: Array) -> Array:
         """On the free masses [N]."""
-        pull = self._motion.acceleration(self.at(q)) * self._system.masses[:, None]
-        return np.asarray(pull[self._free].ravel())
+        forces = self._motion.acceleration(self.at(q)) * self._system.masses[:, None]
+        return np.asarray(forces[self._free].ravel())
 
     def downhill(self, q: Array) -> Array:
         """Coordinates where forces nearly balance, with less energy than those given."""
@@ -108,9 +108,9 @@ class _Search:
 def _without_compression(system: MassSpringSystem, state: State, springs: Array) -> Array:
     """The springs' blocks less what those shorter than at rest give across themselves: (F / L) (1 - u u^T)."""
     a, b = system.springs.T
-    gap = state.positions[b] - state.positions[a]
-    length = np.linalg.norm(gap, axis=1)
-    u = gap / length[:, None]
+    separation = state.positions[b] - state.positions[a]
+    length = np.linalg.norm(separation, axis=1)
+    u = separation / length[:, None]
     across = np.eye(system.dimension) - u[:, :, None] * u[:, None, :]
     pushing = np.minimum(system.stiffness * (1 - system.rest_lengths / length), 0.0)
     return np.asarray(springs - pushing[:, None, None] * across)

@@ -17,7 +17,7 @@ def squared_frequencies(system: MassSpringSystem, state: State, lowest: int | No
     From K q = w^2 M q with K the derivative of the forces, damping and drag left out.
 
     Args:
-        lowest: only so many, the slowest, by sparse matrices: for systems of thousands of masses that are held.
+        lowest: only this many, the slowest, by sparse matrices: for systems of thousands of masses that are held.
     """
     mass = np.repeat(system.masses[~system.fixed], system.dimension)
     if lowest is not None and lowest < len(mass) - 1:

@@ -30,9 +30,9 @@ def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
 
 
 class LinearMotion:
-    """The equations of motion about an equilibrium, linearised: of many small pushes at once, one per column.
+    """The equations of motion about an equilibrium, linearised: of many small perturbations at once, one per column.
 
-    States have shape (n, d, columns), pushes from the equilibrium and their velocities.
+    States have shape (n, d, columns), perturbations of the equilibrium and their rates.
     """
 
     def __init__(self, system: MassSpringSystem, equilibrium: State) -> None:
@@ -53,11 +53,11 @@ class LinearMotion:
         return np.asarray(moved.reshape(state.positions.shape) - self._drag * state.velocities)
 
     def placed(self, state: State) -> State:
-        """Where springs have their directions: at rest, whatever the pushes."""
+        """Where springs have their directions: at rest, whatever the perturbations."""
         return self._equilibrium
 
     def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
-        """The derivatives of the forces by positions [N/m] and velocities [N s/m], at rest whatever the pushes."""
+        """The derivatives of the forces by positions [N/m] and velocities [N s/m], at rest whatever the perturbations."""
         return spring_blocks(self.system, self._equilibrium)
 
     def acceleration_of(self, i: int, state: State) -> Array:

@@ -34,12 +34,12 @@ def graded(files: list[Path]) -> dict[str, Grade]:
         )
 
 
-def test_right_programs_pass_in_whatever_style(part: slice) -> None:
+def test_right_programs_pass_in_whatever_style(corpus_part: slice) -> None:
     """Loops, arrays, classes, complex numbers, lists, single precision, in place on copies ...: all pass."""
     right = [program for program in programs() if program.name == RIGHT]
     assert len(right) >= 60
     assert {program.exercise for program in right} == set(exercises())
-    assert wrongly(confusion(right[part])) == {}
+    assert wrongly(confusion(right[corpus_part])) == {}
 
 
 def test_every_exercise_has_a_model_solution_that_passes() -> None:
@@ -49,12 +49,12 @@ def test_every_exercise_has_a_model_solution_that_passes() -> None:
     assert {name: (g.verdict.name, g.score) for name, g in found.items()} == {m.stem: ("right", 100.0) for m in MODELS}
 
 
-def test_mistakes_are_called_by_their_name(part: slice) -> None:
+def test_mistakes_are_called_by_their_name(corpus_part: slice) -> None:
     """A part of them; with --full all, as `python -m tests.experiments.exercises.confusion` does."""
     mistakes = [program for program in programs() if program.name != RIGHT]
     for exercise in exercises():
         assert len({program.name for program in mistakes if program.exercise == exercise}) >= 10
-    assert wrongly(confusion(mistakes[part])) == {}
+    assert wrongly(confusion(mistakes[corpus_part])) == {}
 
 
 @pytest.mark.parametrize("count", [0, 1, PARTS, 100])
