@@ -57,7 +57,7 @@ class LinearMotion:
         return self._equilibrium
 
     def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
-        """The derivatives of the forces by positions [N/m] and velocities [N s/m], at rest whatever the perturbations."""
+        """The derivatives of the forces by positions [N/m] and by velocities [N s/m], those at rest."""
         return spring_blocks(self.system, self._equilibrium)
 
     def acceleration_of(self, i: int, state: State) -> Array:
