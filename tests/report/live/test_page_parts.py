@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from reference.errors import InputError
-from report.live.deferred_removal import LATER, Leaving
-from report.live.events import heard
-from report.live.number_slider import STEPS, Dial
+from report.live.deferred_removal import LATER, DeferredRemoval
+from report.live.events import handler
+from report.live.number_slider import STEPS, NumberSlider
 from report.live.plots import PREFIXES, logarithms, power
 
 
@@ -20,7 +20,7 @@ def test_moves_are_done_in_their_order_with_the_value_of_then() -> None:
     """And what the page has set itself is not among them."""
     done: list[object] = []
     waiting: list[Callable[[], None]] = []
-    hear = heard(waiting.append, done.append)
+    hear = handler(waiting.append, done.append)
     target = SimpleNamespace(value=0)
 
     async def move() -> None:
@@ -67,7 +67,7 @@ def test_a_dial_has_its_new_value_when_it_is_told_of_and_its_old_one_if_that_is_
     seen: list[tuple[float, float]] = []
     client = SimpleNamespace(gui=SimpleNamespace(add_number=add, add_multi_slider=add))
     waiting: list[Callable[[], None]] = []
-    dial = Dial(client, "dt [ms]", 1.0, 0.01, 100.0, waiting.append, moved)  # type: ignore[arg-type]
+    dial = NumberSlider(client, "dt [ms]", 1.0, 0.01, 100.0, waiting.append, moved)  # type: ignore[arg-type]
     number, slider = made
     number.move(10.0)
     waiting.pop()()
@@ -103,9 +103,9 @@ def test_what_goes_is_hidden_first(monkeypatch: pytest.MonkeyPatch) -> None:
     clock, removed = [100.0], []
     monkeypatch.setattr("report.live.deferred_removal.time.monotonic", lambda: clock[0])
     part = SimpleNamespace(visible=True, remove=lambda: removed.append(clock[0]))
-    leaving = Leaving()
-    leaving.hide(part)
+    removal = DeferredRemoval()
+    removal.hide(part)
     assert not part.visible
     for clock[0] in (100.0, 99.9 + LATER, 100.1 + LATER, 200.0 + LATER):
-        leaving.remove_old()
+        removal.remove_old()
     assert removed == [100.1 + LATER]
