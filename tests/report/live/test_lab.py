@@ -185,7 +185,7 @@ def test_the_first_blow_up_is_left_behind_by_playing_again(labs: list[Lab]) -> N
     assert (lab.timeline.time, lab.notice, lab.playing) == (0.0, "", True)
 
 
-def test_an_engine_that_is_killed_is_one_world_less(labs: list[Lab]) -> None:
+def test_an_engine_that_is_killed_is_one_lane_less(labs: list[Lab]) -> None:
     """With its reason; the others go on, and it begins again with a reset."""
     lab = open_lab(labs, "string", ["mujoco_tendons", "heun"])
     lab.advance(5)
