@@ -79,7 +79,7 @@ class Timeline:
         for lane in self.lanes:
             lane.end()
 
-    # On by itself.
+    # Forwards.
 
     def advance(self, steps: int, budget: float = math.inf, speed: float = 1.0) -> None:
         """Advance all lanes by a number of steps, or by as many as fit into a budget; stop with the first that stops.
@@ -123,7 +123,7 @@ class Timeline:
         later = [change for change in self.opened.changes if change.time >= since - 1e-9 * self.dt]
         return sorted(later, key=lambda change: change.time)
 
-    # Changed by hand.
+    # Changes on the way.
 
     def change(self, name: str, value: Value) -> None:
         """A parameter changes on the fly: the motion goes on, and a command can say it.
@@ -197,12 +197,7 @@ class Timeline:
         self.system, self.stepped = system, stepped
         self._begin(states)
 
-    # Back and on again.
-
-    @property
-    def rewindable(self) -> float:
-        """How far back one can go [s of the clock]."""
-        return self._history.seconds
+    # Back, and on from there.
 
     def rewind(self, seconds: float) -> None:
         """Show the moment that many seconds before the last one; nothing is lost until it goes on from there."""
