@@ -100,11 +100,11 @@ def judged(
         keep: whether to return the trajectory.
     """
     from experiments.runs.comparison import finite
-    from experiments.runs.steppers import all_steppers
+    from experiments.runs.steppers import find_steppers
     from reference.identification import candidates_for, identify_by_rounding
     from reference.theory.exact import exact
 
-    made_by = all_steppers()[stepper] if engine is None else EngineStepper(engine)
+    made_by = find_steppers([stepper])[0] if engine is None else EngineStepper(engine)
     if engine is None:
         outcome = made_by.run(system, dt, steps, changes)
     else:

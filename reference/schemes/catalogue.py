@@ -218,7 +218,10 @@ def find(name: str) -> Scheme:
         InputError: with a suggestion, where there is none; for a parameter it does not have.
     """
     known = {**schemes(), **aliases()}
-    base, parameters = re.fullmatch(r"([^(]*)(?:\((.*)\))?", name, re.S).groups()  # type: ignore[union-attr]
+    parts = re.fullmatch(r"([^(]*)(?:\((.*)\))?", name, re.S)
+    if parts is None:
+        raise InputError(f"scheme {name!r}: expected a name, or a name with parameters, as in sweeps(rounds=3)")
+    base, parameters = parts.groups()
     if base not in known:
         raise unknown_name("scheme", base, known)
     return known[base].with_parameters(**_parsed(known[base], parameters)) if parameters else known[base]

@@ -48,9 +48,8 @@ ranges_option = click.option(
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 
 
-def steppers_option(required: bool = False) -> Decorator:
+def steppers_option(text: str = "Only these; see `springlab list`.", required: bool = False) -> Decorator:
     """Add --stepper, any number of times, as `names`."""
-    text = "See `springlab list`." if required else "Only these; see `springlab list`."
     return click.option("--stepper", "names", multiple=True, required=required, metavar="NAME", help=text)
 
 

@@ -20,7 +20,7 @@ HEADINGS = {
 #: What is left out first where there is no room, and what never is.
 LEAST, MOST = ("version", "task", "steps"), ("stepper", "outcome")
 
-#: Texts of SENTENCE characters and more are folded, to FOLDED at least.
+#: Texts of SENTENCE characters and more are folded, to FOLDED characters at least.
 SENTENCE, FOLDED = 40, 16
 
 
@@ -32,7 +32,7 @@ def heading(column: str) -> str:
 
 
 def for_people(rows: Sequence[Mapping[str, Any]], width: int) -> tuple[list[str], dict[str, Any], list[str]]:
-    """The columns to show on so many characters; what is the same in every row; and what there is no room for."""
+    """The columns to show; what is the same in every row; and what there is no room for. Args: width: [characters]."""
     columns = [name for name in columns_of(rows) if name not in MORE_COLUMNS]
     values = {name: [row.get(name) for row in rows] for name in columns}
     values = {name: found for name, found in values.items() if any(value not in (None, "") for value in found)}

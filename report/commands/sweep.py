@@ -24,7 +24,7 @@ from report.commands.terminal import progress, show_table
 
 @click.command("sweep")
 @scene_argument
-@steppers_option(required=True)
+@steppers_option("See `springlab list`.", required=True)
 @click.option("--over", "axes", multiple=True, required=True, metavar="KEY=LOW:HIGH:COUNT", help="Or KEY=A,B,C.")
 @settings_option
 @dt_option

@@ -30,13 +30,13 @@ SCRIPT = (Path(__file__).parents[1] / "templates" / "motion.js").read_text(encod
 #: What the page shows.
 SHOWN = ("string", "cloth", "jello", "bridge")
 
-#: Pixels across, and how many parts of one places are rounded to.
+#: Pixels across, and the parts of one that places are rounded to.
 ACROSS, PARTS = 420, 8
 
-#: One second of the motion takes so many to watch.
+#: How many times longer than the motion it takes to watch.
 SLOW = 8
 
-#: Strain is told by one of so many colours.
+#: The number of colours that tell strain.
 COLOURS = 61
 
 

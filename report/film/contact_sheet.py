@@ -1,4 +1,4 @@
-"""How the panels of a film lie on a sheet: names above each, the time and the colours once."""
+"""The contact sheet: the panels of a film side by side, names above each, the time and the colours once."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from reference.system import MassSpringSystem
 from report.film.drawing import Drawing, Look, add_length, add_strain_bar
 from report.film.view import Window
 
-#: The sheet is so many inches wide and high at most, at so many pixels per inch; a panel so many high.
+#: Most width and height of the sheet [inches]; pixels per inch; least and most height of a panel [inches].
 WIDE, HIGH, PIXELS, LEAST, HIGHEST = 12.4, 8.6, 100, 0.8, 5.2
 
-#: Titles have at least so much room [inches], however narrow the panels are.
+#: The least room of titles [inches], however narrow the panels are.
 TITLE = 2.3
 
 #: Room for the line above all, for a line of a panel's title, between panels, and for the colours [inches].
 TOP, LINE, BETWEEN, BAR = 0.5, 0.165, 0.15, 1.1
 
-#: The colours are at most so high [inches].
+#: The most height of the colours [inches].
 BAR_HIGH = 4.0
 
 
@@ -51,7 +51,7 @@ class Shot:
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class ContactSheet:
     """What is to be filled in for every picture.
 
     Attributes:
@@ -114,8 +114,8 @@ def grid(shots: Sequence[Shot], window: Window) -> Grid:
     return max(grids, key=lambda found: found.size[1])
 
 
-def contact_sheet(system: MassSpringSystem, shots: Sequence[Shot], look: Look, title: str) -> Sheet:
-    """A sheet with an empty drawing for each shot."""
+def contact_sheet(system: MassSpringSystem, shots: Sequence[Shot], look: Look, title: str) -> ContactSheet:
+    """A contact sheet with an empty drawing for each shot."""
     from matplotlib.figure import Figure
 
     laid = grid(shots, look.window)
@@ -135,7 +135,7 @@ def contact_sheet(system: MassSpringSystem, shots: Sequence[Shot], look: Look, t
     line = 1 - 0.28 / high
     figure.text(BETWEEN / wide, line, title, fontsize=12, va="center")
     clock = figure.text(1 - BETWEEN / wide, line, "", fontsize=12, va="center", ha="right", family="monospace")
-    return Sheet(figure, drawings, clock, notes)
+    return ContactSheet(figure, drawings, clock, notes)
 
 
 def _title(shot: Shot, wide: float) -> tuple[list[str], list[str]]:

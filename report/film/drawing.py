@@ -9,7 +9,7 @@ import numpy as np
 
 from reference.state import Array
 from reference.system import BoolArray, MassSpringSystem
-from report.film.obstacle_image import HIDDEN, Backdrop
+from report.film.obstacle_image import HIDDEN, ObstacleImage
 from report.film.view import View, Window
 
 #: Pushed together, as it should be, pulled apart: blue and orange are told apart by everyone, in print and on black.
@@ -18,7 +18,7 @@ STRAIN_COLOURS = ((0, "#00429d"), (0.38, "#4a9be0"), (0.5, "#a6a6a6"), (0.62, "#
 #: Systems of more masses are drawn without dots, in thinner lines.
 FEW = 30
 
-#: What is farthest away is drawn in so much of its colour and of its width.
+#: What is farthest away is drawn in this part of its colour and of its width.
 FAR = 0.45
 
 #: In large systems springs longer than the shortest, such as go across cells, are thinner, but not below this part.
@@ -44,7 +44,7 @@ class Look:
     window: Window
     most: float
     depths: tuple[float, float]
-    obstacles: Backdrop | None
+    obstacles: ObstacleImage | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +153,7 @@ class Drawing:
             spine.set(visible=True, color="#cccccc", linewidth=0.8)
 
     def show(self, positions: Array, system: MassSpringSystem, true: Array | None = None) -> None:
-        """Draw the system, as it is now, at positions (n, d) [m]; what is no number is not drawn.
+        """Draw the system, as it is now, at positions (n, d) [m]; what is not finite is not drawn.
 
         Args:
             true: where it should be, drawn behind it.

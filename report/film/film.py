@@ -18,7 +18,7 @@ from reference.state import Array, Trajectory
 from reference.system import MassSpringSystem
 from report.film.contact_sheet import Shot, contact_sheet
 from report.film.drawing import FEW, Look, scale_of
-from report.film.obstacle_image import backdrop
+from report.film.obstacle_image import obstacle_image
 from report.film.view import View, Window, box_of, outside, view_of, window_around
 
 #: Frames in a second, and how many an animation has at most.
@@ -69,7 +69,7 @@ def frame_steps(setup: Setup, steps: int, slow: float = 1.0) -> list[int]:
     """Which steps are shown, RATE of them in a second of the film, which is `slow` times as long as the motion.
 
     Raises:
-        InputError: for a `slow` that is no number > 0, and for more than MOST_FRAMES.
+        InputError: for a `slow` that is not a number > 0, and for more than MOST_FRAMES.
     """
     if not 0 < slow < np.inf:
         raise InputError(f"slow = {slow:g}: expected a finite number > 0")
@@ -107,11 +107,11 @@ def look_at(system: MassSpringSystem, motions: Sequence[Trajectory]) -> Look:
     window = window_around(boxes)
     depth = view.project(model)[1]
     depths = (float(depth.min()), float(depth.max()))
-    return Look(view, window, scale_of(system, model), depths, backdrop(system.obstacles, view, window))
+    return Look(view, window, scale_of(system, model), depths, obstacle_image(system.obstacles, view, window))
 
 
 def leaves(motion: Trajectory, view: View, window: Window) -> float | None:
-    """The first time at which a mass is outside of the window, or is no number [s]."""
+    """The first time at which a mass is outside of the window, or not finite [s]."""
     gone = outside(view.project(motion.positions)[0], window).any(axis=1)
     return float(motion.times[np.argmax(gone)]) if gone.any() else None
 

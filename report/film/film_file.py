@@ -18,7 +18,7 @@ from report.film.drawing import colour_map
 #: The endings of files that can be written.
 ENDINGS = (".gif", ".mp4")
 
-#: Before a GIF begins again its last picture stays for so long [ms].
+#: How long the last picture of a GIF stays before it begins again [ms].
 PAUSE = 1200
 
 
@@ -64,7 +64,13 @@ def _named(path: Path) -> Iterator[None]:
 
 
 def write_film(part: Path, path: Path, frames: Iterator[Array], rate: float) -> None:
-    """Write frames (h, w, 3), of bytes, so many in a second, into `part`, which is to become `path`.
+    """Write frames (h, w, 3), of bytes, into `part`, which is to become `path`.
+
+    Args:
+        part: the file that is written.
+        path: what it is to become: its ending says the format.
+        frames: all of one size.
+        rate: frames in a second.
 
     Raises:
         OSError: naming `path`, where the disk is full or the like.

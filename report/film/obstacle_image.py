@@ -1,4 +1,4 @@
-"""Obstacles as a picture behind the masses, of any kind: all that is asked of them is how far a place is from them.
+"""The obstacle image: obstacles of any kind behind the masses. All that is asked of them is their signed distance.
 
 In three dimensions a ray goes from the eye through every pixel, each time as far as the nearest obstacle is away, until
 it touches one (sphere tracing: Hart, The Visual Computer 1996). How far it came also tells what an obstacle hides.
@@ -28,12 +28,12 @@ LIGHT, SHADE = 0.93, 0.62
 #: Where light comes from: to the right, upwards, towards the eye; a unit vector.
 LIGHT_FROM = (-0.48, 0.8, 0.36)
 
-#: Floors fade away between so many distances of the eye and so many from the middle.
+#: Floors fade away between these distances from the middle, in distances of the eye.
 FADE = (0.45, 0.9)
 
 
 @dataclass(frozen=True, eq=False)
-class Backdrop:
+class ObstacleImage:
     """What is painted where no spring is in front.
 
     Attributes:
@@ -59,7 +59,7 @@ class Backdrop:
         return np.asarray(depth < surface - slack)
 
 
-def backdrop(obstacles: Sequence[Obstacle], view: View, window: Window) -> Backdrop | None:
+def obstacle_image(obstacles: Sequence[Obstacle], view: View, window: Window) -> ObstacleImage | None:
     """The obstacles in a window of a view; None where there are none."""
     if not obstacles:
         return None
@@ -73,11 +73,11 @@ def backdrop(obstacles: Sequence[Obstacle], view: View, window: Window) -> Backd
 
 
 def _nearest(obstacles: Sequence[Obstacle], points: Array) -> tuple[Array, Array]:
-    """How far points (..., d) are from the nearest obstacle [m], shape (...), and its normal there, (..., d)."""
-    gaps, normals = zip(*(o.signed_distances(points) for o in obstacles), strict=True)
-    which = np.argmin(np.stack(gaps), axis=0)
-    gap = np.take_along_axis(np.stack(gaps), which[None], axis=0)[0, ..., 0]
-    return gap, np.take_along_axis(np.stack(normals), which[None], axis=0)[0]
+    """Signed distance from points (..., d) to the nearest obstacle [m], shape (...), and its normal there, (..., d)."""
+    distances, normals = zip(*(o.signed_distances(points) for o in obstacles), strict=True)
+    which = np.argmin(np.stack(distances), axis=0)
+    nearest = np.take_along_axis(np.stack(distances), which[None], axis=0)[0, ..., 0]
+    return nearest, np.take_along_axis(np.stack(normals), which[None], axis=0)[0]
 
 
 def _touched(obstacles: Sequence[Obstacle], eye: Array, rays: Array, distance: float) -> Array:
@@ -86,37 +86,37 @@ def _touched(obstacles: Sequence[Obstacle], eye: Array, rays: Array, distance: f
     points = np.tile(eye, (len(towards), 1))
     moving = np.arange(len(towards))
     for _ in range(MOVES):
-        gap, _ = _nearest(obstacles, points[moving])
-        points[moving] += np.maximum(gap, 0)[:, None] * towards[moving]
+        signed_distance, _ = _nearest(obstacles, points[moving])
+        points[moving] += np.maximum(signed_distance, 0)[:, None] * towards[moving]
         near = np.linalg.norm(points[moving] - eye, axis=1) < 3 * distance
-        moving = moving[(gap > TOUCH / 10 * distance) & near]
+        moving = moving[(signed_distance > TOUCH / 10 * distance) & near]
         if not len(moving):
             break
     return points.reshape(rays.shape)
 
 
-def _flat(obstacles: Sequence[Obstacle], view: View, window: Window, places: Array) -> Backdrop:
+def _flat(obstacles: Sequence[Obstacle], view: View, window: Window, places: Array) -> ObstacleImage:
     """The inside in one grey, with an edge as soft as a pixel."""
-    gap, _ = _nearest(obstacles, places)
+    signed_distance, _ = _nearest(obstacles, places)
     pixel = (window[1] - window[0]) / places.shape[1]
-    image = np.empty((*gap.shape, 4))
+    image = np.empty((*signed_distance.shape, 4))
     image[..., :3] = 0.85
-    image[..., 3] = np.clip(0.5 - gap / pixel, 0, 1)
-    return Backdrop(window, image, np.full(gap.shape, -np.inf))
+    image[..., 3] = np.clip(0.5 - signed_distance / pixel, 0, 1)
+    return ObstacleImage(window, image, np.full(signed_distance.shape, -np.inf))
 
 
-def _traced(obstacles: Sequence[Obstacle], view: View, window: Window, places: Array) -> Backdrop:
+def _traced(obstacles: Sequence[Obstacle], view: View, window: Window, places: Array) -> ObstacleImage:
     """Shaded by a light above the eye's left shoulder."""
     eye, rays = view.rays(places)
     points = _touched(obstacles, eye, rays, view.distance)
-    gap, normal = _nearest(obstacles, points)
+    signed_distance, normal = _nearest(obstacles, points)
     towards = view.axes[2]
     lit = np.clip((normal * (np.array(LIGHT_FROM) @ view.axes)).sum(axis=-1), 0, 1)
     away = np.linalg.norm(points - view.middle, axis=-1) / view.distance
     faded = np.clip((FADE[1] - away) / (FADE[1] - FADE[0]), 0, 1)
-    touched = gap < TOUCH * view.distance
-    image = np.empty((*gap.shape, 4))
+    touched = signed_distance < TOUCH * view.distance
+    image = np.empty((*signed_distance.shape, 4))
     image[..., :3] = (SHADE + (LIGHT - SHADE) * lit)[..., None]
     image[..., 3] = np.where(touched, 0.92 * faded, 0)
     depth = np.where(touched & (faded > 0), (points - view.middle) @ towards, -np.inf)
-    return Backdrop(window, image, depth)
+    return ObstacleImage(window, image, depth)

@@ -13,13 +13,13 @@ from reference.state import Array
 #: Three dimensions are looked at from so far to the right of straight on, and from so far above [degrees].
 AZIMUTH, ELEVATION = 28.0, 17.0
 
-#: The eye is so many sizes of what moves away: near enough to see what is in front.
+#: How far away the eye is, in sizes of what moves: near enough to see what is in front.
 AWAY = 3.0
 
 #: Left, right, bottom, top of a picture [m].
 Window = tuple[float, float, float, float]
 
-#: Around what moves there is so much more room, as a part of it, and so much below.
+#: How much more room there is around what moves, and below it, as parts of it.
 MARGIN, BELOW = 0.06, 0.13
 
 #: A picture is at least this part as narrow as it is high, and the other way round.
@@ -44,7 +44,7 @@ class View:
         """Places in the picture [m], shape (..., 2), and how much nearer than the middle [m], shape (...).
 
         Args:
-            positions: shape (..., d) [m]. What is behind the eye, or no number, has no place: NaN.
+            positions: shape (..., d) [m]. What is behind the eye, or not finite, has no place: NaN.
         """
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
             seen = (positions - self.middle) @ self.axes.T
@@ -91,13 +91,13 @@ def window_around(boxes: Sequence[Window], most: float = 0.3) -> Window:
 
 
 def box_of(places: Array) -> Window:
-    """The smallest window with all places in it that are numbers, shape (..., 2) [m]."""
+    """The smallest window with all places in it that are finite, shape (..., 2) [m]."""
     x, y = (places[..., i][np.isfinite(places[..., i])] for i in (0, 1))
     return float(x.min()), float(x.max()), float(y.min()), float(y.max())
 
 
 def outside(places: Array, window: Window) -> Array:
-    """Which places are not in a window, shape (...): those that are no numbers are not."""
+    """Which places are not in a window, shape (...): those that are not finite are not."""
     x, y = places[..., 0], places[..., 1]
     left, right, bottom, top = window
     with np.errstate(invalid="ignore"):

@@ -6,25 +6,22 @@ from collections.abc import Callable, Coroutine
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
-from experiments.advice.advice import rounded_down
 from report.live import scenes
-from report.live.deferred_removal import Leaving
-from report.live.events import heard
+from report.live.deferred_removal import DeferredRemoval
+from report.live.events import handler
+from report.live.host import Host
 from report.live.lab import Lab
-from report.live.number_slider import Dial
-from report.live.parameters import GRAVITIES, PRESETS, sliders
-from report.live.stepping import MOST_WORLDS, choices
+from report.live.markup import banner, copyable
+from report.live.number_slider import NumberSlider
+from report.live.parameters import GRAVITIES, PRESETS, Slider, sliders
+from report.live.status import MS, status, suggestion
+from report.live.stepping import MOST_LANES, choices
 
 if TYPE_CHECKING:
     from viser import ClientHandle
 
-    from report.live.page import Page
-
-#: In a menu of steppers: no world.
-NOBODY = "-"
-
-#: dt in the page is in milliseconds.
-MS = 1e-3
+#: In a menu of steppers: no lane.
+NO_LANE = "-"
 
 
 class Controls:
@@ -32,29 +29,30 @@ class Controls:
 
     Args:
         client: the viewer.
-        page: does what is asked.
+        host: the page, which does what is asked.
 
     Attributes:
-        leaving: parts that go.
+        removal: of parts that are no more.
     """
 
-    def __init__(self, client: ClientHandle, page: Page) -> None:
-        self._gui, self._client, self._page = client.gui, client, page
-        self._dials: dict[str, Dial] = {}
+    def __init__(self, client: ClientHandle, host: Host) -> None:
+        self._gui, self._client, self._host = client.gui, client, host
+        self._number_sliders: dict[str, NumberSlider] = {}
         self._scene_parts: list[Any] = []
+        self._scene_settings: dict[str, Any] = {}
         self._suggested: float | None = None
-        self.leaving = Leaving()
+        self.removal = DeferredRemoval()
         client.gui.set_panel_label("springlab live")
         client.gui.main_panel.dock_right()
         client.gui.main_panel.set_width(380)
         self._banner = client.gui.add_html("", visible=False)
         self._again = client.gui.add_button("Start again", visible=False)
-        self._again.on_click(self._heard(lambda _: self._start_again()))
+        self._again.on_click(self._on(lambda _: self._start_again()))
         self._status = client.gui.add_html("")
         self._add_run()
         self._add_scene()
         self._parameters = client.gui.add_folder("Parameters")
-        self._add_worlds()
+        self._add_lanes()
         self._add_take_away()
         self._plots_panel = client.gui.add_panel()
         self._plots_tab = self._plots_panel.add_tab("Plots")
@@ -65,141 +63,160 @@ class Controls:
         """Where plots are to go."""
         return self._plots_tab
 
-    def _heard(self, action: Callable[[Any], None]) -> Callable[[Any], Coroutine[Any, Any, None]]:
-        return heard(self._page.do, action)
+    def _on(self, action: Callable[[Any], None]) -> Callable[[Any], Coroutine[Any, Any, None]]:
+        return handler(self._host.do, action)
 
     # Made once.
 
     def _add_run(self) -> None:
-        gui, page = self._gui, self._page
+        gui, host = self._gui, self._host
         with gui.add_folder("Run"):
-            run = gui.add_button_group("", ("Play", "Pause", "Step", "Reset"))
-            run.on_click(self._heard(self._run))
+            gui.add_button_group("", ("Play", "Pause", "Step", "Reset")).on_click(self._on(self._run))
             self._back = gui.add_slider("back [s]", min=0.0, max=10.0, step=0.05, initial_value=0.0)
-            self._back.on_update(self._heard(lambda seconds: page.lab.rewind(seconds)))
-            Dial(self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, page.do, self._set_speed)
+            self._back.on_update(self._on(lambda seconds: host.lab.rewind(seconds)))
+            NumberSlider(self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, host.do, self._set_speed)
             most = gui.add_slider("steps a frame, at most", min=1, max=2000, step=1, initial_value=1000)
-            most.on_update(self._heard(lambda steps: setattr(page.lab, "most_steps", int(steps))))
+            most.on_update(self._on(lambda steps: setattr(host.lab, "most_steps", int(steps))))
 
     def _add_scene(self) -> None:
-        gui, page = self._gui, self._page
+        gui, host = self._gui, self._host
         with gui.add_folder("Scene") as self._scene_folder:
-            names = page.scene_names()
-            self._scene = gui.add_dropdown("scene", names, initial_value=page.lab.opened.name)
-            self._scene.on_update(self._heard(page.open))
+            self._scene = gui.add_dropdown("scene", host.scene_names(), initial_value=host.lab.timeline.opened.name)
+            self._scene.on_update(self._on(host.open))
             self._barrier = gui.add_checkbox("barrier in the way", False)
-            self._barrier.on_update(self._heard(lambda _: self._reopen()))
-            slides = gui.add_button_group("as on slide", tuple(PRESETS))
-            slides.on_click(self._heard(page.preset))
+            self._barrier.on_update(self._on(lambda _: self._reopen()))
+            gui.add_button_group("as on slide", tuple(PRESETS)).on_click(self._on(host.preset))
 
-    def _add_worlds(self) -> None:
-        gui, page = self._gui, self._page
-        with gui.add_folder("Worlds"):
-            self._worlds = []
-            for i in range(MOST_WORLDS):
-                options = choices() if i == 0 else [NOBODY, *choices()]
-                menu = gui.add_dropdown(f"world {i + 1}", options, initial_value=options[0])
-                menu.on_update(self._heard(lambda _: self._choose()))
-                self._worlds.append(menu)
+    def _add_lanes(self) -> None:
+        gui, host = self._gui, self._host
+        with gui.add_folder("Lanes"):
+            self._menus = []
+            for i in range(MOST_LANES):
+                options = choices() if i == 0 else [NO_LANE, *choices()]
+                menu = gui.add_dropdown(f"lane {i + 1}", options, initial_value=options[0])
+                menu.on_update(self._on(lambda _: self._choose()))
+                self._menus.append(menu)
+            self._name = gui.add_text(
+                "by name", "", hint="also with parameters: drift_kick_sequential_damping(rounds=3)"
+            )
+            gui.add_button("Add lane").on_click(self._on(lambda _: self._add_lane(self._name.value.strip())))
             beside = gui.add_checkbox("side by side", False)
-            beside.on_update(self._heard(lambda on: setattr(page.stage, "beside", on)))
+            beside.on_update(self._on(lambda on: setattr(host.stage, "beside", on)))
             true = gui.add_checkbox("true motion, grey", True)
-            true.on_update(self._heard(lambda on: setattr(page.stage, "show_true", on)))
-            gui.add_markdown("Drag a mass to pull at it, in all worlds; click it to pin it or let it go.")
+            true.on_update(self._on(lambda on: setattr(host.stage, "show_true", on)))
+            gui.add_markdown("Drag a mass to pull at it, in all lanes; click it to pin it or let it go.")
 
     def _add_take_away(self) -> None:
-        gui, page = self._gui, self._page
+        gui, host = self._gui, self._host
         with gui.add_folder("Take away"):
-            gui.add_button("Copy command").on_click(self._heard(lambda _: self._command()))
+            gui.add_button("Copy command").on_click(self._on(lambda _: self._command()))
             self._command_text = gui.add_html("", visible=False)
-            gui.add_button("CSV of this run").on_click(self._heard(lambda _: page.csv()))
-            gui.add_button("Picture").on_click(self._heard(lambda _: page.picture()))
+            gui.add_button("CSV of this run").on_click(self._on(lambda _: host.csv()))
+            gui.add_button("Picture").on_click(self._on(lambda _: host.picture()))
 
     # Made anew with every scene.
 
     def renew(self, lab: Lab) -> None:
-        """The scene's own parameters and dials."""
-        for part in [*self._scene_parts, *(part for dial in self._dials.values() for part in dial.parts)]:
-            self.leaving.hide(part)
-        self._scene_parts, self._dials, self._counts = [], {}, {}
-        self._scene.value = lab.opened.name
-        self._barrier.value = bool(lab.own.obstacles)
+        """The scene's own settings and number sliders, and who steps the lanes."""
+        for part in [*self._scene_parts, *(p for slider in self._number_sliders.values() for p in slider.parts)]:
+            self.removal.hide(part)
+        self._scene_parts, self._number_sliders, self._scene_settings = [], {}, {}
+        self._scene.value = lab.timeline.opened.name
+        self._barrier.value = bool(lab.timeline.system.obstacles)
         with self._scene_folder:
-            for name, value in scenes.counts(lab.opened.name).items():
-                self._counts[name] = self._keep(
-                    self._gui.add_number(name, int(lab.opened.settings.get(name, value)), min=1, max=1000, step=1)
-                )
-            for name, words in scenes.words(lab.opened.name).items():
-                self._counts[name] = self._keep(
-                    self._gui.add_dropdown(name, words, initial_value=lab.opened.settings.get(name, words[0]))
-                )
-            for part in self._counts.values():
-                part.on_update(self._heard(lambda _: self._reopen()))
+            self._add_scene_settings(lab)
         with self._parameters:
-            self._add_dials(lab)
-        for i, menu in enumerate(self._worlds):
-            menu.value = lab.worlds[i].name if i < len(lab.worlds) else NOBODY
+            self._add_dt(lab)
+            self._add_parameters(lab)
+        self._show_lanes(lab)
 
-    def _keep(self, part: Any) -> Any:
+    def _for_this_scene(self, part: Any) -> Any:
         self._scene_parts.append(part)
         return part
 
-    def _add_dials(self, lab: Lab) -> None:
-        page = self._page
-        dt = lab.dt / MS
-        self._dials["dt"] = Dial(
-            self._client, "dt [ms]", dt, dt / 100, dt * 100, page.do, lambda value: page.lab.set_dt(value * MS)
+    def _add_scene_settings(self, lab: Lab) -> None:
+        """The scene's parameters that are counts or words."""
+        opened = lab.timeline.opened
+        for name, count in scenes.counts(opened.name).items():
+            set_to = int(opened.settings.get(name, count))
+            self._scene_settings[name] = self._gui.add_number(name, set_to, min=1, max=1000, step=1)
+        for name, words in scenes.words(opened.name).items():
+            word = opened.settings.get(name, words[0])
+            self._scene_settings[name] = self._gui.add_dropdown(name, words, initial_value=word)
+        for part in self._scene_settings.values():
+            self._for_this_scene(part).on_update(self._on(lambda _: self._reopen()))
+
+    def _add_dt(self, lab: Lab) -> None:
+        host, dt = self._host, lab.timeline.dt / MS
+        self._number_sliders["dt"] = NumberSlider(
+            self._client, "dt [ms]", dt, dt / 100, dt * 100, host.do, lambda value: host.lab.set_dt(value * MS)
         )
-        driven = lab.opened.driven
-        if driven:
-            self._keep(self._gui.add_markdown(f"The scene itself changes {' and '.join(sorted(driven))}."))
-        for slider in (slider for slider in sliders(lab.opened.system) if slider.name not in driven):
-            label = f"{slider.name.replace('_', ' ')} [{slider.unit or 'times its own'}]"
 
-            def move(value: float, name: str = slider.name) -> None:
-                page.lab.set_parameter(name, value)
+    def _add_parameters(self, lab: Lab) -> None:
+        """A number slider for each parameter of the system that the scene does not change itself."""
+        opened = lab.timeline.opened
+        if opened.driven:
+            names = " and ".join(sorted(opened.driven))
+            self._for_this_scene(self._gui.add_markdown(f"The scene itself changes {names}."))
+        for slider in sliders(opened.system):
+            if slider.name not in opened.driven:
+                self._add_parameter(slider, lab.numbers.get(slider.name, slider.value))
 
-            self._dials[slider.name] = Dial(
-                self._client,
-                label,
-                lab.numbers.get(slider.name, slider.value),
-                slider.low,
-                slider.high,
-                page.do,
-                move,
-                zero=slider.zero,
-                linear=slider.name == "gravity" and bool(slider.unit),
-            )
-            if slider.name == "gravity" and slider.unit:
-                places = self._keep(self._gui.add_button_group("as on", tuple(GRAVITIES)))
-                places.on_click(self._heard(self._gravity))
+    def _add_parameter(self, slider: Slider, value: float) -> None:
+        host, name = self._host, slider.name
+        downwards = name == "gravity" and bool(slider.unit)
+        self._number_sliders[name] = NumberSlider(
+            self._client,
+            f"{name.replace('_', ' ')} [{slider.unit or 'times its own'}]",
+            value,
+            slider.low,
+            slider.high,
+            host.do,
+            lambda value: host.lab.set_parameter(name, value),
+            zero=slider.zero,
+            linear=downwards,
+        )
+        if downwards:
+            places = self._for_this_scene(self._gui.add_button_group("as on", tuple(GRAVITIES)))
+            places.on_click(self._on(self._set_gravity))
+
+    def _show_lanes(self, lab: Lab) -> None:
+        """Who steps each lane, in its menu; a stepper that was named otherwise is put into the menus."""
+        names = lab.timeline.steppers
+        known = choices()
+        known += [name for name in dict.fromkeys(names) if name not in known]
+        for i, menu in enumerate(self._menus):
+            options = tuple(known if i == 0 else [NO_LANE, *known])
+            if menu.options != options:
+                menu.options = options
+            menu.value = names[i] if i < len(names) else NO_LANE
 
     # Shown some times in a second.
 
     def show(self, lab: Lab, company: str) -> None:
         """Where everything is."""
-        from report.live.page import banner
-
-        limits = [(p.limit, name) for name, p in lab.predictions.items() if p.limit is not None]
-        if "dt" in self._dials:
-            self._dials["dt"].show(lab.dt / MS)
-            self._dials["dt"].mark([(limit / MS, f"▲ {limit / MS:.3g}") for limit, _ in limits[:2]])
+        limits = [prediction.limit / MS for prediction in lab.predictions.values() if prediction.limit is not None]
+        if "dt" in self._number_sliders:
+            self._number_sliders["dt"].show(lab.timeline.dt / MS)
+            self._number_sliders["dt"].mark([(limit, f"▲ {limit:.3g}") for limit in limits[:2]])
         self._status.content = banner(status(lab, company), "#0072b2")
-        blown = bool(lab.notice)
-        if blown:
-            self._banner.content = banner(lab.notice, "#a32a00", "alert")
-            if not self._banner.visible:  # above the part of the panel that is looked at, it would not be seen
-                self._page.say(lab.notice)
-        self._banner.visible = blown
+        self._show_notice(lab.notice)
         self._suggested = suggestion(lab)
         self._again.visible = self._suggested is not None
         if self._suggested is not None:
             self._again.label = f"Start again with dt = {self._suggested / MS:.3g} ms, a stable one"
 
+    def _show_notice(self, notice: str) -> None:
+        if notice:
+            self._banner.content = banner(notice, "#a32a00", "alert")
+            if not self._banner.visible:  # above the part of the panel that is looked at, it would not be seen
+                self._host.say(notice)
+        self._banner.visible = bool(notice)
+
     # What is asked for.
 
     def _run(self, what: str) -> None:
-        lab = self._page.lab
+        lab = self._host.lab
         if what == "Play":
             self._back.value = 0.0
             lab.play()
@@ -212,60 +229,38 @@ class Controls:
             lab.reset()
 
     def _set_speed(self, value: float) -> None:
-        self._page.lab.speed = max(value, 1e-6)
+        self._host.lab.speed = max(value, 1e-6)
 
     def _choose(self) -> None:
-        names = [menu.value for menu in self._worlds if menu.value != NOBODY]
-        self._page.lab.set_steppers(names)
+        self._host.lab.set_steppers([menu.value for menu in self._menus if menu.value != NO_LANE])
+
+    def _add_lane(self, name: str) -> None:
+        lab = self._host.lab
+        lab.set_steppers([*lab.timeline.steppers, name])
+        self._show_lanes(lab)
 
     def _reopen(self) -> None:
-        settings = {name: str(part.value) for name, part in self._counts.items()}
-        own = {**scenes.counts(self._scene.value), **{n: w[0] for n, w in scenes.words(self._scene.value).items()}}
+        """The scene with the settings there are on the panel; only those that are not its own are set."""
+        scene = self._scene.value
+        own = {**scenes.counts(scene), **{name: words[0] for name, words in scenes.words(scene).items()}}
+        settings = {name: str(part.value) for name, part in self._scene_settings.items()}
         changed = {name: value for name, value in settings.items() if value != str(own[name])}
-        self._page.open(self._scene.value, changed, self._barrier.value)
+        self._host.open(scene, changed, self._barrier.value)
 
-    def _gravity(self, where: str) -> None:
-        self._dials["gravity"].show(GRAVITIES[where])
-        self._page.lab.set_parameter("gravity", GRAVITIES[where])
+    def _set_gravity(self, where: str) -> None:
+        self._number_sliders["gravity"].show(GRAVITIES[where])
+        self._host.lab.set_parameter("gravity", GRAVITIES[where])
 
     def _start_again(self) -> None:
         if self._suggested is not None:
-            self._page.start_again_with(self._suggested)
+            self._host.start_again_with(self._suggested)
 
     def _command(self) -> None:
-        from report.live.page import copyable
-
-        lab = self._page.lab
+        lab = self._host.lab
         lab.playing = False
         found = lab.reproduction()
         for name, text in found.files.items():
-            self._page.download(name, text.encode())
+            self._host.download(name, text.encode())
         note = f"{found.note} Files to be run beside: {', '.join(found.files)}." if found.files else found.note
         self._command_text.content = copyable("\n".join(found.commands), note)
         self._command_text.visible = True
-
-
-def suggestion(lab: Lab) -> float | None:
-    """A dt [s] that is stable for all worlds; None where nothing blew up, or a shorter step would not help."""
-    blown = {world.name for world in lab.worlds if world.blown_up}
-    limits = {name: p.limit for name, p in lab.predictions.items()}
-    if not blown or any(limits.get(name) is None for name in blown):
-        return None
-    dt = rounded_down(0.9 * min(limit for limit in limits.values() if limit is not None))
-    return dt if dt < lab.dt else None
-
-
-def status(lab: Lab, company: str) -> str:
-    """Time, limits and who is looking, in sentences."""
-    said = [f"{lab.opened.stem}, t = {lab.time:.3f} s{'' if lab.playing else ', paused'}."]
-    for name, prediction in lab.predictions.items():
-        if prediction.limit is None:
-            said.append(f"{name}: {prediction.reason}.")
-        else:
-            part = lab.dt / prediction.limit
-            said.append(f"{name}: dt is {part:.2f} of the predicted largest stable dt, {prediction.limit / MS:.4g} ms.")
-    if lab.grabbed is not None:
-        said.append(f"Mass {lab.grabbed} hangs on the cursor.")
-    if lab.why_no_truth:
-        said.append(f"{lab.why_no_truth[0].upper()}{lab.why_no_truth[1:]}.")
-    return " ".join([*said, company])

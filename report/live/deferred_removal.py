@@ -1,4 +1,4 @@
-"""Parts of the page that go: hidden at once, and removed when nothing is on its way to them any more.
+"""Deferred removal: parts of the page are hidden at once, and removed when nothing is on its way to them any more.
 
 viser's page does what it is told in batches, and sets values last: one that comes in the same batch as the removal of
 what it is for is an error in the browser's console.
@@ -14,8 +14,8 @@ from typing import Any
 LATER = 60.0
 
 
-class Leaving:
-    """Parts that are hidden, and when they were, the first to go first."""
+class DeferredRemoval:
+    """Parts that are hidden, and when they were, the first to be removed first."""
 
     def __init__(self) -> None:
         self._parts: deque[tuple[float, Any]] = deque()
@@ -26,6 +26,6 @@ class Leaving:
         self._parts.append((time.monotonic(), part))
 
     def remove_old(self) -> None:
-        """Those that have been hidden long enough."""
+        """Remove those that have been hidden long enough."""
         while self._parts and self._parts[0][0] < time.monotonic() - LATER:
             self._parts.popleft()[1].remove()

@@ -14,10 +14,10 @@ from reference.system import MassSpringSystem
 #: From the scene towards the camera, in 2D and in 3D.
 TOWARDS = {2: (0.0, 0.0, 1.0), 3: (0.5, 0.4, 1.0)}
 
-#: So much of the picture is filled; and things no higher than that part of their size are flat.
+#: The part of the picture that is filled; and things no higher than that part of their size are flat.
 FILLED, FLAT = 0.9, 0.1
 
-#: What is held flat will hang: so much of its size below. And all things move about a little.
+#: What is held flat will hang: by this part of its size below. And all things move about a little.
 HANGS, ROOM = 0.8, 0.1
 
 
@@ -46,7 +46,7 @@ def camera(system: MassSpringSystem, shifts: Array, window: Window) -> tuple[Arr
     """The places of the camera and of what it looks at [m], each of shape (3,).
 
     Args:
-        shifts: of the worlds, shape (worlds, 3) [m].
+        shifts: of the lanes, shape (lanes, 3) [m].
     """
     low, high = box(system)
     low, high = low + shifts.min(axis=0), high + shifts.max(axis=0)
@@ -71,7 +71,7 @@ def camera(system: MassSpringSystem, shifts: Array, window: Window) -> tuple[Arr
 
 
 def side_by_side(system: MassSpringSystem, count: int, window: Window) -> Array:
-    """Where worlds side by side go, so that they are as large as can be: their shifts, shape (count, 3) [m]."""
+    """Where lanes side by side go, so that they are as large as can be: their shifts, shape (count, 3) [m]."""
     low, high = box(system)
     size = (high - low)[:2]
 

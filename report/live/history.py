@@ -1,4 +1,4 @@
-"""The last seconds, to go back to: as many frames as fit into a number of seconds and of bytes."""
+"""The last seconds, to go back to: as many moments as fit into a number of seconds and of bytes."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 from reference.state import State
 from reference.system import MassSpringSystem
-from report.live.reproduction import Stretch
+from report.live.segment import Segment
 
-#: So far back one can go [s of the lab's clock], and what that may take of the memory [bytes].
+#: How far back one can go [s of the timeline's clock], and what that may take of the memory [bytes].
 SECONDS, BYTES = 10.0, 64 * 2**20
 
 
@@ -18,29 +18,29 @@ class Moment:
     """All there is at one frame.
 
     Attributes:
-        clock: when it was, by the lab's own clock [s]: so many seconds it has run.
+        clock: for how long the timeline has run [s].
         time: of the scene [s].
-        own: the system with its parameters.
-        system: the same with what hangs on the cursor.
-        states: one for each world.
-        true: of the true motion; None where it is not followed.
-        stretch: what has happened since the last thing no command can say.
+        system: the scene's, with its parameters.
+        stepped: the same with the mass on the cursor.
+        states: one for each lane.
+        reference: the state of the reference run; None where there is none.
+        segment: what has happened since the last thing no command can say.
         grabbed: the mass that hangs on the cursor, if one does.
     """
 
     clock: float
     time: float
-    own: MassSpringSystem
     system: MassSpringSystem
+    stepped: MassSpringSystem
     states: tuple[State, ...]
-    true: State | None
-    stretch: Stretch
+    reference: State | None
+    segment: Segment
     grabbed: int | None
 
     @property
     def bytes(self) -> int:
         """What its states take."""
-        states = [*self.states, *([self.true] if self.true else [])]
+        states = [*self.states, *([self.reference] if self.reference else [])]
         return sum(s.positions.nbytes + s.velocities.nbytes for s in states)
 
 
@@ -67,18 +67,13 @@ class History:
             self._bytes -= self._moments.popleft().bytes
 
     def back(self, seconds: float) -> Moment | None:
-        """The moment so many seconds before the last one, or the first there is; None where there is none."""
+        """The moment that many seconds before the last one, or the first there is; None where there is none."""
         if not self._moments:
             return None
         then = self._moments[-1].clock - seconds
         return next((m for m in self._moments if m.clock >= then - 1e-9), self._moments[-1])
 
-    def forget_after(self, moment: Moment) -> None:
-        """What came after it has not happened."""
-        while self._moments and self._moments[-1].clock > moment.clock:
+    def forget_after(self, clock: float) -> None:
+        """What came after a time of the clock [s] has not happened."""
+        while self._moments and self._moments[-1].clock > clock:
             self._bytes -= self._moments.pop().bytes
-
-    def clear(self) -> None:
-        """Nothing has happened."""
-        self._moments.clear()
-        self._bytes = 0

@@ -1,42 +1,131 @@
-"""The live lab without a page: worlds side by side on one scene, everything to be changed while they move."""
+"""The live lab without a page: a timeline of lanes on one scene, and all that people do with it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from reference.errors import InputError
-from reference.state import Array, State
-from report.live.cursor import at_rest_where_fixed, hook, on_hook, pinned, with_cursor, without_last
-from report.live.history import History
+from reference.state import Array
+from report.live.lane import Lane, notice_of
 from report.live.parameters import own_value
-from report.live.recorder import Measures
+from report.live.prediction import Prediction, Predictor
 from report.live.reproduction import Reproduction, reproduction
+from report.live.scenes import OpenedScene, open_scene
 from report.live.stepping import checked
-from report.live.timeline import Course
+from report.live.timeline import Timeline
+
+#: All lanes together may take this long for a frame [s]; then the lab goes slower than asked.
+BUDGET = 0.03
 
 
-class Lab(Course):
-    """Worlds on one scene, and what people do with them. See Course for how they go on."""
+class Lab:
+    """A scene, the lanes that step it, and what people change while they move. Not for several threads at once.
+
+    Args:
+        scene: a name or a file.
+        steppers: one for each lane.
+        settings: parameters of the scene set otherwise.
+
+    Attributes:
+        playing: whether frames advance.
+        speed: seconds of the scene in a second.
+        most_steps: no more in a frame.
+        numbers: of parameters that were moved since the scene was opened.
+        timeline: the lanes since the scene's start.
+
+    Raises:
+        InputError: for an unknown scene or stepper, or settings that make no sense.
+    """
+
+    def __init__(
+        self,
+        scene: str = "string",
+        steppers: Sequence[str] = ("kick_drift",),
+        settings: Mapping[str, str] | None = None,
+    ) -> None:
+        self.playing, self.speed, self.most_steps = False, 1.0, 1000
+        self._steppers = checked(steppers)
+        self.numbers: dict[str, float] = {}
+        opened = open_scene(scene, settings)
+        self._predictor = Predictor()
+        self.timeline = self._from_start(opened, opened.dt)
+
+    def open(
+        self,
+        scene: str,
+        settings: Mapping[str, str] | None = None,
+        barrier: bool | None = None,
+        dt: float | None = None,
+    ) -> None:
+        """Another scene, at its start, with its own dt [s] or another. Raises InputError; then nothing has changed."""
+        opened = open_scene(scene, settings, barrier)
+        self.numbers = {}
+        self._predictor.forget()
+        self._start(opened, opened.dt if dt is None else dt)
+
+    def reset(self) -> None:
+        """Back to the scene's start, with the parameters as they are now."""
+        self._start(self.timeline.opened, self.timeline.dt)
+
+    def _start(self, opened: OpenedScene, dt: float) -> None:
+        self.timeline.end()
+        self.timeline = self._from_start(opened, dt)
+
+    def _from_start(self, opened: OpenedScene, dt: float) -> Timeline:
+        """A new timeline, with the parameters that were moved."""
+        self._carry = 0.0
+        values = {name: own_value(opened.system, name, number) for name, number in self.numbers.items()}
+        timeline = Timeline(opened, self._steppers, dt, values, self._stopped)
+        self._predictor.ask(self._steppers, timeline.system, dt)
+        return timeline
+
+    # Frames.
 
     def play(self) -> None:
         """Go; after a blow-up, from the start. What hung on the cursor in the past does not any more."""
-        if any(world.stopped for world in self.worlds) and self._at is None:
-            self.reset()
-        if self._at is not None:
+        if self.timeline.in_past:
             self.release()
+        elif any(lane.stopped for lane in self.timeline.lanes):
+            self.reset()
         self.playing = True
+
+    def frame(self, elapsed: float) -> None:
+        """Some time has passed [s]: as many steps as it is worth, or as can be done."""
+        if not self.playing:
+            return
+        dt = self.timeline.dt
+        wanted = self.speed * elapsed + self._carry
+        steps = min(int(wanted / dt + 1e-9), self.most_steps)
+        self._carry = min(wanted - steps * dt, dt)
+        if steps:
+            self.advance(steps, BUDGET)
+
+    def advance(self, steps: int, budget: float = math.inf) -> None:
+        """A number of steps in every lane, or as many as fit into a budget [s]."""
+        self.timeline.advance(steps, budget, self.speed)
+
+    def rewind(self, seconds: float) -> None:
+        """Pause, and show the moment that many seconds before the last one; what is done next is done there."""
+        self.playing = False
+        self.timeline.rewind(seconds)
+        self._ask()
+
+    # What people change.
 
     def set_dt(self, dt: float) -> None:
         """Another step [s]; the motion goes on. Raises InputError unless it is a number > 0."""
         if not (math.isfinite(dt) and dt > 0):
             raise InputError(f"dt = {dt:g}: expected a number > 0 [s]")
-        if dt != self._dt:
-            self._go_on_from_here()
-            self._dt = dt
-            self._again()
+        if dt == self.timeline.dt:
+            return
+        if self.timeline.segment.at_start:
+            self._start(self.timeline.opened, dt)
+        else:
+            self.timeline.set_dt(dt)
+            self._ask()
 
     def set_parameter(self, name: str, number: float) -> None:
         """A parameter for all masses or springs, on the fly; where they differ, a multiple of what each has itself.
@@ -44,15 +133,12 @@ class Lab(Course):
         Raises:
             InputError: for what makes no sense.
         """
-        value = own_value(self.opened.system, name, number)
-        self.own.with_parameter(name, value)
-        self._go_on_from_here()
+        self.timeline.change(name, own_value(self.timeline.opened.system, name, number))
         self.numbers[name] = number
-        self._change(name, value)
         self._ask()
 
     def set_steppers(self, names: Sequence[str]) -> None:
-        """Another stepper goes on where the one before it was; a new world begins where the first one is.
+        """Another stepper goes on where the one before it was; a new lane begins where the first one is.
 
         Raises:
             InputError: for an unknown name, none, or too many.
@@ -60,59 +146,61 @@ class Lab(Course):
         names = checked(names)
         if names == self._steppers:
             return
-        self._go_on_from_here()
-        states = [world.state for world in self.worlds]
         self._steppers = names
-        states = [states[i] if i < len(states) else states[0] for i in range(len(names))]
-        if self.stretch.steps == 0 and self.time == 0:
+        if self.timeline.segment.at_start:
             self.reset()
-            return
-        self._begin(None, states)
-        self._history, self.measures = History(), Measures(names)
-        self._ask()
-        self._record()
-
-    @property
-    def grabbed(self) -> int | None:
-        """The mass that hangs on the cursor; while the past is looked at, that did then."""
-        return self._grabbed if self._at is None else self._at.grabbed
+        else:
+            self.timeline.set_steppers(names)
+            self._ask()
 
     def grab(self, mass: int, place: Array) -> None:
-        """Hang a mass on the cursor, in every world, or move the cursor it hangs on. place: [m], shape (d,)."""
-        if not 0 <= mass < len(self.own.masses) or self.own.fixed[mass] or not np.isfinite(place).all():
-            return
-        self._go_on_from_here()
-        states = [self._without_cursor(world.state) for world in self.worlds]
-        true = None if self._truth.state is None else self._without_cursor(self._truth.state)
-        self._grabbed, self.system = mass, with_cursor(self.own, mass, place)
-        end = hook(self.own, place)
-        self._truth.state = None if true is None else on_hook(true, end)
-        self._begin(None, [on_hook(state, end) for state in states])
+        """Hang a mass on the cursor, in every lane, or move the cursor it hangs on. place: [m], shape (d,)."""
+        if self._there_is(mass) and not self.timeline.system.fixed[mass] and np.isfinite(place).all():
+            self.timeline.grab(mass, place)
 
     def release(self) -> None:
         """Let go of the mass on the cursor."""
-        if self.grabbed is None:
-            return
-        self._go_on_from_here()
-        states = [self._without_cursor(world.state) for world in self.worlds]
-        self._truth.state = None if self._truth.state is None else self._without_cursor(self._truth.state)
-        self._grabbed, self.system = None, self.own
-        self._begin(None, states)
+        self.timeline.release()
 
     def toggle_pin(self, mass: int) -> None:
         """Fix a free mass where it is, or let go of a fixed one."""
-        if not 0 <= mass < len(self.own.masses):
-            return
-        self.release()
-        self._go_on_from_here()
-        self.own = self.system = pinned(self.own, mass)
-        if self._truth.state is not None:
-            self._truth.state = at_rest_where_fixed(self.own, self._truth.state)
-        self._again()
+        if self._there_is(mass):
+            self.timeline.toggle_pin(mass)
+            self._ask()
 
-    def _without_cursor(self, state: State) -> State:
-        return state if self._grabbed is None else without_last(state)
+    def _there_is(self, mass: int) -> bool:
+        return 0 <= mass < len(self.timeline.system.masses)
+
+    # What is said.
+
+    @property
+    def notice(self) -> str:
+        """What the last blow-ups or failures were; empty where there are none, or the past is shown."""
+        lanes = [] if self.timeline.in_past else self.timeline.lanes
+        return " ".join(lane.notice for lane in lanes if lane.notice)
+
+    def _stopped(self, lane: Lane) -> None:
+        """A lane has stopped just now: everything pauses."""
+        self.playing = False
+        lane.notice = notice_of(lane, self.predictions)
+
+    @property
+    def predictions(self) -> Mapping[str, Prediction]:
+        """By stepper, for the parameters last answered for."""
+        return self._predictor.found
+
+    def wait_for_predictions(self, seconds: float = 10.0) -> None:
+        """Until the predictions are those for the parameters there are now, but not longer than that [s]."""
+        self._predictor.wait(seconds)
+
+    def _ask(self) -> None:
+        self._predictor.ask(self._steppers, self.timeline.system, self.timeline.dt)
 
     def reproduction(self) -> Reproduction:
         """The commands that come to what is seen."""
-        return reproduction(self._at.stretch if self._at else self.stretch)
+        return reproduction(self.timeline.segment)
+
+    def end(self) -> None:
+        """Let go of processes and threads."""
+        self._predictor.end()
+        self.timeline.end()

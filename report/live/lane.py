@@ -1,84 +1,83 @@
-"""One world: a system under one stepper, as far as it has come; and what is said of it once it cannot go on."""
+"""A lane: one system under one stepper, as far as it has come; and what is said of it once it cannot go on."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from reference.conserved import energy, momentum
+from reference.conserved import energy
 from reference.outcome import blow_up
-from reference.state import Array, State, Trajectory
+from reference.state import State, Trajectory
 from reference.system import MassSpringSystem, Value
 from report.live.prediction import Prediction
 from report.live.stepping import Stepping, Stopped, stepping
 
-#: A spring so many times its length is no physics any more, and the eye need not wait for more.
-STRAIN = 20.0
+#: A spring this many times its length is no physics any more, and the eye need not wait for more.
+STRETCH_RATIO = 20.0
 
 
-class World:
+class Lane:
     """A system under one stepper. One that stops keeps its last good state, and its reason.
 
     Args:
         name: of the stepper.
-        system: with its parameters; where its masses are is the state's.
+        stepped: the system with its parameters; where its masses are is the state's.
         state: where it begins.
         dt: the step [s].
+        scene: the system without the mass on the cursor: its springs are watched.
+        on_stop: told when the lane stops, maybe at once.
 
     Attributes:
         state: as far as it has come.
         stopped: why it cannot go on; None while it can.
         blown_up: whether that is a blow-up, and not an engine that failed.
-        told: whether that has been said.
+        notice: what people are told of that.
     """
 
-    def __init__(self, name: str, system: MassSpringSystem, state: State, dt: float) -> None:
-        self.name, self.state, self._dt = name, state, dt
+    def __init__(
+        self,
+        name: str,
+        stepped: MassSpringSystem,
+        state: State,
+        dt: float,
+        scene: MassSpringSystem,
+        on_stop: Callable[[Lane], None],
+    ) -> None:
+        self.name, self.state, self.dt = name, state, dt
         self.stopped: str | None = None
-        self.blown_up = self.told = False
-        self._system = self._own = system
+        self.blown_up, self.notice = False, ""
+        self._stepped, self._scene, self._on_stop = stepped, scene, on_stop
         self._stepping: Stepping | None = None
-        self.restart(system, state, dt, system)
-
-    def restart(self, system: MassSpringSystem, state: State, dt: float, own: MassSpringSystem) -> None:
-        """Go on from a state, maybe of another system or with another dt [s]; a reason to stop is forgotten.
-
-        Args:
-            own: the system without what hangs on the cursor: its springs are watched.
-        """
-        self.end()
-        self._system, self.state, self._dt, self._own = system, state, dt, own
-        self.stopped, self.blown_up, self.told = None, False, False
         try:
-            self._stepping = stepping(self.name, system, state, dt)
+            self._stepping = stepping(name, stepped, state, dt)
         except Stopped as stop:
-            self.stopped = str(stop)
+            self._stop(str(stop))
 
     def advance(self, steps: int) -> None:
-        """So many steps, if it can."""
+        """A number of steps, if it can."""
         if self._stepping is None or self.stopped:
             return
         try:
             state = self._stepping.advance(steps)
         except Stopped as stop:
-            self.stopped = str(stop)
+            self._stop(str(stop))
             return
-        reason = self._torn(state)
-        if reason:
-            self.stopped, self.blown_up = reason, True
         if np.isfinite(state.positions).all():
             self.state = state
+        reason = self._blow_up(state)
+        if reason:
+            self._stop(reason, blown_up=True)
 
-    def change(self, parameter: str, value: Value, system: MassSpringSystem) -> None:
-        """A parameter changes on the fly; the motion goes on. Args: system: with the change in it."""
-        self._system = system
+    def change(self, parameter: str, value: Value, stepped: MassSpringSystem) -> None:
+        """A parameter changes on the fly; the motion goes on. Args: stepped: the system with the change in it."""
+        self._stepped = stepped
         if self._stepping is None or self.stopped:
             return
         try:
             self._stepping.change(parameter, value)
         except Stopped as stop:
-            self.stopped = str(stop)
+            self._stop(str(stop))
 
     def end(self) -> None:
         """Let go of what it holds."""
@@ -89,31 +88,30 @@ class World:
     @property
     def energy(self) -> float:
         """[J]."""
-        return energy(self._system, self.state)
+        return energy(self._stepped, self.state)
 
-    @property
-    def momentum(self) -> Array:
-        """[kg m/s], of the masses that can move, shape (d,)."""
-        return momentum(self._system, self.state)
+    def _stop(self, reason: str, blown_up: bool = False) -> None:
+        self.stopped, self.blown_up = reason, blown_up
+        self._on_stop(self)
 
-    def _torn(self, state: State) -> str | None:
+    def _blow_up(self, state: State) -> str | None:
+        """How a state has left physics behind, or None if it has not."""
         if not np.isfinite(state.velocities).all() and np.isfinite(state.positions).all():
             return f"a velocity is not a number at t = {state.time:.6g} s"
-        n = len(self._own.masses)
+        n = len(self._scene.masses)
         now = State(state.time, state.positions[:n], state.velocities[:n])
-        return blow_up(self._own, Trajectory.of([self._own.start, now]), STRAIN)
+        return blow_up(self._scene, Trajectory.of([self._scene.start, now]), STRETCH_RATIO)
 
 
 def distance(one: State, other: State) -> float:
-    """How far two states are apart [m]: the largest distance of any mass that both have."""
-    n = min(len(one.positions), len(other.positions))
-    return float(np.linalg.norm(one.positions[:n] - other.positions[:n], axis=1).max(initial=0.0))
+    """The largest distance of any mass between two states of the same masses [m]."""
+    return float(np.linalg.norm(one.positions - other.positions, axis=1).max(initial=0.0))
 
 
-def ending(world: World, dt: float, predictions: Mapping[str, Prediction]) -> str:
-    """What is said of a world that has stopped: what happened, and what theory makes of dt."""
-    if not world.blown_up:
-        return f"{world.name} stopped: {world.stopped}."
-    said = f"{world.name} blew up: {world.stopped}."
-    known = predictions.get(world.name)
-    return f"{said} {known.of(dt)}" if known else said
+def notice_of(lane: Lane, predictions: Mapping[str, Prediction]) -> str:
+    """What is said of a lane that has stopped: what happened, and what theory makes of its dt."""
+    if not lane.blown_up:
+        return f"{lane.name} stopped: {lane.stopped}."
+    said = f"{lane.name} blew up: {lane.stopped}."
+    known = predictions.get(lane.name)
+    return f"{said} {known.of(lane.dt)}" if known else said

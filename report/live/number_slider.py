@@ -1,4 +1,4 @@
-"""A dial: a number to be typed, with its unit, and a logarithmic slider beneath it."""
+"""A number slider: a number to be typed, with its unit, and a logarithmic slider beneath it."""
 
 from __future__ import annotations
 
@@ -7,16 +7,17 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from reference.errors import InputError
-from report.live.events import Later, heard
+from report.live.events import Later, handler
+from report.live.slider_marks import set_marks
 
 if TYPE_CHECKING:
     from viser import ClientHandle
 
-#: A slider goes in so many steps.
+#: Steps from one end of a slider to the other.
 STEPS = 400
 
 
-class Dial:
+class NumberSlider:
     """A number and its slider.
 
     Args:
@@ -49,8 +50,9 @@ class Dial:
         self._slider = client.gui.add_multi_slider(
             " ", min=0, max=STEPS, step=1, initial_value=(self._place(value),), marks=self._marks(())
         )
-        self._number.on_update(heard(later, lambda value: self._move(float(value))))
-        self._slider.on_update(heard(later, lambda places: self._move(self._value(places[0]))))
+        self._marked = self._marks(())
+        self._number.on_update(handler(later, lambda value: self._move(float(value))))
+        self._slider.on_update(handler(later, lambda places: self._move(self._value(places[0]))))
 
     def show(self, value: float) -> None:
         """Another value, without telling of it."""
@@ -61,11 +63,9 @@ class Dial:
     def mark(self, marks: Sequence[tuple[float, str]]) -> None:
         """Say something at some values, such as where the limit is."""
         wanted = self._marks(marks)
-        if wanted != getattr(self, "_marked", None):
-            from viser._gui_api import _build_slider_marks
-
+        if wanted != self._marked:
             self._marked = wanted
-            self._slider._marks = _build_slider_marks(wanted)
+            set_marks(self._slider, wanted)
 
     @property
     def parts(self) -> tuple[Any, Any]:

@@ -5,13 +5,12 @@ What viewers do arrives in other threads; it is put in a queue and done between 
 
 from __future__ import annotations
 
-import html
 import queue
 import sys
 import threading
 import time
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
 #: Frames in a second, and how many go by between two looks at what is slow to show.
 RATE, SLOW_EVERY = 60, 12
 
-#: So much of being late is made up for [s]; more than that is lost.
+#: How much of being late is made up for [s]; more than that is lost.
 LATE = 0.1
 
 
@@ -39,12 +38,22 @@ class Page:
 
     Args:
         client: the viewer.
-        scene: to begin with.
+        scene, steppers: to begin with.
         company: says how many viewers there are.
+
+    Attributes:
+        frames: how many there have been.
+        lab: what is shown and moved, once the thread has made it; and so are the others.
+        stage: where it is shown.
+        controls: what can be moved and read.
     """
 
-    def __init__(self, client: ClientHandle, scene: str, company: Callable[[], str]) -> None:
-        self._client, self._company = client, company
+    lab: Lab
+    stage: Stage
+    controls: Controls
+
+    def __init__(self, client: ClientHandle, scene: str, steppers: Sequence[str], company: Callable[[], str]) -> None:
+        self._client, self._company, self._steppers = client, company, tuple(steppers)
         self._todo: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
         self._ended = threading.Event()
         self._scene = scene
@@ -69,7 +78,7 @@ class Page:
     def _run(self) -> None:
         lab = None
         try:
-            lab = self.lab = Lab(self._scene)
+            lab = self.lab = Lab(self._scene, self._steppers)
             self._open()
             self._frames()
         except InputError as error:
@@ -87,7 +96,7 @@ class Page:
     def _open(self) -> None:
         self.stage = Stage(self._client, self._dragged, lambda mass: self.do(lambda: self._pin(mass)))
         self.controls = Controls(self._client, self)
-        self._plots = Plots(self._client, self.controls.room_for_plots, self.controls.leaving)
+        self._plots = Plots(self._client, self.controls.room_for_plots, self.controls.removal)
         self.renew()
         self.lab.play()
 
@@ -98,7 +107,7 @@ class Page:
             now = time.perf_counter()
             self.lab.frame(min(now - before, 0.1))
             before = now
-            self.stage.show(self.lab)
+            self.stage.show(self.lab.timeline)
             if self.frames % SLOW_EVERY == 0:
                 self._show_slow()
             self.frames += 1
@@ -118,14 +127,14 @@ class Page:
                 self.say(str(error))
 
     def _show_slow(self) -> None:
-        self._plots.show(self.lab)
+        self._plots.show(self.lab.timeline.recorder)
         self.controls.show(self.lab, self._company())
-        self.controls.leaving.remove_old()
+        self.controls.removal.remove_old()
 
     # What viewers do.
 
     def renew(self) -> None:
-        """The lab has another scene, or other worlds: all that depends on it is made anew."""
+        """The lab has another scene, or other lanes: all that depends on it is made anew."""
         self.controls.renew(self.lab)
         self._show_slow()
 
@@ -158,7 +167,7 @@ class Page:
 
     def _pin(self, mass: int) -> None:
         self.lab.toggle_pin(mass)
-        self.stage.repaint(self.lab)
+        self.stage.repaint(self.lab.timeline)
 
     def say(self, text: str) -> None:
         """A sentence, for a while."""
@@ -184,34 +193,16 @@ class Page:
                 return
             file = BytesIO()
             Image.fromarray(seen).save(file, "PNG")
-            self.download(f"{self.lab.opened.stem}.png", file.getvalue())
+            self.download(f"{self.lab.timeline.opened.stem}.png", file.getvalue())
 
         # The browser's answer may take a while: not in the thread that makes frames.
         threading.Thread(target=ask, daemon=True).start()
 
     def csv(self) -> None:
         """What was measured since the last reset."""
-        self.download(f"{self.lab.opened.stem}.csv", self.lab.measures.csv().encode())
+        self.download(f"{self.lab.timeline.opened.stem}.csv", self.lab.timeline.recorder.csv().encode())
 
     def scene_names(self) -> list[str]:
         """What can be chosen: the scenes, and the file the lab was started with."""
         known = scenes.names()
         return known if self._scene in known else [self._scene, *known]
-
-
-def banner(text: str, colour: str, role: str = "status") -> str:
-    """A line that is to be seen, as HTML."""
-    style = f"padding:.5em .7em;border-left:4px solid {colour};font-size:.85em;line-height:1.35;margin:.2em .8em"
-    return f'<div role="{role}" style="{style}">{html.escape(text)}</div>'
-
-
-def copyable(lines: str, note: str) -> str:
-    """Text with a button that copies it, as HTML."""
-    copy = "const t=this.previousElementSibling;t.select();navigator.clipboard?navigator.clipboard.writeText(t.value)"
-    copy += ":document.execCommand('copy');this.textContent='Copied'"
-    area = (
-        '<textarea readonly aria-label="command" rows="5" style="width:100%;font:.75em monospace" '
-        f'onclick="this.select()">{html.escape(lines)}</textarea>'
-    )
-    button = f'<button type="button" onclick="{html.escape(copy)}">Copy</button>'
-    return f'<div style="margin:.2em .8em">{area}{button} <small>{html.escape(note)}</small></div>'

@@ -1,4 +1,4 @@
-"""The sliders: which parameters there are, in which units, how far they go, and the lecture's pictures in one click."""
+"""The sliders: which parameters there are, their units and ranges, and the lecture's pictures in one click."""
 
 from __future__ import annotations
 

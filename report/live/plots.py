@@ -1,4 +1,4 @@
-"""Live plots: energy, momentum and distance over the last seconds, a line for each world."""
+"""Live plots: energy, momentum and distance over the last seconds, a line for each lane."""
 
 from __future__ import annotations
 
@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.state import Array
-from report.live.deferred_removal import Leaving
-from report.live.stage import WORLD_COLOURS
+from report.live.deferred_removal import DeferredRemoval
+from report.live.recorder import Recorder
+from report.live.stage import LANE_COLOURS
 
 if TYPE_CHECKING:
     from viser import ClientHandle
 
-    from report.live.lab import Lab
-
-#: What is shown: its title with its unit, its place among the measures, and whether it is its logarithm.
+#: What is shown: its title with its unit, its place among what is recorded, and whether it is its logarithm.
 PLOTS = (
     ("energy gained since the start [{}J]", 0, False),
     ("momentum, off the true one's: log10 of kg m/s", 1, True),
@@ -28,13 +27,13 @@ PLOTS = (
 #: Parts and multiples of a unit, so that the numbers of an axis have few figures.
 PREFIXES = {-12: "p", -9: "n", -6: "\N{MICRO SIGN}", -3: "m", 0: "", 3: "k", 6: "M", 9: "G"}
 
-#: So much of the past [s], and so many points of it.
+#: How much of the past is shown [s], and by how many points.
 PAST, POINTS = 10.0, 240
 
 #: Of logarithms nothing is smaller than rounding.
 LEAST = 1e-16
 
-#: Dashes tell the worlds apart without colours.
+#: Dashes tell the lanes apart without colours.
 DASHES = ((), (8, 4), (2, 3), (8, 3, 2, 3))
 
 #: An axis that has its zero, for uPlot: ticks a little apart, far from zero, would all read the same.
@@ -47,7 +46,7 @@ class Drawn:
 
     Attributes:
         title: with the unit.
-        lines: the numbers of the worlds it has lines for, and their names.
+        lines: the numbers of the lanes it has lines for, and their names.
     """
 
     title: str
@@ -55,22 +54,24 @@ class Drawn:
 
 
 class Plots:
-    """As many plots as there is something to see in.
+    """A plot of everything that is known of some lane.
 
     Args:
         client: the viewer.
         room: where they go.
-        leaving: takes those that are no more.
+        removal: takes those that are no more.
     """
 
-    def __init__(self, client: ClientHandle, room: Callable[[], AbstractContextManager[Any]], leaving: Leaving) -> None:
-        self._client, self._room, self._leaving = client, room, leaving
+    def __init__(
+        self, client: ClientHandle, room: Callable[[], AbstractContextManager[Any]], removal: DeferredRemoval
+    ) -> None:
+        self._client, self._room, self._removal = client, room, removal
         self._drawn: list[tuple[Drawn, Any] | None] = [None] * len(PLOTS)
         self._powers = 0
 
-    def show(self, lab: Lab) -> None:
+    def show(self, recorder: Recorder) -> None:
         """What has been measured last; after a reset, nothing."""
-        times, numbers = lab.measures.last(PAST, POINTS)
+        times, numbers = recorder.last(PAST, POINTS)
         if len(times) < 2:
             for i in range(len(PLOTS)):
                 self._hide(i)
@@ -80,11 +81,11 @@ class Plots:
             if log:
                 values = logarithms(values)
             else:
-                values = values - lab.measures.begin[:, place]
+                values = values - recorder.begin[:, place]
                 self._powers = power(values, self._powers)
                 values = values / 10.0**self._powers
             known = np.flatnonzero(np.isfinite(values).any(axis=0)).tolist()
-            wanted = Drawn(title.format(PREFIXES[self._powers]), tuple((k, lab.measures.names[k]) for k in known))
+            wanted = Drawn(title.format(PREFIXES[self._powers]), tuple((k, recorder.names[k]) for k in known))
             self._show(i, wanted, (times, *np.ascontiguousarray(values.T[known])), log)
 
     def _show(self, i: int, wanted: Drawn, data: tuple[Array, ...], log: bool) -> None:
@@ -99,18 +100,18 @@ class Plots:
     def _hide(self, i: int) -> None:
         drawn, self._drawn[i] = self._drawn[i], None
         if drawn is not None:
-            self._leaving.hide(drawn[1])
+            self._removal.hide(drawn[1])
 
     def _plot(self, i: int, wanted: Drawn, data: tuple[Array, ...], log: bool) -> Any:
         lines = [
             {
                 "label": name,
-                "stroke": f"rgb{WORLD_COLOURS[world]}",
+                "stroke": f"rgb{LANE_COLOURS[lane]}",
                 "width": 2,
-                "dash": DASHES[world],
+                "dash": DASHES[lane],
                 "points": {"show": False},
             }
-            for world, name in wanted.lines
+            for lane, name in wanted.lines
         ]
         scales: dict[str, Any] = {"x": {"time": False}}
         if not log:
@@ -130,7 +131,7 @@ class Plots:
 
 
 def logarithms(values: Array) -> Array:
-    """To base ten; nothing but rounding is as small as the smallest that is more. Where unknown, no number."""
+    """To base ten; nothing but rounding is as small as the smallest that is more. Where unknown, NaN."""
     more = values[values > LEAST]
     return np.log10(np.maximum(values, more.min(initial=1.0)))
 

@@ -21,7 +21,7 @@ from reference.theory.limits import growth, stability_limit
 from reference.theory.modes import fastest_mode
 from report.live.stepping import scheme_behind
 
-#: Up to so many coordinates the whole Jacobian takes less than a tenth of a second.
+#: Up to this number of coordinates the whole Jacobian takes less than a tenth of a second.
 WHOLE_UP_TO = 60
 
 
@@ -32,7 +32,7 @@ class Prediction:
     Attributes:
         limit: the largest stable dt [s]; None where there is none.
         reason: why there is none; empty where there is one.
-        growth: by what the worst push is multiplied in a step of the dt asked for; not a number where unknown.
+        growth: by what the worst perturbation is multiplied in a step of the dt asked for; NaN where unknown.
         scheme: the one it was predicted for.
     """
 
@@ -74,7 +74,7 @@ def predict(name: str, system: MassSpringSystem, dt: float) -> Prediction:
 
 
 def _rest(scheme: Scheme, system: MassSpringSystem) -> Equilibrium:
-    """What is pushed: the system at rest, or its fastest mode alone."""
+    """What is perturbed: the system at rest, or its fastest mode alone."""
     coordinates = int((~system.fixed).sum()) * system.dimension
     if coordinates <= WHOLE_UP_TO:
         return spring_equilibrium(system)

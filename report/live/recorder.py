@@ -1,4 +1,4 @@
-"""What is measured of the worlds at every frame: energy, momentum, distance; for the plots and as CSV."""
+"""The recorder: what is measured of the lanes at every frame, energy, momentum and distance, for plots and as CSV."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ import numpy as np
 from reference.conserved import momentum
 from reference.state import Array, State
 from reference.system import MassSpringSystem
-from report.live.lane import World, distance
+from report.live.lane import Lane, distance
 
-#: So many frames are kept, five minutes of them.
+#: Frames that are kept, five minutes of them.
 FRAMES = 18_000
 
 
-class Measures:
-    """Rows of numbers, one for each frame: the lab's clock, the time, and three numbers for each world.
+class Recorder:
+    """Rows of numbers, one for each frame: the timeline's clock, the time, and three numbers for each lane.
 
     Energy is in J. Momentum is how far its sum is from that of the true motion [kg m/s], distance how far the mass is
-    that is farthest from where it truly is [m]. Where the true motion is not followed both are from the first world's,
-    and of that one they are no numbers.
+    that is farthest from where it truly is [m]. Where the true motion is not followed both are from the first lane's,
+    and of that one they are NaN.
     """
 
     def __init__(self, names: Sequence[str]) -> None:
@@ -32,35 +32,42 @@ class Measures:
     def __len__(self) -> int:
         return len(self._rows)
 
-    def take(
-        self, clock: float, time: float, worlds: Sequence[World], true: State | None, own: MassSpringSystem
+    def record(
+        self, clock: float, time: float, lanes: Sequence[Lane], reference: State | None, system: MassSpringSystem
     ) -> None:
-        """One more row. Args: own: the system without a cursor's mass."""
-        n = len(own.masses)
-        right = true or worlds[0].state
-        right_momentum = momentum(own, State(0.0, right.positions[:n], right.velocities[:n]))
+        """One more row.
+
+        Args:
+            clock, time: of the timeline and of the scene [s].
+            reference: the state of the reference run, if there is one.
+            system: the scene's, without the mass on the cursor.
+        """
+        right = _own(system, reference or lanes[0].state)
+        right_momentum = momentum(system, right)
         row = [clock, time]
-        for world in worlds:
-            state = State(0.0, world.state.positions[:n], world.state.velocities[:n])
-            row.append(world.energy)
-            known = true is not None or world is not worlds[0]
-            row.append(float(np.linalg.norm(momentum(own, state) - right_momentum)) if known else np.nan)
-            row.append(distance(state, right) if known else np.nan)
+        for lane in lanes:
+            state = _own(system, lane.state)
+            row.append(lane.energy)
+            if reference is None and lane is lanes[0]:
+                row += [np.nan, np.nan]
+            else:
+                row.append(float(np.linalg.norm(momentum(system, state) - right_momentum)))
+                row.append(distance(state, right))
         self._rows.append(tuple(row))
         self._first = self._first or self._rows[0]
 
     @property
     def begin(self) -> Array:
-        """The three numbers of each world in the very first row, shape (worlds, 3)."""
+        """The three numbers of each lane in the very first row, shape (lanes, 3)."""
         return np.array(self._first[2:]).reshape(-1, 3)
 
     def forget_after(self, clock: float) -> None:
-        """What came after has not happened."""
+        """What came after a time of the clock [s] has not happened."""
         while self._rows and self._rows[-1][0] > clock:
             self._rows.pop()
 
     def last(self, seconds: float, most: int) -> tuple[Array, Array]:
-        """Times [s], shape (m,), and numbers, shape (m, worlds, 3), of the last seconds of the clock, m <= most."""
+        """Times [s], shape (m,), and numbers, shape (m, lanes, 3), of the last seconds of the clock, m <= most."""
         rows: list[tuple[float, ...]] = []
         for row in reversed(self._rows):
             if self._rows[-1][0] - row[0] > seconds:
@@ -77,3 +84,9 @@ class Measures:
             columns += [f"{who} energy [J]", f"{who} momentum off [kg m/s]", f"{who} distance [m]"]
         lines = [",".join(columns), *(",".join(map(repr, row[1:])) for row in self._rows)]
         return "\n".join([*lines, ""])
+
+
+def _own(system: MassSpringSystem, state: State) -> State:
+    """A state without the mass on the cursor."""
+    n = len(system.masses)
+    return State(state.time, state.positions[:n], state.velocities[:n])

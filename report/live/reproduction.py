@@ -1,8 +1,8 @@
 """The `springlab compare ...` that reproduces what is seen: from the scene's start, or from the last thing unsayable.
 
 A command can say a scene, its parameters, dt, and parameters that change at their times. It cannot say that dt changed
-midway, that a mass was dragged or pinned, or that a stepper took over from another. From there on a **stretch** begins,
-and the command is given a scene file with the state at its beginning.
+midway, that a mass was dragged or pinned, or that a stepper took over from another. From there on a new segment begins
+(`segment`), and the command is given a scene file with the state at its beginning.
 """
 
 from __future__ import annotations
@@ -10,13 +10,15 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from reference.changes import Change
+from reference.files.setup import is_file
 from reference.state import State
-from reference.system import MassSpringSystem, Value
+from reference.system import MassSpringSystem
+from report.live.segment import Segment
 
 #: More changes than these, or longer ones, are put into a scene file: nobody wants them on one line.
 ON_ONE_LINE = 12
@@ -26,43 +28,6 @@ SINCE = (
     "From the last thing on a command cannot say (another dt or stepper, a mass dragged or pinned, a barrier, what the "
     "scene changes itself); the state at that time is in the file."
 )
-
-
-@dataclass(frozen=True, eq=False)
-class Stretch:
-    """A run that can be repeated.
-
-    Attributes:
-        name: of the scene.
-        settings: its parameters that were set otherwise; None where the scene cannot be named: it is written out.
-        system: at the beginning, without the changes.
-        steppers: one for each world.
-        begin: where each world began.
-        dt: [s].
-        steps: how many there have been.
-        changes: of parameters: before which step, which one, to what.
-    """
-
-    name: str
-    settings: Mapping[str, str] | None
-    system: MassSpringSystem
-    steppers: tuple[str, ...]
-    begin: tuple[State, ...]
-    dt: float
-    steps: int = 0
-    changes: tuple[tuple[int, str, Value], ...] = ()
-
-    def after(self, steps: int) -> Stretch:
-        """The same, so many steps further."""
-        return replace(self, steps=self.steps + steps)
-
-    def with_change(self, parameter: str, value: Value) -> Stretch:
-        """The same with a change now; a change of the same parameter since the last step is undone by it."""
-        before = len(self.changes)
-        while before and self.changes[before - 1][0] == self.steps:
-            before -= 1
-        now = tuple(change for change in self.changes[before:] if change[1] != parameter)
-        return replace(self, changes=(*self.changes[:before], *now, (self.steps, parameter, value)))
 
 
 @dataclass(frozen=True)
@@ -80,47 +45,60 @@ class Reproduction:
     note: str
 
 
-def reproduction(stretch: Stretch) -> Reproduction:
+def reproduction(segment: Segment) -> Reproduction:
     """The commands that come to the present state, and the files they need."""
-    changes = [Change(step * stretch.dt, name, value) for step, name, value in stretch.changes]
-    short = len(changes) <= ON_ONE_LINE and all(isinstance(c.value, int | float) for c in changes)
-    note = "" if stretch.steps else "Nothing has moved yet: the command takes one step."
-    if stretch.settings is not None and short:
-        words = [f"--set={key}={value}" for key, value in stretch.settings.items()]
+    changes = [Change(step * segment.dt, name, value) for step, name, value in segment.changes]
+    on_one_line = len(changes) <= ON_ONE_LINE and all(isinstance(c.value, int | float) for c in changes)
+    note = "" if segment.steps else "Nothing has moved yet: the command takes one step."
+    if segment.settings is None:
+        return _written_out(segment, changes, f"{SINCE} {note}".strip())
+    if on_one_line:
+        words = [f"--set={key}={value}" for key, value in segment.settings.items()]
         words += [f"--change={c.time!r}:{c.parameter}={c.value!r}" for c in changes]
-        return Reproduction((_command(stretch, stretch.name, stretch.steppers, words),), {}, note)
-    if stretch.settings is not None:
-        file, text = f"{stretch.name}-live.toml", _named(stretch) + _changes(changes)
-        return Reproduction((_command(stretch, file, stretch.steppers),), {file: text}, note)
+        return Reproduction((_command(segment, segment.scene, segment.steppers, words),), {}, note)
+    if is_file(segment.scene):  # a scene file can name a scene, but no other file
+        return _written_out(segment, changes, note)
+    file, text = f"{segment.scene}-live.toml", _named(segment) + _changes(changes)
+    return Reproduction((_command(segment, file, segment.steppers),), {file: text}, note)
+
+
+def _written_out(segment: Segment, changes: list[Change], note: str) -> Reproduction:
+    """A file with the state where lanes began, and a command, for every group of lanes that began alike."""
+    groups = _groups(segment)
+    stem = segment.scene.rpartition("/")[2].removesuffix(".toml")
+    files, commands = {}, []
+    for i, (state, names) in enumerate(groups):
+        file = f"{stem}-live{'' if len(groups) == 1 else f'-{i + 1}'}.toml"
+        files[file] = written_out(segment.system, state) + _changes(changes)
+        commands.append(_command(segment, file, tuple(names)))
+    return Reproduction(tuple(commands), files, note)
+
+
+def _groups(segment: Segment) -> list[tuple[State, list[str]]]:
+    """The states where lanes began, each with the steppers that began there."""
     groups: list[tuple[State, list[str]]] = []
-    for name, state in zip(stretch.steppers, stretch.begin, strict=True):
-        alike = next((g for g in groups if _same(g[0], state)), None)
+    for name, state in zip(segment.steppers, segment.begin, strict=True):
+        alike = next((names for begin, names in groups if _same(begin, state)), None)
         if alike is None:
             groups.append((state, [name]))
         else:
-            alike[1].append(name)
-    files, commands = {}, []
-    for i, (state, names) in enumerate(groups):
-        stem = stretch.name.rpartition("/")[2].removesuffix(".toml")
-        file = f"{stem}-live{'' if len(groups) == 1 else f'-{i + 1}'}.toml"
-        files[file] = written_out(stretch.system, state) + _changes(changes)
-        commands.append(_command(stretch, file, tuple(names)))
-    return Reproduction(tuple(commands), files, f"{SINCE} {note}".strip())
+            alike.append(name)
+    return groups
 
 
-def _command(stretch: Stretch, scene: str, steppers: tuple[str, ...], more: list[str] | None = None) -> str:
-    duration = stretch.dt * max(1, stretch.steps)
+def _command(segment: Segment, scene: str, steppers: tuple[str, ...], more: list[str] | None = None) -> str:
+    duration = segment.dt * max(1, segment.steps)
     words = ["springlab", "compare", scene, *(f"--stepper={name}" for name in dict.fromkeys(steppers))]
-    return shlex.join([*words, f"--dt={stretch.dt!r}", f"--duration={duration!r}", *(more or [])])
+    return shlex.join([*words, f"--dt={segment.dt!r}", f"--duration={duration!r}", *(more or [])])
 
 
 def _same(one: State, other: State) -> bool:
     return np.array_equal(one.positions, other.positions) and np.array_equal(one.velocities, other.velocities)
 
 
-def _named(stretch: Stretch) -> str:
-    settings = [f"{key} = {_setting(value)}" for key, value in (stretch.settings or {}).items()]
-    return "\n".join([f"scene = {json.dumps(stretch.name)}", "", "[parameters]", *settings, ""])
+def _named(segment: Segment) -> str:
+    settings = [f"{key} = {_setting(value)}" for key, value in (segment.settings or {}).items()]
+    return "\n".join([f"scene = {json.dumps(segment.scene)}", "", "[parameters]", *settings, ""])
 
 
 def _setting(value: str) -> str:

@@ -1,4 +1,4 @@
-"""What the live lab can show: every scene, or a file of one's own, each with a barrier or without."""
+"""What the live lab can show: every scene, or a user's own in a file, each with an obstacle in the way or without."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from reference.system import MassSpringSystem
 #: More masses than that are no fun to watch.
 MOST_MASSES = 5_000
 
-#: A barrier's radius, and how far it is below the lowest mass, as parts of the system's size: for the default string
-#: the circle of the scene `barrier`.
+#: The radius of the obstacle in the way, and how far it is below the lowest mass, as parts of the system's size: for
+#: the default string the circle of the scene `barrier`.
 RADIUS, BELOW = 0.24, 0.2
 
-#: For so long a truck or the ground is followed [s]; what has changed so often is driven, and not only changed.
+#: For how long a truck or the ground is followed [s]; what changes more often is driven, and not only changed.
 FOLLOWED, OFTEN = 30.0, 20
 
 
 @dataclass(frozen=True, eq=False)
-class Opened:
+class OpenedScene:
     """A scene as it was opened.
 
     Attributes:
@@ -61,7 +61,7 @@ def names() -> list[str]:
     return list(scenes())
 
 
-def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bool | None = None) -> Opened:
+def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bool | None = None) -> OpenedScene:
     """A scene by name or file, with some of its parameters.
 
     Args:
@@ -80,7 +80,7 @@ def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bo
     if barrier is not None and barrier != bool(system.obstacles):
         system = replace(system, obstacles=(in_the_way(system),) if barrier else ())
         as_named = False
-    return Opened(name, system, setup.dt, settings, setup.changes, as_named)
+    return OpenedScene(name, system, setup.dt, settings, setup.changes, as_named)
 
 
 def in_the_way(system: MassSpringSystem) -> Obstacle:

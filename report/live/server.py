@@ -9,12 +9,14 @@ import socket
 import threading
 import time
 import warnings
+from collections.abc import Sequence
 
 from reference.errors import InputError
 from report.live.page import Page
 from report.live.scenes import open_scene
+from report.live.stepping import checked
 
-#: So many viewers have a simulation of their own; more than that two cores do not make.
+#: Viewers with a simulation of their own; more than that two cores do not make.
 MOST_VIEWERS = 8
 
 #: Who has been shown the door may come again.
@@ -25,16 +27,23 @@ class LiveServer:
     """A server under way, until `stop`.
 
     Args:
-        scene: to begin with.
+        scene, steppers: to begin with.
         host: the address it listens at.
         port: 0 for any that is free.
 
     Raises:
-        InputError: for an unknown scene, or a port that cannot be had.
+        InputError: for an unknown scene or stepper, or a port that cannot be used.
     """
 
-    def __init__(self, scene: str = "string", host: str = "127.0.0.1", port: int = 8080) -> None:
+    def __init__(
+        self,
+        scene: str = "string",
+        host: str = "127.0.0.1",
+        port: int = 8080,
+        steppers: Sequence[str] = ("kick_drift",),
+    ) -> None:
         open_scene(scene)
+        self._scene, self._steppers = scene, checked(steppers)
         check_port(host, port)
         import viser
 
@@ -47,7 +56,6 @@ class LiveServer:
 
         # A viewer may leave in the middle of a frame: what was for it is nobody's then.
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
-        self._scene = scene
         self.pages: dict[int, Page] = {}
         self._lock = threading.Lock()
         with contextlib.redirect_stdout(io.StringIO()):  # it would print a table
@@ -91,7 +99,7 @@ class LiveServer:
             if len(self.pages) >= MOST_VIEWERS:
                 client.gui.add_markdown(FULL.format(MOST_VIEWERS))
                 return
-            self.pages[client.client_id] = Page(client, self._scene, lambda: company(len(self.pages)))
+            self.pages[client.client_id] = Page(client, self._scene, self._steppers, lambda: company(len(self.pages)))
 
     async def _goodbye(self, client: object) -> None:
         with self._lock:
@@ -117,5 +125,5 @@ def check_port(host: str, port: int) -> None:
             attempt.bind(found[4])
     except OSError as error:
         raise InputError(
-            f"port {port} at {host} cannot be had ({error.strerror or error}): try another --port"
+            f"cannot listen at port {port} of {host} ({error.strerror or error}): try another --port"
         ) from None

@@ -1,8 +1,8 @@
-"""The scene in the browser: springs coloured by strain, masses in their world's colour, obstacles."""
+"""The scene in the browser: springs coloured by strain, masses in their lane's colour, obstacles."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,10 +16,10 @@ from report.live.framing import Window, camera, side_by_side
 if TYPE_CHECKING:
     from viser import ClientHandle
 
-    from report.live.lab import Lab
+    from report.live.timeline import Timeline
 
-#: Of the worlds, told apart by everyone (Okabe and Ito); and of the true motion.
-WORLD_COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115), (204, 121, 167))
+#: Of the lanes, told apart by everyone (Okabe and Ito); and of the true motion.
+LANE_COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115), (204, 121, 167))
 TRUE_COLOUR = (150, 150, 150)
 
 #: A fixed mass.
@@ -31,12 +31,12 @@ FEW = 200
 #: What the panels on both sides take of the width [px]; on screens narrower than that they cover a part of the height.
 PANELS, NARROW, COVERED = 720, 576, 0.6
 
-#: They leave at least so much [px].
+#: They leave at least this [px].
 LEAST = 200
 
 
 class Stage:
-    """What one viewer sees of a lab's worlds.
+    """What one viewer sees of a lab's lanes.
 
     Args:
         client: the viewer.
@@ -44,7 +44,7 @@ class Stage:
         on_click: told of a click on a mass.
 
     Attributes:
-        beside: whether worlds are side by side, and not one over the other.
+        beside: whether lanes are side by side, and not one over the other.
         show_true: whether the true motion is shown, where it is known.
     """
 
@@ -61,24 +61,25 @@ class Stage:
         self._wide: bool | None = None
         self._ramp = _ramp()
 
-    def show(self, lab: Lab) -> None:
+    def show(self, timeline: Timeline) -> None:
         """The present state."""
-        key = (lab.own.springs.shape, lab.own.positions.shape, lab.own.obstacles, len(lab.worlds), self.beside)
+        system, lanes = timeline.system, timeline.lanes
+        key = (timeline.opened, system.springs.shape, system.positions.shape, system.obstacles, len(lanes), self.beside)
         with self._client.atomic():
-            if self._key != (key, lab.opened):
-                self._build(lab)
-                self._key = (key, lab.opened)
-            for i, (world, (lines, balls)) in enumerate(zip(lab.worlds, self._nodes, strict=True)):
-                places = self._places(lab.own, world.state)
-                lines.points = places[lab.own.springs]
-                lines.colors = self._colours(lab.own, world.state, i)
+            if self._key != key:
+                self._build(system, [lane.state for lane in lanes])
+                self._key = key
+            for i, (lane, (lines, balls)) in enumerate(zip(lanes, self._nodes, strict=True)):
+                places = _places(system, lane.state)
+                lines.points = places[system.springs]
+                lines.colors = self._colours(system, lane.state, i)
                 balls.batched_positions = places
-            self._show_true(lab)
+            self._show_true(system, timeline.reference.state)
 
-    def repaint(self, lab: Lab) -> None:
+    def repaint(self, timeline: Timeline) -> None:
         """Masses may have been pinned or let go."""
         for i, (_, balls) in enumerate(self._nodes):
-            balls.batched_colors = _ball_colours(lab.own, i)
+            balls.batched_colors = _ball_colours(timeline.system, i)
 
     def _window(self) -> Window:
         """What is left between the panels, which are there in a moment; on narrow screens, above them."""
@@ -89,48 +90,50 @@ class Stage:
             width -= PANELS * (width > PANELS + LEAST)
         return Window(seen.fov, width / height, 0.0 if self._wide else COVERED)
 
-    def _build(self, lab: Lab) -> None:
+    def _build(self, system: MassSpringSystem, states: Sequence[State]) -> None:
+        """All that is seen, anew, and the camera before it."""
         for node in [*(node for pair in self._nodes for node in pair), *self._others]:
             node.remove()
         self._nodes, self._others, self._true = [], [], None
-        self._most = _strains_to_show(lab.own)
-        scene, system = self._client.scene, lab.own
-        n, size = len(system.masses), system.size
-        radius = size * (0.022 if n <= FEW else 0.006)
-        window, count = self._window(), len(lab.worlds)
+        self._most = _strains_to_show(system)
+        window, count = self._window(), len(states)
         shifts = side_by_side(system, count, window) if self.beside else np.zeros((count, 3))
-        for i, (world, shift) in enumerate(zip(lab.worlds, shifts, strict=True)):
-            points = self._places(system, world.state)
-            lines = scene.add_line_segments(
-                f"/world{i}/springs",
-                points=points[system.springs],
-                colors=self._colours(system, world.state, i),
-                thickness=3.0 if n <= FEW and i == 0 else 1.5,
-                thickness_units="screen",
-                position=shift,
-            )
-            balls = scene.add_batched_meshes_simple(
-                f"/world{i}/masses",
-                *_ball(radius),
-                batched_wxyzs=np.tile(np.array([1.0, 0, 0, 0]), (n, 1)),
-                batched_positions=points,
-                batched_colors=_ball_colours(system, i),
-                lod="off",
-                cast_shadow=False,
-                receive_shadow=False,
-                opacity=None if i == 0 or self.beside else 0.6,
-                position=shift,
-            )
-            self._listen(balls, shift[: system.dimension])
-            self._nodes.append((lines, balls))
-            self._others += [self._obstacle(f"/world{i}/obstacle{k}", o, shift) for k, o in enumerate(system.obstacles)]
-        self._others = [node for node in self._others if node is not None]
+        for i, (state, shift) in enumerate(zip(states, shifts, strict=True)):
+            self._build_lane(system, state, i, shift)
         seen = self._client.camera
         seen.up_direction = (0.0, 1.0, 0.0)
         seen.position, seen.look_at = camera(system, shifts, window)
 
+    def _build_lane(self, system: MassSpringSystem, state: State, i: int, shift: Array) -> None:
+        """Springs, masses and obstacles of lane i, moved by a shift (3,) [m]."""
+        scene, points, few = self._client.scene, _places(system, state), len(system.masses) <= FEW
+        lines = scene.add_line_segments(
+            f"/lane{i}/springs",
+            points=points[system.springs],
+            colors=self._colours(system, state, i),
+            thickness=3.0 if few and i == 0 else 1.5,
+            thickness_units="screen",
+            position=shift,
+        )
+        balls = scene.add_batched_meshes_simple(
+            f"/lane{i}/masses",
+            *_ball(system.size * (0.022 if few else 0.006)),
+            batched_wxyzs=np.tile(np.array([1.0, 0, 0, 0]), (len(points), 1)),
+            batched_positions=points,
+            batched_colors=_ball_colours(system, i),
+            lod="off",
+            cast_shadow=False,
+            receive_shadow=False,
+            opacity=None if i == 0 or self.beside else 0.6,
+            position=shift,
+        )
+        self._listen(balls, shift[: system.dimension])
+        self._nodes.append((lines, balls))
+        drawn = (self._obstacle(f"/lane{i}/obstacle{k}", o, shift) for k, o in enumerate(system.obstacles))
+        self._others += [node for node in drawn if node is not None]
+
     def _listen(self, balls: Any, shift: Array) -> None:
-        # Coroutines, so that they are told in the order in which it was done: see `moves`.
+        # Coroutines, so that they are told in the order in which it was done: see `events`.
         async def drag(event: Any) -> None:
             if event.instance_index is not None:
                 place = np.array(event.end_position[: len(shift)]) - shift
@@ -143,36 +146,25 @@ class Stage:
         balls.on_drag("left")(drag)
         balls.on_click(click)
 
-    def _show_true(self, lab: Lab) -> None:
-        if lab.true is None or not self.show_true:
+    def _show_true(self, system: MassSpringSystem, state: State | None) -> None:
+        """The true motion, just behind the lanes where there is a behind; nothing without a state of it."""
+        if state is None or not self.show_true:
             if self._true is not None:
                 self._true.visible = False
             return
-        # just behind the others, where there is a behind
-        places = self._places(lab.own, lab.true) - [0, 0, 0.02 * lab.own.size * (lab.own.dimension == 2)]
-        points = places[lab.own.springs]
+        flat = system.dimension == 2
+        points = (_places(system, state) - [0, 0, 0.02 * system.size * flat])[system.springs]
         if self._true is None:
             self._true = self._client.scene.add_line_segments(
-                "/true",
-                points=points,
-                colors=TRUE_COLOUR,
-                thickness=5.0 if lab.own.dimension == 2 else 1.5,
-                thickness_units="screen",
+                "/true", points=points, colors=TRUE_COLOUR, thickness=5.0 if flat else 1.5, thickness_units="screen"
             )
             self._others.append(self._true)
         self._true.visible, self._true.points = True, points
 
-    def _places(self, system: MassSpringSystem, state: State) -> Any:
-        """In three dimensions, near enough to be drawn, in single precision."""
-        places = np.zeros((len(system.masses), 3), dtype=np.float32)
-        reach = 1e4 * system.size
-        places[:, : system.dimension] = np.clip(state.positions[: len(system.masses)], -reach, reach)
-        return places
-
     def _colours(self, system: MassSpringSystem, state: State, i: int) -> Any:
-        """Of the springs' ends: by strain; a world that lies over the first has its own colour."""
+        """Of the springs' ends: by strain; a lane that lies over the first has its own colour."""
         if i and not self.beside:
-            return np.broadcast_to(np.array(WORLD_COLOURS[i], dtype=np.uint8), (len(system.springs), 2, 3))
+            return np.broadcast_to(np.array(LANE_COLOURS[i], dtype=np.uint8), (len(system.springs), 2, 3))
         part = strain(system, state.positions[: len(system.masses)]) / (2 * self._most) + 0.5
         index = (np.clip(np.nan_to_num(part), 0, 1) * (len(self._ramp) - 1)).astype(np.intp)
         return np.repeat(self._ramp[index][:, None], 2, axis=1)
@@ -196,6 +188,14 @@ class Stage:
         return None
 
 
+def _places(system: MassSpringSystem, state: State) -> Any:
+    """In three dimensions, near enough to be drawn, in single precision."""
+    places = np.zeros((len(system.masses), 3), dtype=np.float32)
+    reach = 1e4 * system.size
+    places[:, : system.dimension] = np.clip(state.positions[: len(system.masses)], -reach, reach)
+    return places
+
+
 def _strains_to_show(system: MassSpringSystem) -> float:
     """The strain at the ends of the colours: what the weight below a typical spring makes of it, rounded."""
     weight = float(system.masses[~system.fixed].sum() * np.linalg.norm(system.gravity))
@@ -213,7 +213,7 @@ def _ramp() -> Any:
 
 
 def _ball_colours(system: MassSpringSystem, i: int) -> Any:
-    return np.where(system.fixed[:, None], FIXED_COLOUR, WORLD_COLOURS[i]).astype(np.uint8)
+    return np.where(system.fixed[:, None], FIXED_COLOUR, LANE_COLOURS[i]).astype(np.uint8)
 
 
 def _ball(radius: float) -> tuple[Array, IntArray]:

@@ -1,4 +1,4 @@
-"""What advances a world bit by bit: a scheme of ours in this process, or an engine in a process of its own."""
+"""What advances a lane bit by bit: a scheme of ours in this process, or an engine in a process of its own."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from reference.simulate import projected
 from reference.state import State
 from reference.system import MassSpringSystem, Value
 
-#: No more worlds than can be told apart by their colours.
-MOST_WORLDS = 4
+#: No more lanes than can be told apart by their colours.
+MOST_LANES = 4
 
-#: What an engine must be able to begin with, to go on from where a world is.
+#: What an engine must be able to begin with, to go on from where a lane is.
 NEEDED = frozenset({"stretched", "velocities"})
 
 
@@ -37,7 +37,7 @@ class Stepping(Protocol):
     """Something that advances one state, from where it was started."""
 
     def advance(self, steps: int) -> State:
-        """The state after so many steps. Raises Stopped."""
+        """The state after a number of steps. Raises Stopped."""
 
     def change(self, parameter: str, value: Value) -> None:
         """Set one of PARAMETERS; the state goes on as it is. Raises Stopped."""
@@ -47,25 +47,39 @@ class Stepping(Protocol):
 
 
 def choices() -> list[str]:
-    """What a world can be stepped by: every scheme, the wrong ones too, and the engines that can start in motion."""
+    """What a lane can be stepped by: every scheme, the wrong ones too, and the engines that can start in motion."""
     able = [e.name for e in registry().values() if e.capabilities >= NEEDED and version(e) is not None]
     return [*catalogue.schemes(), *able]
 
 
 def checked(names: Sequence[str]) -> tuple[str, ...]:
-    """Steppers by name, if they are known and not too many. Raises InputError."""
-    if not 1 <= len(names) <= MOST_WORLDS:
-        raise InputError(f"{len(names)} worlds: expected from 1 to {MOST_WORLDS}")
+    """The names of steppers, if they are known and not too many.
+
+    Args:
+        names: of engines; of schemes, which may be aliases, or have parameters: sweeps(rounds=3).
+
+    Raises:
+        InputError: for an unknown name, no name, or too many; for a parameter that a scheme does not have.
+    """
+    if not 1 <= len(names) <= MOST_LANES:
+        raise InputError(f"{len(names)} lanes: expected from 1 to {MOST_LANES}")
+    return tuple(checked_name(name) for name in names)
+
+
+def checked_name(name: str) -> str:
+    """A stepper's own name, for a name of it as `checked` takes them. Raises InputError as that does."""
     known = choices()
-    for name in names:
-        if name not in known:
-            raise unknown_name("stepper", name, known)
-    return tuple(names)
+    if name in known:
+        return name
+    base = name.partition("(")[0]
+    if base not in {**catalogue.schemes(), **catalogue.aliases()}:
+        raise unknown_name("stepper", name, known)
+    return catalogue.find(name).name
 
 
 def scheme_behind(name: str, system: MassSpringSystem) -> Scheme:
     """The scheme that theory knows a stepper as, on this system: itself, or the one the engine is identified with."""
-    if name in catalogue.schemes():
+    if name not in registry():
         return catalogue.find(name)
     case = "damping" if system.damping.any() else "drag" if system.drag else "plain"
     return catalogue.find(find(name).identified_as[case])
@@ -78,11 +92,9 @@ def stepping(name: str, system: MassSpringSystem, state: State, dt: float) -> St
         InputError: for an unknown name.
         Stopped: where an engine cannot take the system.
     """
-    if name in catalogue.schemes():
-        return SchemeStepping(catalogue.find(name), system, state, dt)
     if name in registry():
         return EngineStepping(find(name), system, state, dt)
-    raise unknown_name("stepper", name, choices())
+    return SchemeStepping(catalogue.find(checked_name(name)), system, state, dt)
 
 
 class SchemeStepping:

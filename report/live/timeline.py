@@ -1,253 +1,244 @@
-"""How worlds side by side on one scene go on by themselves, in step: from a start, step by step, or from the past.
+"""The timeline: lanes on one scene that advance in step, from its start to the present, and back into the past.
 
-What people change of them is in `lab`.
+Where something happens that no command can say (a dt, a stepper, a mass held or fixed by hand), a new segment begins.
 """
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from reference.changes import Change
-from reference.state import State
-from reference.system import FIELDS, Value
-from report.live.cursor import at_rest_where_fixed
+from reference.state import Array, State
+from reference.system import FIELDS, MassSpringSystem, Value
+from report.live.cursor import at_rest_where_fixed, hook, on_hook, pinned, with_cursor, without_last
 from report.live.history import History, Moment
-from report.live.lane import World, ending
-from report.live.parameters import own_value
-from report.live.prediction import Prediction, Predictor
-from report.live.recorder import Measures
-from report.live.reference_run import Truth
-from report.live.reproduction import Stretch
-from report.live.scenes import Opened, open_scene
-from report.live.stepping import checked
+from report.live.lane import Lane
+from report.live.recorder import Recorder
+from report.live.reference_run import ReferenceRun
+from report.live.scenes import OpenedScene
+from report.live.segment import Segment
 
-#: All worlds together may take so long for a frame [s]; then the lab goes slower than asked.
-BUDGET = 0.03
+#: Parameters of which there is one for each mass or spring: the cursor's spring keeps its own.
+PER_ITEM = ("mass", "rest_length", "stiffness", "damping")
 
 
-class Course:
-    """Worlds on one scene, under way. Not for several threads at once: whoever shows it asks it frame by frame.
+class Timeline:
+    """Lanes under way on a scene, from its start. Not for several threads at once.
 
     Args:
-        scene: a name or a file.
-        steppers: one for each world.
-        settings: parameters of the scene set otherwise.
+        opened: the scene.
+        steppers: one for each lane.
+        dt: the step [s].
+        parameters: set when it begins.
+        on_stop: told of every lane that stops.
 
     Attributes:
-        playing: whether frames advance.
-        speed: seconds of the scene in a second.
-        most_steps: no more in a frame.
-        notice: what the last blow-up or failure was; empty where there was none.
-        numbers: of parameters that were moved since the scene was opened.
+        opened: the scene, as it was opened.
+        steppers: by name, one for each lane.
+        dt: the step [s].
+        time: of the scene [s].
+        clock: for how long it has run [s]: by this one goes back.
+        system: the scene's, with its parameters as they are now.
+        stepped: what the lanes step: the same, with the mass on the cursor where there is one.
+        grabbed: the mass that hangs on the cursor, if one does.
+        segment: what has happened since the last thing no command can say.
+        lanes: as many as steppers.
+        reference: the true motion beside them.
+        recorder: what is measured of them.
+        in_past: whether a moment of the past is shown, which is not the present yet.
     """
 
     def __init__(
         self,
-        scene: str = "string",
-        steppers: Sequence[str] = ("kick_drift",),
-        settings: Mapping[str, str] | None = None,
+        opened: OpenedScene,
+        steppers: tuple[str, ...],
+        dt: float,
+        parameters: Mapping[str, Value],
+        on_stop: Callable[[Lane], None],
     ) -> None:
-        self.playing, self.speed, self.most_steps, self.notice = False, 1.0, 1000, ""
-        self.worlds: list[World] = []
-        self._grabbed: int | None = None
-        self._at: Moment | None = None
-        self._predictor = Predictor()
-        self._steppers = checked(steppers)
-        self.open(scene, settings)
-
-    def open(
-        self,
-        scene: str,
-        settings: Mapping[str, str] | None = None,
-        barrier: bool | None = None,
-        dt: float | None = None,
-    ) -> None:
-        """Another scene, at its start, with its own dt [s] or another. Raises InputError; then nothing has changed."""
-        opened = open_scene(scene, settings, barrier)
-        self._predictor.forget()
-        self.opened: Opened = opened
-        self.own, self._dt = opened.system, opened.dt if dt is None else dt
-        self.numbers: dict[str, float] = {}
-        self.reset()
-
-    def reset(self) -> None:
-        """Back to the scene's start, with the parameters as they are now."""
-        self.clock = self.time = 0.0
-        self._carry = 0.0
-        self._grabbed = self._at = None
-        self.own = self.system = self.opened.system
-        self._due = self._from(0.0)
-        self._begin(self.opened.settings if self.opened.as_named else None, [self.own.start] * len(self._steppers))
-        self._history, self.measures = History(), Measures(self._steppers)
-        self._truth = Truth(self.own)
-        for name, number in self.numbers.items():
-            self._change(name, own_value(self.opened.system, name, number))
-        self._ask()
+        self.opened, self._on_stop = opened, on_stop
+        self.steppers, self.dt = steppers, dt
+        self.time = self.clock = 0.0
+        self.system = self.stepped = opened.system
+        self.grabbed: int | None = None
+        self.in_past = False
+        self.reference = ReferenceRun(opened.system)
+        self._pending = self._scene_changes(since=0.0)
+        self.lanes: list[Lane] = []
+        self.segment: Segment
+        self._begin([opened.system.start] * len(steppers), opened.settings if opened.as_named else None)
+        self._history, self.recorder = History(), Recorder(steppers)
+        for name, value in parameters.items():
+            self.change(name, value)
         self._record()
 
-    def _begin(self, settings: Mapping[str, str] | None, states: Sequence[State]) -> None:
-        """A stretch of its own, from these states; worlds that had stopped try again."""
-        self.notice = ""
-        for world in self.worlds[len(self._steppers) :]:
-            world.end()
-        del self.worlds[len(self._steppers) :]
-        for i, (name, state) in enumerate(zip(self._steppers, states, strict=True)):
-            if i < len(self.worlds):
-                self.worlds[i].name = name
-                self.worlds[i].restart(self.system, state, self._dt, self.own)
-            else:
-                self.worlds.append(World(name, self.system, state, self._dt))
-        begin = tuple(states)
-        self.stretch = Stretch(self.opened.name, settings, self.system, self._steppers, begin, self._dt)
-        for world in self.worlds:
-            self._tell(world)
+    def end(self) -> None:
+        """Let go of what the lanes hold."""
+        for lane in self.lanes:
+            lane.end()
 
-    def _again(self) -> None:
-        """A new stretch from where everything is; one that has not moved yet can still be named."""
-        fresh = self.time == 0 and self.stretch.steps == 0 and self.stretch.settings is not None
-        if fresh and self._grabbed is None and self.own.fixed is self.opened.system.fixed:
-            self.reset()
-            return
-        self._begin(None, [at_rest_where_fixed(self.system, world.state) for world in self.worlds])
-        self._ask()
+    # Forwards.
 
-    def _change(self, name: str, value: Value) -> None:
-        self.own = self.own.with_parameter(name, value)
-        if self._grabbed is not None and name in ("mass", "rest_length", "stiffness", "damping"):
-            value = self._for_all_but_the_cursor(name)
-        self.system = self.system.with_parameter(name, value)
-        self.stretch = self.stretch.with_change(name, value)
-        for world in self.worlds:
-            world.change(name, value, self.system)
-            self._tell(world)
+    def advance(self, steps: int, budget: float = math.inf, speed: float = 1.0) -> None:
+        """Advance all lanes by a number of steps, or by as many as fit into a budget; stop with the first that stops.
 
-    def _for_all_but_the_cursor(self, name: str) -> Value:
-        field = FIELDS.get(name, name)
-        return (*getattr(self.own, field).tolist(), float(getattr(self.system, field)[-1]))
-
-    def frame(self, elapsed: float) -> None:
-        """So many seconds have passed [s]: as many steps as they are worth, or as can be done."""
-        if not self.playing:
-            return
-        self._go_on_from_here()
-        wanted = self.speed * elapsed + self._carry
-        steps = min(int(wanted / self._dt + 1e-9), self.most_steps)
-        self._carry = min(wanted - steps * self._dt, self._dt)
-        if steps:
-            self.advance(steps, BUDGET)
-
-    def advance(self, steps: int, budget: float = math.inf) -> None:
-        """So many steps in every world, or as many as fit into a budget [s]."""
-        self._go_on_from_here()
-        deadline = time.perf_counter() + budget
-        left, chunk = steps, 1 if math.isfinite(budget) else steps
-        begin = time.perf_counter()
-        while left and not self.notice:
-            now = self._until_due(min(left, chunk))
-            for world in self.worlds:
-                world.advance(now)
-            self._truth.advance(self.system, now * self._dt)
-            self.stretch = self.stretch.after(now)
-            self.time += now * self._dt
-            left -= now
-            for world in self.worlds:
-                self._tell(world)
-            if time.perf_counter() > deadline:
+        Args:
+            budget: how long it may take [s].
+            speed: how many seconds of the scene are shown in a second: the clock goes on by no less than that takes.
+        """
+        self.resume()
+        going = [lane for lane in self.lanes if not lane.stopped]
+        begin, done, chunk = time.perf_counter(), 0, steps if math.isinf(budget) else 1
+        while going and done < steps:
+            done += self._advance_lanes(min(chunk, steps - done))
+            if any(lane.stopped for lane in going) or time.perf_counter() - begin > budget:
                 break
-            # twice as many at a time as long as they are quick
-            chunk = min(2 * chunk, max(1, steps))
-        self.clock += max(time.perf_counter() - begin, (steps - left) * self._dt / max(self.speed, 1e-9))
+            chunk *= 2  # twice as many at a time as long as they are quick
+        self.clock += max(time.perf_counter() - begin, done * self.dt / max(speed, 1e-9))
         self._record()
 
-    def _until_due(self, steps: int) -> int:
-        """Make the changes that are due now; how many steps there are until the next."""
-        while self._due and self._due[0].time <= self.time + 1e-9 * self._dt:
-            change: Change = self._due.pop(0)
-            self._change(change.parameter, change.value)
-        if not self._due:
-            return steps
-        return max(1, min(steps, math.ceil((self._due[0].time - self.time) / self._dt - 1e-9)))
+    def _advance_lanes(self, steps: int) -> int:
+        """Make the scene's own changes that are due, and go on, at most to the next one. Returns how many steps."""
+        steps = self._make_due_changes(steps)
+        for lane in self.lanes:
+            lane.advance(steps)
+        self.reference.advance(self.stepped, steps * self.dt)
+        self.segment = self.segment.after(steps)
+        self.time += steps * self.dt
+        return steps
 
-    def _from(self, time: float) -> list[Change]:
-        """What the scene itself changes from a time on [s]."""
-        later = [change for change in self.opened.changes if change.time >= time - 1e-9 * self._dt]
+    def _make_due_changes(self, steps: int) -> int:
+        """Change what the scene itself changes by now; of these steps, how many there are until it does so again."""
+        while self._pending and self._pending[0].time <= self.time + 1e-9 * self.dt:
+            change = self._pending.pop(0)
+            self.change(change.parameter, change.value)
+        if not self._pending:
+            return steps
+        return max(1, min(steps, math.ceil((self._pending[0].time - self.time) / self.dt - 1e-9)))
+
+    def _scene_changes(self, since: float) -> list[Change]:
+        """What the scene itself changes from a time on [s], in order."""
+        later = [change for change in self.opened.changes if change.time >= since - 1e-9 * self.dt]
         return sorted(later, key=lambda change: change.time)
 
+    # Changes on the way.
+
+    def change(self, name: str, value: Value) -> None:
+        """A parameter changes on the fly: the motion goes on, and a command can say it.
+
+        Raises:
+            InputError: for a value the parameter cannot have.
+        """
+        system = self.system.with_parameter(name, value)
+        self.resume()
+        self.system = system
+        if self.grabbed is not None and name in PER_ITEM:
+            value = self._with_the_cursors(name)
+        self.stepped = self.stepped.with_parameter(name, value)
+        self.segment = self.segment.with_change(name, value)
+        for lane in self.lanes:
+            lane.change(name, value, self.stepped)
+
+    def _with_the_cursors(self, name: str) -> Value:
+        """The values of all masses or springs, and at the end that of the one on the cursor."""
+        field = FIELDS.get(name, name)
+        return (*getattr(self.system, field).tolist(), float(getattr(self.stepped, field)[-1]))
+
+    def set_dt(self, dt: float) -> None:
+        """Go on with another step [s]."""
+        self.resume()
+        self.dt = dt
+        self._begin([lane.state for lane in self.lanes])
+
+    def set_steppers(self, steppers: tuple[str, ...]) -> None:
+        """Others take over; a lane more begins where the first one is. What came before cannot be gone back to."""
+        self.resume()
+        states = [lane.state for lane in self.lanes]
+        self.steppers = steppers
+        self._begin([states[i] if i < len(states) else states[0] for i in range(len(steppers))])
+        self._history, self.recorder = History(), Recorder(steppers)
+        self._record()
+
+    def grab(self, mass: int, place: Array) -> None:
+        """Hang a mass on the cursor, or move the cursor it hangs on. place: [m], shape (d,)."""
+        self.resume()
+        end = hook(self.system, place)
+        hung = with_cursor(self.system, mass, place)
+        self._go_on_with(self.system, hung, lambda state: on_hook(self._without_cursor(state), end))
+        self.grabbed = mass
+
+    def release(self) -> None:
+        """Let go of the mass on the cursor, if there is one."""
+        if self.grabbed is None:
+            return
+        self.resume()
+        self._go_on_with(self.system, self.system, self._without_cursor)
+        self.grabbed = None
+
+    def toggle_pin(self, mass: int) -> None:
+        """Fix a free mass where it is, or let go of a fixed one; the cursor lets go."""
+        self.resume()
+        self.release()
+        system = pinned(self.system, mass)
+        self._go_on_with(system, system, lambda state: at_rest_where_fixed(system, state))
+
+    def _without_cursor(self, state: State) -> State:
+        return state if self.grabbed is None else without_last(state)
+
+    def _go_on_with(
+        self, system: MassSpringSystem, stepped: MassSpringSystem, state_in: Callable[[State], State]
+    ) -> None:
+        """Go on with other systems. Args: state_in: what a state is in the one that is stepped."""
+        states = [state_in(lane.state) for lane in self.lanes]
+        if self.reference.state is not None:
+            self.reference.state = state_in(self.reference.state)
+        self.system, self.stepped = system, stepped
+        self._begin(states)
+
+    # Back, and on from there.
+
     def rewind(self, seconds: float) -> None:
-        """Show the moment so many seconds before the last one; nothing is lost until it moves on from there."""
+        """Show the moment that many seconds before the last one; nothing is lost until it goes on from there."""
         moment = self._history.back(seconds)
         if moment is None:
             return
-        self.playing, self.notice, self._at = False, "", moment
-        for world, state in zip(self.worlds, moment.states, strict=True):
-            world.state = state
-        self.time, self.own, self.system, self._truth.state = moment.time, moment.own, moment.system, moment.true
+        self.in_past = True
+        self.clock, self.time, self.dt = moment.clock, moment.time, moment.segment.dt
+        self.system, self.stepped, self.grabbed = moment.system, moment.stepped, moment.grabbed
+        self.segment, self.reference.state = moment.segment, moment.reference
+        for lane, state in zip(self.lanes, moment.states, strict=True):
+            lane.state = state
 
-    @property
-    def rewindable(self) -> float:
-        """How far back one can go [s]."""
-        return self._history.seconds
-
-    def _go_on_from_here(self) -> None:
-        """If the past is being looked at, it is now the present."""
-        moment, self._at = self._at, None
-        if moment is None:
+    def resume(self) -> None:
+        """If the past is shown, it is now the present: what came after it has not happened."""
+        if not self.in_past:
             return
-        self._history.forget_after(moment)
-        self.measures.forget_after(moment.clock)
-        self.clock, self._grabbed, self._dt = moment.clock, moment.grabbed, moment.stretch.dt
-        self._due = self._from(moment.time)
-        stretch = moment.stretch
-        settings = stretch.settings
-        self._begin(settings, moment.states)
-        self.stretch = stretch
-        self._ask()
+        self.in_past = False
+        self._history.forget_after(self.clock)
+        self.recorder.forget_after(self.clock)
+        self._pending = self._scene_changes(since=self.time)
+        self._start_lanes([lane.state for lane in self.lanes])
+
+    def _begin(self, states: Sequence[State], settings: Mapping[str, str] | None = None) -> None:
+        """Begin a segment from these states. Args: settings: of the scene, where that can be named."""
+        begin = tuple(at_rest_where_fixed(self.stepped, state) for state in states)
+        self.segment = Segment(self.opened.name, settings, self.stepped, self.steppers, begin, self.dt)
+        self._start_lanes(begin)
+
+    def _start_lanes(self, states: Sequence[State]) -> None:
+        """Lanes from these states; those that had stopped try again."""
+        self.end()
+        self.lanes = [
+            Lane(name, self.stepped, state, self.dt, self.system, self._on_stop)
+            for name, state in zip(self.steppers, states, strict=True)
+        ]
 
     def _record(self) -> None:
-        self.measures.take(self.clock, self.time, self.worlds, self._truth.state, self.own)
-        states = tuple(world.state for world in self.worlds)
+        """Keep what there is now, for the plots and to go back to."""
+        reference, states = self.reference.state, tuple(lane.state for lane in self.lanes)
+        self.recorder.record(self.clock, self.time, self.lanes, reference, self.system)
         self._history.keep(
-            Moment(self.clock, self.time, self.own, self.system, states, self._truth.state, self.stretch, self._grabbed)
+            Moment(self.clock, self.time, self.system, self.stepped, states, reference, self.segment, self.grabbed)
         )
-
-    def _tell(self, world: World) -> None:
-        """Of a world that has stopped just now, once: then everything pauses."""
-        if world.stopped and not world.told:
-            world.told = True
-            self.playing = False
-            self.notice = " ".join(filter(None, [self.notice, ending(world, self._dt, self.predictions)]))
-
-    def _ask(self) -> None:
-        self._predictor.ask(self._steppers, self.own, self._dt)
-
-    @property
-    def dt(self) -> float:
-        """The step [s]."""
-        return self._dt
-
-    @property
-    def true(self) -> State | None:
-        """Where it truly is; None where that is not followed."""
-        return self._truth.state
-
-    @property
-    def why_no_truth(self) -> str:
-        """Why it is not followed; empty where it is."""
-        return self._truth.why_not
-
-    @property
-    def predictions(self) -> Mapping[str, Prediction]:
-        """By stepper, for the parameters last answered for."""
-        return self._predictor.found
-
-    def wait_for_predictions(self, seconds: float = 10.0) -> None:
-        """Until the predictions are those for the parameters there are now."""
-        self._predictor.wait(seconds)
-
-    def end(self) -> None:
-        """Let go of processes and threads."""
-        self._predictor.end()
-        for world in self.worlds:
-            world.end()

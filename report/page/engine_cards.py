@@ -15,7 +15,7 @@ CASES = {"plain": "undamped", "damping": "damped springs", "drag": "drag"}
 
 
 @dataclass(frozen=True)
-class Card:
+class EngineCard:
     """One engine setting, in words.
 
     Attributes:
@@ -47,7 +47,7 @@ class Package:
 
     name: str
     version: str | None
-    cards: Sequence[Card]
+    cards: Sequence[EngineCard]
     crashes: Sequence[tuple[str, str]]
     no_crashes: str
 
@@ -68,8 +68,8 @@ def packages(identified: Mapping[str, str]) -> list[Package]:
     return found
 
 
-def _card(engine: Engine, here: str) -> Card:
-    return Card(
+def _card(engine: Engine, here: str) -> EngineCard:
+    return EngineCard(
         engine.name,
         [f"{name} = {_in_words(value)}" for name, value in recorded_settings(engine).items()],
         {words: engine.identified_as[case] for case, words in CASES.items() if case in engine.identified_as},
@@ -93,8 +93,8 @@ def _crashes(package: str, version: str | None) -> tuple[list[tuple[str, str]], 
         return [], "Nobody has entered a way to break it into the crash list."
     if version is None:
         return [], "It is not installed."
-    kept = read(package).get(version, {}).get(package, {})
-    ends = [(breach.summary, str(kept[_key(name)])) for name, breach in known.items() if _key(name) in kept]
+    measured = read(package).get(version, {}).get(package, {})
+    ends = [(case.summary, str(measured[_key(name)])) for name, case in known.items() if _key(name) in measured]
     return ends, "" if ends else f"Not tried in this version: springlab versions {package} {version} does."
 
 

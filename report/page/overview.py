@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from reference.stepper import catalogued
+from reference.stepper import stepper_named
 from report.page.section import Section
 
 #: Units of length, the largest first [m].
@@ -109,7 +109,7 @@ def length(metres: float) -> str:
 
 def takes_springs_for_rods(engine: Explained) -> bool:
     """Whether the scheme an engine is identified as is one of rods: what it steps is not quite the string."""
-    return engine.scheme is not None and catalogued()[engine.scheme].on_rods
+    return engine.scheme is not None and stepper_named(engine.scheme).on_rods
 
 
 def _error(engine: Explained) -> float:

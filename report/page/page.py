@@ -15,7 +15,7 @@ from report.page.inline_svg import dark_colours, inline
 from report.page.overview import Explained, explained
 from report.page.section import Section
 
-#: So many findings are shown, and a table of so many rows is open; more is folded.
+#: Findings that are shown, and rows of a table that is open; more is folded.
 FINDINGS, ROWS = 2, 12
 
 #: Of the first figure's table.
@@ -68,7 +68,7 @@ def page(sections: Sequence[Section]) -> str:
 
 
 def scene_page(name: str, sections: Sequence[Section]) -> str:
-    """The report of somebody's scene: what its first section says, then the others."""
+    """The report of a user's own scene: what its first section says, then the others."""
     advice, *others = sections
     result = advice.result
     failed = f"Which dt to use is not known: {advice.failure}."

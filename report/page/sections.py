@@ -23,7 +23,7 @@ from report.figures import animate, draw
 from report.page.section import Section
 from report.page.section_cache import cache_section, cached_section
 
-#: An experiment may take so long [s], and its process so much memory [bytes].
+#: How long an experiment may take [s], and how much memory its process [bytes].
 TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
 
 

@@ -74,7 +74,8 @@ def measure(server: LiveServer, watch: Watch) -> None:
     time.sleep(SECONDS)
     took, cpu, lab = time.perf_counter() - begin, time.process_time() - cpu, watch.seconds - lab
     frames = page.frames - frames
-    print(f"{len(page.lab.own.masses):,} masses, {len(page.lab.own.springs):,} springs: {frames / took:.1f} updates/s")
+    system = page.lab.timeline.system
+    print(f"{len(system.masses):,} masses, {len(system.springs):,} springs: {frames / took:.1f} updates/s")
     print(
         f"page {(cpu - lab) / took:.2f} of a core, {(cpu - lab) / frames * 1e3:.1f} ms an update; lab {lab / took:.2f}"
     )

@@ -35,7 +35,7 @@ HOST = "127.0.0.1"
 PATIENCE = 300.0
 
 #: `springlab`, with less patience for a scheduler that is gone, and more for one that is slow.
-PROGRAM = "from experiments import cluster, command_line; cluster.PATIENCE = {}; command_line.main()"
+PROGRAM = "from experiments.runs import cluster; from report.commands.main import main; cluster.PATIENCE = {}; main()"
 WORDS = ("sweep", "string", "--stepper", "heun", "--over", "stiffness=100:200:200")
 SWEEP = ("-c", PROGRAM.format(2.0), *WORDS)
 PATIENT = ("-c", PROGRAM.format(PATIENCE), *WORDS)

@@ -40,7 +40,9 @@ def move_at_random(lab: Lab, random: Random) -> None:
         lab.release()
     elif name == "pin":
         lab.toggle_pin(random.randint(1, 10))
-        lab.toggle_pin(int(np.flatnonzero(lab.own.fixed)[-1])) if lab.own.fixed.sum() > 1 else None
+        fixed = np.flatnonzero(lab.timeline.system.fixed).tolist()
+        if len(fixed) > 1:
+            lab.toggle_pin(fixed[-1])
     elif name == "rewind":
         lab.rewind(random.uniform(0, 5))
     elif name == "stepper":
@@ -50,7 +52,7 @@ def move_at_random(lab: Lab, random: Random) -> None:
 
 
 def test_frames_without_a_page(request: pytest.FixtureRequest, tmp_path: Path) -> None:
-    """Random moves every 20 frames; at the end each world is where a plain run comes to, to rounding."""
+    """Random moves every 20 frames; at the end each lane is where a plain run comes to, to rounding."""
     frames = 100_000 if request.config.getoption("--full") else 1_500
     lab, random, settled = Lab("string", ["kick_drift", "heun"]), Random(5), 0
     for i in range(frames):
@@ -65,10 +67,10 @@ def test_frames_without_a_page(request: pytest.FixtureRequest, tmp_path: Path) -
     lab.set_dt(9e-4)
     lab.advance(50)
     last = ends(lab.reproduction(), tmp_path)
-    for world in lab.worlds:
-        assert world.stopped is None or world.blown_up
-        if not world.stopped:
-            assert np.abs(world.state.positions - last[world.name].positions).max() <= 1e-12
+    for lane in lab.timeline.lanes:
+        assert lane.stopped is None or lane.blown_up
+        if not lane.stopped:
+            assert np.abs(lane.state.positions - last[lane.name].positions).max() <= 1e-12
     gc.collect()
     grown = psutil.Process().memory_info().rss / settled - 1
     print(f"\n{frames:,} frames: memory grew by {grown:.1%}")
@@ -114,7 +116,7 @@ def disturb(page: Page, random: Random) -> None:
     """Move something, or open another scene."""
     if random.random() < 0.1:
         page.open(random.choice([name for name in names() if name in ("string", "barrier", "spring")]))
-    elif page.lab.opened.name == "string":
+    elif page.lab.timeline.opened.name == "string":
         move_at_random(page.lab, random)
         page.controls.renew(page.lab)
         page.lab.play()

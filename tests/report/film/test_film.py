@@ -21,7 +21,7 @@ from reference.stepper import catalogued
 from report.film.drawing import colour_map, lines, strain
 from report.film.film import RATE, Film, film, frame_steps, leaves, look_at, parameters_at, shots
 from report.film.film_file import write_film
-from report.film.obstacle_image import backdrop
+from report.film.obstacle_image import obstacle_image
 from report.film.view import View, view_of
 from tests.conformance.doctored import Doctored, StifferByAMillionth
 from tests.engines.process.misbehaving import Misbehaving, Segfaults
@@ -144,7 +144,7 @@ def test_perspective_is_that_of_a_pinhole() -> None:
 def test_a_sphere_is_seen_as_large_as_it_is_and_hides_what_is_behind() -> None:
     """From distance d a sphere of radius r covers a disc of radius r d / sqrt(d^2 - r^2); to a pixel and a half."""
     view, window = View(np.zeros(3), np.eye(3), 4.0), (-2.0, 2.0, -2.0, 2.0)
-    seen = backdrop([Sphere((0.0, 0.0, 0.0), 1.0)], view, window)
+    seen = obstacle_image([Sphere((0.0, 0.0, 0.0), 1.0)], view, window)
     assert seen is not None
     pixel = 4.0 / len(seen.image)
     radius = math.sqrt((seen.image[..., 3] > 0).sum() * pixel**2 / math.pi)
@@ -165,7 +165,7 @@ def test_a_circle_in_the_plane_is_as_large_as_it_is() -> None:
     inside = (right - left) * (top - bottom) * covered.mean()
     assert inside <= math.pi * circle.radius**2 * 1.01  # type: ignore[attr-defined]
     flat = replace(system, obstacles=(Plane((0.0, -2.0), (0.0, 1.0)),))
-    seen = backdrop(flat.obstacles, look.view, (-1.0, 1.0, -3.0, -1.0))
+    seen = obstacle_image(flat.obstacles, look.view, (-1.0, 1.0, -3.0, -1.0))
     assert seen is not None
     assert seen.image[..., 3].mean() == pytest.approx(0.5, abs=0.01)
 

@@ -45,6 +45,6 @@ def move_at_random(lab: Lab, seed: int, moves: int = 12) -> list[Change]:
         name = random.choice(list(MOVES))
         value = random.uniform(*MOVES[name])
         lab.set_parameter(name, value)
-        made.append(Change(lab.stretch.steps * lab.dt, name, value))
+        made.append(Change(lab.timeline.segment.steps * lab.timeline.dt, name, value))
     lab.advance(20)
     return made

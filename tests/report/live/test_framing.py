@@ -51,7 +51,7 @@ def test_a_string_may_swing_to_its_other_side() -> None:
     assert low[0] > -3
 
 
-def test_worlds_side_by_side_do_not_overlap_and_use_the_window() -> None:
+def test_lanes_side_by_side_do_not_overlap_and_use_the_window() -> None:
     """Four strings, wider than high: one below the other in a tall window, beside each other in a very wide one."""
     system = open_scene("string").system
     size = np.subtract(*box(system)[::-1])[:2]

@@ -1,4 +1,4 @@
-"""The live lab without a page: whatever is moved, each world does what a plain run with the same changes does."""
+"""The live lab without a page: whatever is moved, each lane does what a plain run with the same changes does."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from reference.errors import InputError
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
-from report.live.controls import suggestion
 from report.live.lab import Lab
 from report.live.parameters import PRESETS
+from report.live.status import suggestion
 from report.live.stepping import EngineStepping
 from tests.report.live.commands import ends
 from tests.report.live.labs import ROUNDING, apart, go_on, move_at_random, open_lab
@@ -30,27 +30,26 @@ def test_a_scheme_does_what_a_plain_run_does(labs: list[Lab], scene: str, name: 
     """To the last bit, though loops compiled meanwhile take over. A change one step late is seen: shown to fail."""
     lab = open_lab(labs, scene, [name])
     made = move_at_random(lab, 1)
-    system, steps = find_scene(scene).system({}), lab.stretch.steps
-    (world,) = lab.worlds
-    plain = simulate(system, find(name), lab.dt, steps * lab.dt, made).states()[-1]
-    assert apart(world.state, plain) == 0
-    late = [replace(change, time=change.time + lab.dt) for change in made]
-    assert apart(world.state, simulate(system, find(name), lab.dt, steps * lab.dt, late).states()[-1]) > 1e-6
+    system, steps = find_scene(scene).system({}), lab.timeline.segment.steps
+    (lane,), dt = lab.timeline.lanes, lab.timeline.dt
+    assert apart(lane.state, simulate(system, find(name), dt, steps * dt, made).states()[-1]) == 0
+    late = [replace(change, time=change.time + dt) for change in made]
+    assert apart(lane.state, simulate(system, find(name), dt, steps * dt, late).states()[-1]) > 1e-6
 
 
 def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:
     """No reset: between the last frame and the next the state has not moved, in schemes and engines."""
     lab = open_lab(labs, "string", ["heun", "pymunk_springs"])
     lab.advance(50)
-    before = [world.state for world in lab.worlds]
+    before = [lane.state for lane in lab.timeline.lanes]
     lab.set_parameter("stiffness", 120.0)
     lab.set_dt(1.3e-3)
-    for world, state in zip(lab.worlds, before, strict=True):
-        assert apart(world.state, state) == 0
+    for lane, state in zip(lab.timeline.lanes, before, strict=True):
+        assert apart(lane.state, state) == 0
     lab.set_steppers(["rk4", "mujoco_tendons"])
-    for world, state in zip(lab.worlds, before, strict=True):
-        assert apart(world.state, state) == 0
-    assert lab.time == pytest.approx(0.05)
+    for lane, state in zip(lab.timeline.lanes, before, strict=True):
+        assert apart(lane.state, state) == 0
+    assert lab.timeline.time == pytest.approx(0.05)
 
 
 def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
@@ -61,18 +60,18 @@ def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
         if i == 30:
             lab.set_parameter("stiffness", 100.0)
         lab.advance(16)
-        seen.append((lab.time, [world.state for world in lab.worlds]))
-        clocks.append(lab.clock)
-    lab.rewind(lab.clock - clocks[20])
-    at = next(i for i, (time, _) in enumerate(seen) if time == lab.time)
+        seen.append((lab.timeline.time, [lane.state for lane in lab.timeline.lanes]))
+        clocks.append(lab.timeline.clock)
+    lab.rewind(lab.timeline.clock - clocks[20])
+    at = next(i for i, (time, _) in enumerate(seen) if time == lab.timeline.time)
     assert at == 20
-    assert lab.own.stiffness[0] == 200.0
+    assert lab.timeline.system.stiffness[0] == 200.0
     lab.advance(16)
-    assert lab.time == seen[at + 1][0]
-    for world, state in zip(lab.worlds, seen[at + 1][1], strict=True):
-        assert apart(world.state, state) <= ROUNDING
+    assert lab.timeline.time == seen[at + 1][0]
+    for lane, state in zip(lab.timeline.lanes, seen[at + 1][1], strict=True):
+        assert apart(lane.state, state) <= ROUNDING
     last = ends(lab.reproduction(), tmp_path)
-    assert apart(lab.worlds[0].state, last["heun"]) <= ROUNDING
+    assert apart(lab.timeline.lanes[0].state, last["heun"]) <= ROUNDING
 
 
 def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: list[Lab]) -> None:
@@ -80,14 +79,14 @@ def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: l
     lab = open_lab(labs, "crossing")
     for _ in range(40):
         lab.advance(10)
-    clock = lab.clock
+    clock = lab.timeline.clock
     for _ in range(40):
         lab.advance(10)
-    end = lab.worlds[0].state
-    lab.rewind(lab.clock - clock)
-    assert lab.time == pytest.approx(0.4)
+    end = lab.timeline.lanes[0].state
+    lab.rewind(lab.timeline.clock - clock)
+    assert lab.timeline.time == pytest.approx(0.4)
     lab.advance(400)
-    assert apart(lab.worlds[0].state, end) == 0
+    assert apart(lab.timeline.lanes[0].state, end) == 0
 
 
 @pytest.mark.parametrize("seconds", [0.0, 0.01, 0.5])
@@ -103,14 +102,14 @@ def test_a_mass_may_be_held_now_or_in_the_past(labs: list[Lab], seconds: float) 
             continue
         lab.rewind(seconds)
         lab.toggle_pin(3)
-        assert lab.grabbed is None
+        assert lab.timeline.grabbed is None
         lab.advance(2)
-        assert {len(world.state.positions) for world in lab.worlds} == {11}
+        assert {len(lane.state.positions) for lane in lab.timeline.lanes} == {11}
         lab.grab(5, np.array([0.6, 0.1]))
         lab.advance(20)
         lab.rewind(1e-3)
         lab.play()
-        assert lab.grabbed is None
+        assert lab.timeline.grabbed is None
         lab.advance(2)
 
 
@@ -156,68 +155,92 @@ def test_a_stable_step_is_offered_only_where_there_is_one(labs: list[Lab]) -> No
         lab.set_dt(dt)
         lab.wait_for_predictions()
         go_on(lab, 3000)
-        assert lab.worlds[0].blown_up
+        assert lab.timeline.lanes[0].blown_up
         assert suggestion(lab) == wanted
 
 
 def test_after_a_blow_up_what_is_changed_is_tried(labs: list[Lab]) -> None:
-    """A shorter step gives a torn string no second life, but the world that was well goes on with it."""
+    """A shorter step gives a torn string no second life, but the lane that was well goes on with it."""
     lab = open_lab(labs, "string", ["euler", "rk4"])
     lab.set_dt(9e-3)
     go_on(lab, 3000)
     assert lab.notice
-    steps = lab.stretch.steps
+    steps = lab.timeline.segment.steps
     lab.set_dt(1e-3)
     assert lab.notice == ""
     lab.advance(10)
-    assert lab.stretch.steps == 10 != steps
-    assert lab.worlds[1].stopped is None
+    assert lab.timeline.segment.steps == 10 != steps
+    assert lab.timeline.lanes[1].stopped is None
 
 
 def test_the_first_blow_up_is_left_behind_by_playing_again(labs: list[Lab]) -> None:
-    """Play starts again, and the other worlds were not harmed."""
+    """Play starts again, and the other lanes were not harmed."""
     lab = open_lab(labs, "string", ["euler", "kick_drift"])
     lab.set_dt(9e-3)
     lab.play()
     go_on(lab, 3000)
-    assert lab.worlds[0].blown_up
-    assert lab.worlds[1].stopped is None
+    assert lab.timeline.lanes[0].blown_up
+    assert lab.timeline.lanes[1].stopped is None
     lab.play()
-    assert (lab.time, lab.notice, lab.playing) == (0.0, "", True)
+    assert (lab.timeline.time, lab.notice, lab.playing) == (0.0, "", True)
 
 
-def test_an_engine_that_is_killed_is_one_world_less(labs: list[Lab]) -> None:
+def test_an_engine_that_is_killed_is_one_lane_less(labs: list[Lab]) -> None:
     """With its reason; the others go on, and it begins again with a reset."""
     lab = open_lab(labs, "string", ["mujoco_tendons", "heun"])
     lab.advance(5)
-    stepping = lab.worlds[0]._stepping
+    stepping = lab.timeline.lanes[0]._stepping
     assert isinstance(stepping, EngineStepping)
     pid = stepping._session.pid
     assert pid is not None
     os.kill(pid, signal.SIGKILL)
     lab.advance(5)
-    assert lab.worlds[0].stopped == "crashed: killed by SIGKILL"
+    assert lab.timeline.lanes[0].stopped == "crashed: killed by SIGKILL"
     assert "mujoco_tendons stopped: crashed: killed by SIGKILL" in lab.notice
-    assert lab.worlds[1].stopped is None
+    assert lab.timeline.lanes[1].stopped is None
     lab.reset()
     lab.advance(5)
-    assert [world.stopped for world in lab.worlds] == [None, None]
+    assert [lane.stopped for lane in lab.timeline.lanes] == [None, None]
 
 
 def test_numbers_that_are_none_are_a_blow_up(labs: list[Lab]) -> None:
-    """Pymunk goes to NaN in silence: the world keeps its last good state and says so."""
+    """Pymunk goes to NaN in silence: the lane keeps its last good state and says so."""
     lab = open_lab(labs, "string", ["pymunk_springs"])
     lab.set_dt(0.1)
     go_on(lab, 1000)
-    assert lab.worlds[0].blown_up
-    assert np.isfinite(lab.worlds[0].state.positions).all()
+    assert lab.timeline.lanes[0].blown_up
+    assert np.isfinite(lab.timeline.lanes[0].state.positions).all()
 
 
 def test_an_engine_that_cannot_says_why(labs: list[Lab]) -> None:
-    """Pymunk is flat; the world beside it swings."""
+    """Pymunk is flat; the lane beside it swings."""
     lab = open_lab(labs, "cloth", ["kick_drift", "pymunk_springs"])
-    assert lab.worlds[1].stopped == "unsupported: pymunk_springs cannot do motion in three dimensions"
-    assert lab.worlds[0].stopped is None
+    swinging, flat = lab.timeline.lanes
+    assert flat.stopped == "unsupported: pymunk_springs cannot do motion in three dimensions"
+    assert (swinging.stopped, lab.notice) == (None, flat.notice)
+    lab.advance(20)
+    assert (swinging.state.time, flat.state.time) == (pytest.approx(0.02), 0)
+
+
+def test_schemes_are_found_by_alias_and_with_parameters(labs: list[Lab], tmp_path: Path) -> None:
+    """An alias is the scheme; more rounds are another motion, which the command comes to, too."""
+    words = [
+        "semi_implicit_euler",
+        "drift_kick_sequential_damping(rounds=1)",
+        "drift_kick_sequential_damping(rounds=3)",
+    ]
+    lab = open_lab(labs, "string", words, damping="0.5")
+    assert lab.timeline.steppers == ("kick_drift", *words[1:])
+    lab.advance(50)
+    alias, one, three = lab.timeline.lanes
+    system = find_scene("string").system({"damping": 0.5})
+    for lane, scheme in ((alias, find(words[0])), (one, find(words[1])), (three, find(words[2]))):
+        assert apart(lane.state, simulate(system, scheme, lab.timeline.dt, 0.05).states()[-1]) == 0
+    assert apart(one.state, three.state) > 1e-6
+    last = ends(lab.reproduction(), tmp_path)
+    assert apart(three.state, last[words[2]]) == 0
+    lab.wait_for_predictions()
+    assert lab.predictions[words[2]].scheme == words[2]
 
 
 @pytest.mark.parametrize("slide", PRESETS)
@@ -229,7 +252,7 @@ def test_the_lectures_pictures(labs: list[Lab], slide: str) -> None:
     for name, number in preset.parameters.items():
         lab.set_parameter(name, number)
     go_on(lab, 1500)
-    stopped = {world.name for world in lab.worlds if world.stopped}
+    stopped = {lane.name for lane in lab.timeline.lanes if lane.stopped}
     assert stopped == ({"euler"} if slide == "15" else set())
 
 
@@ -241,10 +264,11 @@ def test_the_true_motion_is_followed(labs: list[Lab]) -> None:
         if i == 8:
             lab.set_parameter("stiffness", 150.0)
         lab.advance(64)
-    _, numbers = lab.measures.last(100.0, 100)
-    if lab.true is not None:  # else the machine is too busy to follow it
+    _, numbers = lab.timeline.recorder.last(100.0, 100)
+    if lab.timeline.reference.state is not None:  # else the machine is too busy to follow it
         assert numbers[-1, 0, 2] < 5e-8
-    assert lab.measures.csv().splitlines()[0] == "time [s],rk4 energy [J],rk4 momentum off [kg m/s],rk4 distance [m]"
+    head = lab.timeline.recorder.csv().splitlines()[0]
+    assert head == "time [s],rk4 energy [J],rk4 momentum off [kg m/s],rk4 distance [m]"
 
 
 @pytest.mark.parametrize(
@@ -254,7 +278,10 @@ def test_the_true_motion_is_followed(labs: list[Lab]) -> None:
         (lambda lab: lab.set_dt(float("nan")), "dt = nan"),
         (lambda lab: lab.set_parameter("mass", -1.0), "mass = -1: expected a number > 0"),
         (lambda lab: lab.set_steppers(["huen"]), "unknown stepper 'huen': did you mean 'heun'?"),
-        (lambda lab: lab.set_steppers(["heun"] * 5), "5 worlds: expected from 1 to 4"),
+        (lambda lab: lab.set_steppers(["kick_drift(rounds=3)"]), "unknown parameter of scheme 'kick_drift' 'rounds'"),
+        (lambda lab: lab.set_steppers(["drift_kick_sequential_damping(rounds=many)"]), "rounds = 'many': expected int"),
+        (lambda lab: lab.set_steppers(["heun(x"]), "scheme 'heun\\(x': expected a name, or a name with parameters"),
+        (lambda lab: lab.set_steppers(["heun"] * 5), "5 lanes: expected from 1 to 4"),
         (lambda lab: lab.open("strin"), "unknown scene 'strin': did you mean 'string'?"),
         (lambda lab: lab.open("cloth", {"rows": "900"}), "cloth has 9,000 masses: expected at most 5,000"),
     ],
@@ -266,5 +293,5 @@ def test_what_makes_no_sense_changes_nothing(labs: list[Lab], what: object, said
     with pytest.raises(InputError, match="^" + said.replace("?", r"\?")):
         what(lab)  # type: ignore[operator]
     lab.advance(10)
-    assert lab.stretch.steps == 20
-    assert lab.worlds[0].stopped is None
+    assert lab.timeline.segment.steps == 20
+    assert lab.timeline.lanes[0].stopped is None

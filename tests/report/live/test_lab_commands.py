@@ -11,7 +11,8 @@ import pytest
 from reference.scenes import find as find_scene
 from reference.state import Array
 from report.live.lab import Lab
-from report.live.reproduction import Stretch, reproduction
+from report.live.reproduction import reproduction
+from report.live.segment import Segment
 from tests.report.live.commands import ends, run
 from tests.report.live.labs import ROUNDING, apart, move_at_random, open_lab
 
@@ -22,8 +23,8 @@ def test_an_engine_does_what_its_run_by_command_does(labs: list[Lab], tmp_path: 
     lab = open_lab(labs, "string", [name, "heun"])
     move_at_random(lab, 2)
     last = ends(lab.reproduction(), tmp_path)
-    for world in lab.worlds:
-        assert apart(world.state, last[world.name]) <= ROUNDING
+    for lane in lab.timeline.lanes:
+        assert apart(lane.state, last[lane.name]) <= ROUNDING
 
 
 def disturb_with_dt(lab: Lab) -> None:
@@ -63,20 +64,20 @@ def test_the_command_comes_to_the_present_state(labs: list[Lab], tmp_path: Path,
     """After what a command cannot say it is given a file; every stepper ends where it is seen, to rounding."""
     lab = open_lab(labs, "string", ["heun", "mujoco_tendons"])
     lab.advance(40)
-    before = [world.state for world in lab.worlds]
+    before = [lane.state for lane in lab.timeline.lanes]
     disturb(lab)  # type: ignore[operator]
     assert np.abs(without_cursor(lab, 0) - before[0].positions).max() < 0.4
     lab.advance(25)
     lab.set_parameter("stiffness", 180.0)
     lab.advance(10)
     last = ends(lab.reproduction(), tmp_path)
-    for world in lab.worlds:
-        assert apart(world.state, last[world.name]) <= ROUNDING, world.name
+    for lane in lab.timeline.lanes:
+        assert apart(lane.state, last[lane.name]) <= ROUNDING, lane.name
 
 
 def without_cursor(lab: Lab, i: int) -> Array:
-    """Positions of a world's own masses [m]."""
-    return lab.worlds[i].state.positions[: len(lab.own.masses)]
+    """Positions of a lane's own masses [m]."""
+    return lab.timeline.lanes[i].state.positions[: len(lab.timeline.system.masses)]
 
 
 def test_the_command_line_itself_runs_it(labs: list[Lab], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -105,8 +106,9 @@ def test_many_changes_go_into_a_file(labs: list[Lab], tmp_path: Path) -> None:
     lab.advance(3)
     found = lab.reproduction()
     assert list(found.files) == ["bridge-live.toml"]
-    assert apart(lab.worlds[0].state, ends(found, tmp_path)["heun"]) <= ROUNDING * lab.own.size
-    np.testing.assert_allclose(lab.own.stiffness, 0.5 * find_scene("bridge").system({}).stiffness, rtol=1e-15)
+    assert apart(lab.timeline.lanes[0].state, ends(found, tmp_path)["heun"]) <= ROUNDING * lab.timeline.system.size
+    halved = 0.5 * find_scene("bridge").system({}).stiffness
+    np.testing.assert_allclose(lab.timeline.system.stiffness, halved, rtol=1e-15)
 
 
 @pytest.mark.parametrize("scene", ["crossing", "earthquake"])
@@ -118,17 +120,17 @@ def test_a_scene_that_is_driven_is_a_file(labs: list[Lab], tmp_path: Path, scene
     lab.advance(50)
     for _ in range(2):
         last = ends(lab.reproduction(), tmp_path)
-        for world in lab.worlds:
-            assert apart(world.state, last[world.name]) <= ROUNDING * lab.own.size
+        for lane in lab.timeline.lanes:
+            assert apart(lane.state, last[lane.name]) <= ROUNDING * lab.timeline.system.size
         lab.set_dt(0.7e-3)
         lab.advance(60)
 
 
 def test_a_forgotten_change_is_seen(labs: list[Lab], tmp_path: Path) -> None:
-    """Shown to fail: the command of a stretch without its changes comes to another state."""
+    """Shown to fail: the command of a segment without its changes comes to another state."""
     lab = open_lab(labs)
     lab.advance(20)
     lab.set_parameter("stiffness", 150.0)
     lab.advance(40)
-    forgetful: Stretch = replace(lab.stretch, changes=())
-    assert apart(lab.worlds[0].state, ends(reproduction(forgetful), tmp_path)["kick_drift"]) > 1e-6
+    forgetful: Segment = replace(lab.timeline.segment, changes=())
+    assert apart(lab.timeline.lanes[0].state, ends(reproduction(forgetful), tmp_path)["kick_drift"]) > 1e-6

@@ -29,7 +29,7 @@ def test_a_port_in_use_is_one_line() -> None:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         port = taken.getsockname()[1]
-        assert f"port {port} at 127.0.0.1 cannot be had" in refused([f"--port={port}"])
+        assert f"cannot listen at port {port} of 127.0.0.1" in refused([f"--port={port}"])
 
 
 @pytest.mark.parametrize(
@@ -37,7 +37,7 @@ def test_a_port_in_use_is_one_line() -> None:
     [
         (["strin"], "unknown scene 'strin': did you mean 'string'?"),
         (["--port=70000"], "port = 70000: expected a number from 0 to 65535"),
-        (["--host=192.0.2.1"], "at 192.0.2.1 cannot be had"),
+        (["--host=192.0.2.1"], "of 192.0.2.1"),
     ],
 )
 def test_what_cannot_be_is_one_line(words: Sequence[str], said: str) -> None:

@@ -55,7 +55,7 @@ def test_a_stepper_takes_over_and_the_command_comes_to_the_same_state(visitor: V
 
     The command is that of what is seen, a change of stiffness on the way included.
     """
-    visitor.choose("world 1", "rk4")
+    visitor.choose("lane 1", "rk4")
     visitor.see("rk4")
     begin = visitor.time
     visitor.type("stiffness [N/m]", 150)
@@ -63,7 +63,7 @@ def test_a_stepper_takes_over_and_the_command_comes_to_the_same_state(visitor: V
     visitor.pause()
     line = visitor.command("--stepper=rk4", tmp_path)
     (state,) = ends_of(line, tmp_path).values()
-    visitor.choose("world 1", "heun")
+    visitor.choose("lane 1", "heun")
     visitor.see("heun")
     seen = begins(visitor.command("--stepper=heun", tmp_path), tmp_path)
     assert state.time > 0.1

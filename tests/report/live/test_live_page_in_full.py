@@ -86,7 +86,7 @@ def test_the_command_after_a_drag_comes_to_the_same_state(at_rest: Visitor, tmp_
     at_rest.pause()
     line = at_rest.command("compare string-live.toml ", tmp_path)
     (state,) = ends_of(line, tmp_path).values()
-    at_rest.choose("world 1", "heun")
+    at_rest.choose("lane 1", "heun")
     at_rest.see("heun")
     seen = begins(at_rest.command("--stepper=heun", tmp_path), tmp_path)
     np.testing.assert_allclose(state.positions, seen, rtol=0, atol=1e-12)
@@ -141,7 +141,7 @@ def test_the_lectures_pictures_in_one_click(visitor: Visitor, slide: str) -> Non
 
 def test_an_engine_that_goes_to_nan_is_one_line_on_the_page(visitor: Visitor) -> None:
     """Pymunk does so in silence; the page pauses and says what happened, and everything goes on from there."""
-    visitor.choose("world 1", "pymunk_springs")
+    visitor.choose("lane 1", "pymunk_springs")
     visitor.see("pymunk_springs")
     visitor.type("dt [ms]", 100)
     visitor.alert.filter(has_text="pymunk_springs blew up").wait_for()

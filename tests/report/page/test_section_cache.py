@@ -9,10 +9,11 @@ from pathlib import Path
 
 import pytest
 
-from experiments.experiment import Result, find
+from experiments.experiment import NAMES, Result, find
 from experiments.runs.results import rows
 from experiments.runs.side_by_side import Progress
 from report.page import section_cache
+from tests.import_graph import import_graph, modules
 from tests.report.commands.terminal import springlab
 from tests.report.page.canned import errata
 from tests.report.page.doubles import put
@@ -88,3 +89,22 @@ def test_a_function_that_has_no_name_of_its_own_is_not_kept() -> None:
     maps = find("maps")
     assert maps.run_in_full is not None
     assert section_cache.name_of(maps.run_in_full) != section_cache.name_of(maps.run)
+
+
+def test_all_that_sections_are_made_with_is_in_the_digest() -> None:
+    """Whatever the modules that make and keep them import, and what that imports, by the imports in their files.
+
+    The page around them is not: it is made anew each time.
+    """
+    files = modules()
+    graph = import_graph({name: file.read_text(encoding="utf-8") for name, file in files.items()})
+    needed, waiting = set(), ["report.page.sections", *(f"report.figures.{name}" for name in NAMES)]
+    while waiting:
+        module = waiting.pop()
+        if module not in needed:
+            needed.add(module)
+            waiting += graph[module]
+    digested = set(section_cache.source_files())
+    assert {name for name in needed if files[name] not in digested} == set()
+    assert files["report.film.drawing"] in digested
+    assert files["report.page.page"] not in digested
