@@ -70,23 +70,31 @@ def first_difference(
     Args:
         tolerance: the largest difference that counts as none, as a fraction of the largest number.
     """
+    told = not catalogue.exercise.seeded
     rows = zip(catalogue.questions, given, catalogue.right, catalogue.scales, strict=True)
     for question, answer, right, scales in rows:
-        for s, (step, expected) in enumerate(zip(answer, right, strict=False)):
-            for p, (part, want) in enumerate(zip(step, expected, strict=True)):
-                if part.shape != want.shape or part_distance(part, want, scales[p]) <= tolerance:
-                    continue
-                index = _first(part, want, scales[p] * tolerance)
-                told = not catalogue.exercise.seeded
-                number = s + 1 if question.steps else 0
-                numbers = (want[index].item(), part[index].item())
-                name = question.parts[p]
-                found = FirstDifference(question.about, number, name, question.item, index, *numbers, told)
-                return found, _lines(question, answer, right, p, index) if told else None
+        place = _first_place(answer, right, scales, tolerance)
+        if place is not None:
+            s, p, index = place
+            step = s + 1 if question.steps else 0
+            numbers = (right[s][p][index].item(), answer[s][p][index].item())
+            found = FirstDifference(question.about, step, question.parts[p], question.item, index, *numbers, told)
+            return found, _lines(question, answer, right, p, index) if told else None
     return None, None
 
 
-def _first(part: Array, want: Array, tolerance: float) -> tuple[int, ...]:
+def _first_place(
+    answer: Answer, right: Answer, scales: Sequence[float], tolerance: float
+) -> tuple[int, int, tuple[int, ...]] | None:
+    """Step, part and index of the first difference; parts of another shape have none."""
+    for s, (step, expected) in enumerate(zip(answer, right, strict=False)):
+        for p, (part, want, scale) in enumerate(zip(step, expected, scales, strict=True)):
+            if part.shape == want.shape and part_distance(part, want, scale) > tolerance:
+                return s, p, _first_index(part, want, scale * tolerance)
+    return None
+
+
+def _first_index(part: Array, want: Array, tolerance: float) -> tuple[int, ...]:
     if part.dtype.kind == "U" or want.dtype.kind == "U":
         differ = np.asarray(part != want)
     else:

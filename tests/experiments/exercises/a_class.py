@@ -13,7 +13,7 @@ from tests.experiments.exercises.corpus import programs
 
 
 def write(folder: Path, count: int = 200) -> None:
-    """Write so many submissions."""
+    """Write this number of submissions."""
     folder.mkdir(parents=True, exist_ok=True)
     for i, program in enumerate(islice(cycle(programs()[::3]), count)):
         name = f"student_{i:03}_{program.exercise}_{program.name.replace(' ', '_')}.py"

@@ -82,6 +82,14 @@ HOSTILE = {
     "reads_the_parent": Hostile(
         "import os\nopen(f'/proc/{{os.getppid()}}/environ', 'rb').read()\n", "error", "reaches_out"
     ),
+    "reads_the_environment": Hostile(
+        "import os\nassert not {{'SPRINGLAB_EXERCISE_KEY', 'PATH'}} & set(os.environ)\n" + _STEP,
+        "mistake",
+        "nothing_moves",
+    ),
+    "answers_at_length": Hostile(
+        "import numpy as np\ndef step(y, v, dt, spring):\n    return np.zeros(2**18), v\n", "crashed", "crashed"
+    ),
     "deletes_files": Hostile(
         "import os\nfor place, _, files in os.walk('{outside}'):\n    for f in files:\n"
         "        os.remove(os.path.join(place, f))\nos.remove('{outside}/kept.txt')\n",

@@ -22,6 +22,7 @@ from experiments.exercises.judge import judge
 from experiments.exercises.plot import in_terminal
 from experiments.exercises.submission import files_of
 from experiments.exercises.words import UNSEEN
+from reference.errors import InputError
 from tests.experiments.exercises.corpus import solution, wrong
 from tests.report.commands.terminal import springlab
 
@@ -90,6 +91,37 @@ def test_a_class_goes_on_where_it_was_interrupted(a_class: Path, monkeypatch: py
     assert done == ["bert.py", "bert.py"]
     grade_class(files, table, key="sesame")
     assert len(done) == 4
+
+
+def test_a_file_that_could_not_be_graded_is_tried_again(a_class: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fault of the checker's own is in the row, not a grade of the student's; the next time it is gone."""
+    table, files = a_class / "grades.csv", files_of([a_class / "class" / "bert.py"])
+    (a_class / "class" / "bert.py").write_text(WRONG + "# changed\n")
+    with monkeypatch.context() as broken:
+        broken.setattr(grading, "grade", lambda *_: 1 / 0)
+        (row,) = grade_class(files, table)
+    assert (row["outcome"], row["finding"], row["score"]) == ("error", "not_graded", "")
+    (row,) = grade_class(files, table)
+    assert row["finding"] == "heun_link_by_link"
+    assert rows_of(table)["bert.py"] == row
+
+
+def test_another_table_is_not_written_over(tmp_path: Path) -> None:
+    """One with other columns is refused by name, and stays as it was."""
+    table = tmp_path / "budget.csv"
+    table.write_text("month,cost\n1,2\n")
+    with pytest.raises(InputError, match=r"budget\.csv"):
+        grade_class([], table)
+    assert table.read_text() == "month,cost\n1,2\n"
+
+
+def test_no_cell_is_a_formula(tmp_path: Path) -> None:
+    """Spreadsheets take what begins with any of four characters for one; a number stays a number."""
+    for first in "=+-@":
+        (tmp_path / f"{first}1.py").write_text("")
+    rows = grade_class(files_of([tmp_path]), tmp_path / "grades.csv")
+    assert {row["file"] for row in rows} == {f"'{first}1.py" for first in "=+-@"}
+    assert {row["score"] for row in rows} == {"0.0"}
 
 
 def test_the_command_checks_a_file(a_class: Path) -> None:
@@ -203,6 +235,7 @@ def test_the_zip_grades_as_gradescope_would(
     document = json.loads((tmp_path / "results" / "results.json").read_text())
     check_results(document)
     assert (document["score"], document["extra_data"]["finding"]) == (score, finding)
+    assert set(document["extra_data"]["walls"]) >= {"limits"}
     assert [test["visibility"] for test in document["tests"]] == ["visible", "after_published"]
     assert "sesame" not in json.dumps(document)
 

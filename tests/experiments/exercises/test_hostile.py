@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
+import tempfile
 from itertools import count
 from pathlib import Path
 
@@ -36,13 +37,17 @@ def everything(folder: Path) -> dict[str, tuple[bytes, int, int]]:
     return {str(p): (p.read_bytes(), p.stat().st_mode, p.stat().st_mtime_ns) for p in files}
 
 
-def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(tmp_path: Path, layers: set[str]) -> None:
-    """Between right ones, which pass; what is outside of their folders stays as it was, and no process is left."""
+def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(
+    tmp_path: Path, layers: set[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Between right ones, which pass; all outside of their folders stays as it was, no process, no folder is left."""
     if {"landlock", "seccomp"} - layers:
         pytest.skip("this machine has no landlock or no seccomp")
-    outside, folder = tmp_path / "outside", tmp_path / "class"
-    outside.mkdir()
-    folder.mkdir()
+    outside, folder, scratch = tmp_path / "outside", tmp_path / "class", tmp_path / "scratch"
+    for new in (outside, folder, scratch):
+        new.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(scratch))
+    monkeypatch.setenv("SPRINGLAB_EXERCISE_KEY", "sesame")
     (outside / "kept.txt").write_text("kept")
     right = {f"right_{i}": Hostile(RIGHT.replace("{", "{{").replace("}", "}}"), "right", "right") for i in range(4)}
     chosen = {**HOSTILE, **right}
@@ -54,6 +59,7 @@ def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(tmp_path: Pa
         files = [(folder / f"{name}.py", name) for name, hostile in chosen.items() if hostile.limits == limits]
         rows += grade_class(files, tmp_path / "grades.csv", limits=limits)
     assert (everything(outside), everything(MODELS), everything(folder)) == before
+    assert list(scratch.iterdir()) == []
     named = {row["file"]: (row["outcome"], row["finding"]) for row in rows}
     assert named == {name: (hostile.outcome, hostile.finding) for name, hostile in chosen.items()}
     assert {row["file"]: row["score"] for row in rows} == {n: "100.0" if n in right else "0.0" for n in chosen}

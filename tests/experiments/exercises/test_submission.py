@@ -1,0 +1,98 @@
+"""Students' files: what is read of them, and which are refused."""
+
+from __future__ import annotations
+
+from itertools import combinations
+from pathlib import Path
+
+import pytest
+
+from experiments.exercises import submission
+from experiments.exercises.exercise import find
+from experiments.exercises.submission import Submission, files_of, read
+from reference.errors import InputError
+
+TEXT = 'EXERCISE = 8\nSEED = "ada"\nKEYED = True\n'
+
+
+def written(folder: Path, data: bytes) -> Path:
+    """A file with these bytes."""
+    file = folder / "own.py"
+    file.write_bytes(data)
+    return file
+
+
+@pytest.mark.parametrize("prefix", [b"", b"\xef\xbb\xbf"], ids=["plain", "byte order mark"])
+@pytest.mark.parametrize("ending", ["\n", "\r\n"], ids=["unix", "windows"])
+def test_a_file_is_the_same_whatever_the_editor(tmp_path: Path, prefix: bytes, ending: str) -> None:
+    """A byte order mark and the ends of lines change neither what it says nor its digest."""
+    read_ = read(written(tmp_path, prefix + TEXT.replace("\n", ending).encode()), "own.py")
+    assert (read_.source, read_.exercise.number, read_.seed, read_.keyed) == (TEXT, 8, "ada", True)
+    assert read_.digest("k") == Submission("own.py", TEXT, find("8"), "ada", True).digest("k")
+
+
+@pytest.mark.parametrize(
+    ("data", "told"),
+    [
+        (b"EXERCISE = 1\n\xff\xfe", "UTF-8"),
+        (b"EXERCISE = 1\n\0", "zero"),
+        (b"x = 1\n", "EXERCISE"),
+        (b"EXERCISE = 8\n", "SEED"),
+        (b"EXERCISE = 1\n" + b"#" * 200, "213"),
+    ],
+    ids=["no text", "zero byte", "no exercise", "no seed", "too large"],
+)
+def test_what_is_not_a_submission_is_refused_by_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, data: bytes, told: str
+) -> None:
+    """In one line, which has what is wrong."""
+    monkeypatch.setattr(submission, "LARGEST", 200)
+    with pytest.raises(InputError, match=rf"^own\.py.*{told}"):
+        read(written(tmp_path, data), "own.py")
+
+
+def test_folders_and_links_are_not_submissions(tmp_path: Path) -> None:
+    """A link may lead to a file that is not the student's."""
+    link = tmp_path / "link.py"
+    link.symlink_to(written(tmp_path, TEXT.encode()))
+    for path in (link, tmp_path, tmp_path / "nowhere.py"):
+        with pytest.raises(InputError, match=r"^own\.py"):
+            read(path, "own.py")
+
+
+def test_an_exercise_that_is_given_goes_before_the_one_in_the_file(tmp_path: Path) -> None:
+    """As in Gradescope's zip, which is of one exercise; one that gives everybody the same has no seed."""
+    chosen = read(written(tmp_path, TEXT.encode()), "own.py", find("1"))
+    assert (chosen.exercise.number, chosen.seed) == (1, "")
+
+
+def test_files_of_a_class_are_found_in_folders_and_below(tmp_path: Path) -> None:
+    """By their path from the folder; nothing that is hidden, and nothing but Python."""
+    for name in ("b/own.py", "a.py", ".trash/own.py", "b/.cache/x.py", "b/notes.txt"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    assert [name for _, name in files_of([tmp_path])] == ["a.py", "b/own.py"]
+    assert [name for _, name in files_of([tmp_path / "b/own.py", tmp_path / "b/notes.txt"])] == ["own.py", "notes.txt"]
+    for nothing in (tmp_path / ".trash" / "own.py" / "x", tmp_path / "nowhere"):
+        with pytest.raises(InputError, match=str(nothing)):
+            files_of([nothing])
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match="empty"):
+        files_of([tmp_path / "empty"])
+
+
+def test_the_key_makes_the_numbers_only_of_files_that_were_started_with_it() -> None:
+    """A student who started without a key is asked about the numbers that were handed out."""
+    seeds = [
+        Submission("", "", find("8"), "ada", keyed).seed_with(key) for keyed in (False, True) for key in (None, "k")
+    ]
+    assert seeds[0] == seeds[1] == seeds[2] != seeds[3]
+    assert Submission("", "", find("5"), "ada", True).seed_with("k") == "ada"
+
+
+def test_the_digest_is_that_of_all_that_a_grade_depends_on() -> None:
+    """Exercise, key and text: another of any is another digest."""
+    cases = [("x", "1", None), ("x", "1", "k"), ("x", "2", None), ("y", "1", None)]
+    digests = [Submission("n", text, find(exercise)).digest(key) for text, exercise, key in cases]
+    assert all(one != other for one, other in combinations(digests, 2))
+    assert Submission("other name", "x", find("1")).digest(None) == digests[0]
