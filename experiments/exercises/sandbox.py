@@ -200,7 +200,3 @@ def _readable() -> tuple[str, ...]:
 def layers() -> list[str]:
     """Which layers of the sandbox this machine has, by trying: of limits, landlock, user, seccomp."""
     return list(run("", []).layers)
-
-
-#: The name that the command still calls it by.
-walls = layers

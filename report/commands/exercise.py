@@ -6,6 +6,7 @@ import json
 import secrets
 import shutil
 import sys
+import tempfile
 import textwrap
 from collections import Counter
 from pathlib import Path
@@ -18,6 +19,7 @@ from report.commands.terminal import plain, progress, show_table
 
 if TYPE_CHECKING:
     from experiments.exercises.exercise import Exercise
+    from experiments.exercises.grading import Grade
     from experiments.exercises.submission import Submission
 
 key_option = click.option(
@@ -75,7 +77,7 @@ def start_command(exercise: str, folder: Path | None, seed: str, key: str | None
     "--csv", "table", type=click.Path(path_type=Path, dir_okay=False), help="Grades of a class; goes on from there."
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Submissions at once; as many as there are cores.")
-@click.option("--plot/--no-plot", default=True, help="Draw where a file departs, beside it.")
+@click.option("--plot/--no-plot", default=True, help="Draw where numbers differ, beside a file.")
 @json_option
 def check_command(
     files: tuple[Path, ...],
@@ -101,9 +103,8 @@ def check_command(
 
 
 def _check_one(path: Path, submission: Submission, key: str | None, plot: bool, as_json: bool) -> int:
-    from experiments.exercises.grading import grade, row_of
-    from experiments.exercises.plot import as_png, in_terminal
-    from experiments.exercises.words import paragraphs
+    """Grade one submission, and say what it is; the exit code."""
+    from experiments.exercises.grading import grade
     from reference.errors import InputError
 
     if submission.keyed and key is None:
@@ -112,19 +113,34 @@ def _check_one(path: Path, submission: Submission, key: str | None, plot: bool, 
         tell(submission.name)
         given = grade(submission, key)
     if as_json:
-        row: dict[str, Any] = row_of(submission, given, key)
-        findings = [{"name": f.name, "words": f.words, "hint": f.hint} for f in given.verdict.findings]
-        click.echo(json.dumps({**row, "findings": findings, "deviation": given.verdict.error}, indent=2))
-        return int(not given.verdict.right)
+        _print_grade(submission, given, key)
+    else:
+        _show_grade(path, submission, given, plot)
+    return int(not given.verdict.right)
+
+
+def _print_grade(submission: Submission, given: Grade, key: str | None) -> None:
+    from experiments.exercises.grading import row_of
+
+    findings = [{"name": f.name, "words": f.words, "hint": f.hint} for f in given.verdict.findings]
+    row: dict[str, Any] = row_of(submission, given, key)
+    click.echo(json.dumps({**row, "findings": findings, "deviation": given.verdict.error}, indent=2))
+
+
+def _show_grade(path: Path, submission: Submission, given: Grade, plot: bool) -> None:
+    """In sentences; where numbers differ, drawn in the terminal and, if asked for, in a file beside the submission."""
+    from experiments.exercises.plot import as_png, in_terminal
+    from experiments.exercises.words import paragraphs
+
     click.echo("\n".join(map(_wrapped, paragraphs(submission, given))))
     lines = given.verdict.lines
-    if lines is not None:
-        click.echo("\n" + in_terminal(lines))
-        if plot:
-            picture = path.with_suffix(".check.png")
-            as_png(lines, picture, given.verdict.name)
-            click.echo(f"written: {picture}")
-    return int(not given.verdict.right)
+    if lines is None:
+        return
+    click.echo("\n" + in_terminal(lines))
+    if plot:
+        picture = path.with_suffix(".check.png")
+        as_png(lines, picture, given.verdict.name)
+        click.echo(f"written: {picture}")
 
 
 def _wrapped(line: str) -> str:
@@ -143,15 +159,10 @@ def _check_class(
     jobs: int | None,
     as_json: bool,
 ) -> int:
-    import tempfile
-
-    from experiments.exercises import sandbox
+    """Grade many submissions, and show a row for each; the exit code."""
     from experiments.exercises.grading import grade_class
 
-    missing = [name for name in ("limits", "landlock", "seccomp") if name not in sandbox.walls()]
-    if missing:
-        words = f"on this machine submissions run without {', '.join(missing)}: see report/docs/exercises.md"
-        click.echo(f"springlab: {words}", err=True)
+    _warn_of_missing_layers()
     with tempfile.TemporaryDirectory() as folder, progress("check") as tell:
         rows = grade_class(files, table or Path(folder) / "grades.csv", exercise, key, jobs, tell)
     if as_json:
@@ -166,6 +177,17 @@ def _check_class(
     if table is not None:
         click.echo(f"written: {table}", err=as_json)
     return int(any(row["outcome"] != "right" for row in rows))
+
+
+def _warn_of_missing_layers() -> None:
+    """Say on standard error which layers of the sandbox this machine does not have."""
+    from experiments.exercises import sandbox
+
+    active = sandbox.layers()
+    missing = [name for name in ("limits", "landlock", "seccomp") if name not in active]
+    if missing:
+        words = f"on this machine submissions run without {', '.join(missing)}: see report/docs/exercises.md"
+        click.echo(f"springlab: {words}", err=True)
 
 
 @exercise_command.command("gradescope")
