@@ -18,7 +18,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 #: Command, and what `--help` says of it without importing it. It is the function NAME_command of the module NAME.
 COMMANDS = {
     "list": "Scenes, schemes, engines and experiments.",
-    "compare": "Run many steppers on one scene: how far from the truth, and why.",
+    "compare": "Run many steppers on one scene: how far from the true motion, and why.",
     "identify": "Say which scheme a stepper is.",
     "stability": "Predict and measure the largest stable dt; map growth.",
     "live": "Open a page where scenes run and everything can be changed.",

@@ -15,7 +15,7 @@ UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15
 
 @dataclass(frozen=True)
 class Explained:
-    """An engine setting: what it was identified as, and how far it is from the truth and from that scheme [m]."""
+    """An engine setting: what it was identified as, and how far it is from the true motion and from that scheme [m]."""
 
     engine: str
     scheme: str | None

@@ -36,6 +36,7 @@ def test_a_port_in_use_is_one_line() -> None:
     ("words", "said"),
     [
         (["strin"], "unknown scene 'strin': did you mean 'string'?"),
+        (["--stepper=huen"], "unknown stepper 'huen': did you mean 'heun'?"),
         (["--port=70000"], "port = 70000: expected a number from 0 to 65535"),
         (["--host=192.0.2.1"], "of 192.0.2.1"),
     ],

@@ -151,6 +151,20 @@ def test_an_engine_that_goes_to_nan_is_one_line_on_the_page(visitor: Visitor) ->
     assert not visitor.alert.is_visible()
 
 
+def test_a_scheme_with_parameters_is_a_lane_by_name(visitor: Visitor) -> None:
+    """It has its limit and its place in the menus; a name that nothing has is one line, and no lane."""
+    scheme = "drift_kick_sequential_damping(rounds=3)"
+    for name in (scheme, "huen"):
+        visitor.box("by name").fill(name)
+        visitor.press("Add lane")
+        if name == scheme:
+            visitor.see(f"{scheme}: dt is")
+    visitor.page.get_by_text("unknown stepper 'huen': did you mean 'heun'?").wait_for()
+    visitor.command(f"--stepper=kick_drift '--stepper={scheme}' ")
+    visitor.choose("lane 1", scheme)
+    visitor.command(f"compare string-live.toml '--stepper={scheme}' ")
+
+
 def test_what_makes_no_sense_is_one_line_and_put_back(visitor: Visitor) -> None:
     """A mass of nothing; the number is again what it was."""
     visitor.type("mass [kg]", 0)

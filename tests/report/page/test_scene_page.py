@@ -1,4 +1,4 @@
-"""The report on somebody's own scene: a page with advice, cards and downloads, whatever of it fails."""
+"""The report on a user's own scene: a page with advice, cards and downloads, whatever of it fails."""
 
 from __future__ import annotations
 
