@@ -16,10 +16,14 @@ from reference.compiled.loops import LANES
 from reference.errors import InputError
 from reference.schemes.catalogue import Scheme
 from reference.state import Array
-from reference.system import PARAMETERS, BoolArray, MassSpringSystem
+from reference.system import BoolArray, MassSpringSystem
 
 #: After each chunk of this many steps blown-up systems are looked for, and blocks of nothing else are left alone.
 CHUNK = 100
+
+
+#: Parameters there is one number of for each spring, as the loops call them.
+OF_SPRINGS = ("rest_length", "stiffness", "damping")
 
 
 @dataclass(frozen=True)
@@ -104,29 +108,40 @@ def sweep(
 
 def _per_system(system: MassSpringSystem, parameters: Mapping[str, Array], m: int) -> dict[str, Array]:
     """The loops' arrays that parameters decide, one for each system: shape (m, masses or springs) or (m,)."""
-    for name, values in parameters.items():
-        if np.shape(values) != (m,):
-            raise InputError(f"{name} has shape {np.shape(values)}: expected ({m},), one for each system")
-        # Ranges are intervals: what holds for the ends holds between them.
-        for value in (np.min(values), np.max(values)):
-            system.with_parameter(name, float(value))
-    given = {name: np.asarray(parameters[name], dtype=np.float64) for name in PARAMETERS if name in parameters}
-    arrays: dict[str, Array] = {}
-    for name in ("rest_length", "stiffness", "damping"):
-        if name in given:
-            arrays[name] = np.repeat(given[name][:, None], len(system.springs), axis=1)
+    given = {name: np.asarray(values, dtype=np.float64) for name, values in parameters.items()}
+    for name, values in given.items():
+        _check(system, name, values, m)
+    arrays = {name: _for_each(given[name], len(system.springs)) for name in OF_SPRINGS if name in given}
     if "drag" in given:
         arrays["drag"] = given["drag"]
-    if "mass" in given or "gravity" in given:
-        masses = np.repeat(given["mass"][:, None], len(system.masses), axis=1) if "mass" in given else system.masses
-        masses = np.broadcast_to(masses, (m, len(system.masses)))
-        down = (
-            np.outer(given["gravity"], [0.0, -1.0, 0.0][: system.dimension]) if "gravity" in given else system.gravity
-        )
-        down = np.broadcast_to(down, (m, system.dimension))
-        arrays["divisor"] = np.where(system.fixed, np.inf, masses)
-        arrays |= {f"weight{i}": masses * down[:, i, None] for i in range(system.dimension)}
-    return arrays
+    return arrays | _weights(system, given, m)
+
+
+def _check(system: MassSpringSystem, name: str, values: Array, m: int) -> None:
+    """Refuse a parameter that is not one number for each system, or of which one makes no sense."""
+    if values.shape != (m,):
+        raise InputError(f"{name} has shape {values.shape}: expected ({m},), one for each system")
+    # Ranges are intervals: what holds for the ends holds between them.
+    for value in (values.min(), values.max()):
+        system.with_parameter(name, float(value))
+
+
+def _weights(system: MassSpringSystem, given: Mapping[str, Array], m: int) -> dict[str, Array]:
+    """What masses are divided by and what they weigh, along each axis, where masses or gravity differ."""
+    if not {"mass", "gravity"} & given.keys():
+        return {}
+    masses, gravity = np.tile(system.masses, (m, 1)), np.tile(system.gravity, (m, 1))
+    if "mass" in given:
+        masses = _for_each(given["mass"], len(system.masses))
+    if "gravity" in given:
+        gravity = np.outer(given["gravity"], [0.0, -1.0, 0.0][: system.dimension])
+    weights = {f"weight{i}": masses * gravity[:, i, None] for i in range(system.dimension)}
+    return {"divisor": np.where(system.fixed, np.inf, masses), **weights}
+
+
+def _for_each(values: Array, count: int) -> Array:
+    """One number for each system as one for each of its items, shape (m, count)."""
+    return np.repeat(values[:, None], count, axis=1)
 
 
 def _in_lanes(array: Array, m: int, blocks: int) -> Array:
