@@ -123,15 +123,15 @@ def grade_class(
     Raises:
         InputError: if the table is something else.
     """
-    kept, wanted = _kept(table), list(files)
+    earlier, wanted = _earlier(table), list(files)
     lock, rows = threading.Lock(), []
     table.parent.mkdir(parents=True, exist_ok=True)
-    _write(table, kept.values())
+    _write(table, earlier.values())
 
     def one(path: Path, name: str) -> dict[str, str]:
-        row = _graded(path, name, exercise, key, kept, limits)
+        row = _graded(path, name, exercise, key, earlier, limits)
         with lock, table.open("a", newline="", encoding="utf-8") as file:
-            if row is not kept.get(_cell(name)):
+            if row is not earlier.get(_cell(name)):
                 csv.DictWriter(file, COLUMNS).writerow(row)
         return row
 
@@ -144,7 +144,7 @@ def grade_class(
         pool.shutdown(cancel_futures=True)
     rows.sort(key=lambda row: row["file"])
     names = {row["file"] for row in rows}
-    _write(table, sorted([*rows, *(r for n, r in kept.items() if n not in names)], key=lambda row: row["file"]))
+    _write(table, sorted([*rows, *(r for n, r in earlier.items() if n not in names)], key=lambda row: row["file"]))
     return rows
 
 
@@ -153,7 +153,7 @@ def _graded(
     name: str,
     exercise: Exercise | None,
     key: str | None,
-    kept: dict[str, dict[str, str]],
+    earlier: dict[str, dict[str, str]],
     limits: Limits | None,
 ) -> dict[str, str]:
     """A file's row; whatever goes wrong with it is in the row, and nobody else's."""
@@ -161,7 +161,7 @@ def _graded(
         submission = read(path, name, exercise)
     except (InputError, OSError) as error:
         return _row(name, score="0.0", outcome="error", finding="not_a_submission", words=str(error))
-    done = kept.get(_cell(name))
+    done = earlier.get(_cell(name))
     if done is not None and done["digest"] == submission.digest(key):
         return done
     try:
@@ -170,7 +170,7 @@ def _graded(
         return _row(name, outcome="error", finding="not_graded", words=f"{type(error).__name__}: {error}")
 
 
-def _kept(table: Path) -> dict[str, dict[str, str]]:
+def _earlier(table: Path) -> dict[str, dict[str, str]]:
     """The whole rows of a table, by file; a last line that was cut off is left out."""
     if not table.exists():
         return {}

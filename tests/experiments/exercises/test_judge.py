@@ -15,6 +15,7 @@ from experiments.exercises.answer_catalogue import catalogue_of
 from experiments.exercises.exercise import Answer, find
 from experiments.exercises.grading import Grade, grade
 from experiments.exercises.judge import Outcome, Verdict, judge
+from experiments.exercises.naming import SINGLE
 from experiments.exercises.sandbox import Reply
 from experiments.exercises.submission import Submission
 from tests.experiments.exercises.corpus import solution
@@ -70,13 +71,13 @@ def judged(monkeypatch: pytest.MonkeyPatch, exercise: str, change: Callable[[lis
 
 
 def test_a_question_passes_to_single_precision(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of four answers one is exact, one rounded to float32 (6e-8 of a number), one 1e-3 off, one without numbers.
+    """Of four answers one is exact, one off by half of what single precision may lose, one by 1e-3, one is NaN.
 
-    The program as a whole has no name; 2e-5 of the largest number is what single precision may lose (`SINGLE`).
+    The tolerance of the exercise, 1e-9, is for names; a question passes to SINGLE.
     """
 
     def change(given: list[Answer]) -> None:
-        given[1][0][0] = np.array(given[1][0][0], dtype=np.float32)
+        given[1][0][0] = np.array(given[1][0][0] * (1 + SINGLE / 2))
         given[2][0][0] = np.array(given[2][0][0] * 1.001)
         given[3][0][0] = np.array(np.nan)
 
