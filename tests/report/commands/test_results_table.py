@@ -1,0 +1,72 @@
+"""What of a store's rows `springlab results` shows in a terminal: as much as it has room for."""
+
+from __future__ import annotations
+
+import pytest
+
+from experiments.runs.results import MORE_COLUMNS
+from report.commands.results_table import for_people, heading
+
+LONG = "spring 2 is over 100 times its length at t = 0.015 s, and so are all others of the string"
+
+ROW = {
+    "task": "judged",
+    "stepper": "mujoco_tendons",
+    "version": "3.17.0",
+    "scene": "string",
+    "stiffness": 100.0,
+    "dt": 1e-3,
+    "steps": 500,
+    "outcome": "done",
+    "reason": "",
+    "error_m": 1e-3,
+    "identified_as": "drift_kick_sequential_damping",
+    "identification_error_m": 1e-17,
+    **dict.fromkeys(MORE_COLUMNS, "x"),
+}
+OTHER = ROW | {
+    "stepper": "pymunk_springs",
+    "version": "7.3.1",
+    "stiffness": 200.0,
+    "dt": 2e-3,
+    "steps": 250,
+    "outcome": "diverged",
+    "reason": LONG,
+    "error_m": 2.0,
+    "identified_as": "heun",
+    "identification_error_m": 1e-3,
+}
+
+
+@pytest.mark.parametrize(
+    ("width", "shown"),
+    [
+        (200, "stepper version stiffness dt steps outcome error_m identified_as identification_error_m reason"),
+        (132, "stepper stiffness dt outcome error_m identified_as reason"),
+        (80, "stepper stiffness dt outcome reason"),
+        (60, "stepper stiffness dt outcome"),
+        (50, "stepper stiffness outcome"),
+        (10, "stepper outcome"),
+    ],
+)
+def test_a_narrow_terminal_shows_what_matters_most(width: int, shown: str) -> None:
+    """Who ran what, how it ended, and then what was found; what there is no room for is named, and nothing is cut."""
+    columns, same, left_out = for_people([ROW, OTHER], width)
+    assert columns == shown.split()
+    assert same == {"task": "judged", "scene": "string"}
+    assert {*columns} | {*left_out} | {*same} == {*ROW} - {*MORE_COLUMNS}
+
+
+def test_a_single_row_is_shown_as_it_is() -> None:
+    """In it everything is the same; what it has nothing of is no column."""
+    columns, same, left_out = for_people([ROW], 300)
+    assert (same, left_out) == ({}, [])
+    assert {*columns} == {name for name in ROW if name not in MORE_COLUMNS and name != "reason"}
+    assert for_people([], 80) == ([], {}, [])
+
+
+def test_headings_have_units() -> None:
+    """Those of `springlab compare`, and those of the scenes' parameters."""
+    names = ("stiffness", "gravity", "dt", "error_m", "identified_as", "outcome")
+    wanted = ["stiffness [N/m]", "gravity [m/s^2]", "dt [s]", "error [m]", "identified as", "outcome"]
+    assert [heading(name) for name in names] == wanted
