@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from engines.engine import demands
 from engines.process.isolation import run_engine
 from reference import scenes
 from reference.identification import identify
@@ -26,6 +27,11 @@ from reference.simulate import simulate
 from reference.stepper import SchemeStepper
 from reference.theory.exact import exact
 from tests import wrong
+from tests.conformance import test_capabilities
+from tests.conformance.cases import CAPABILITIES, GROUPS
+from tests.conformance.checks import check_follows, check_state
+from tests.conformance.children import look_on
+from tests.conformance.refusals import refused_as_expected
 
 CONTRIBUTING = Path(__file__).parents[1] / "CONTRIBUTING.md"
 
@@ -174,6 +180,21 @@ def test_the_engine_of_the_recipe_is_what_it_claims(follow: Any) -> None:
     assert identify(Direct(), system, 1e-3, 200).identified_as == engine.identified_as["plain"]
     damped = run_engine(engine, find("string").system({"damping": 0.1}), 1e-3, 10)
     assert (damped.ending, "damping" in damped.reason) == ("unsupported", True)
+
+
+def test_the_engine_of_the_recipe_passes_the_suite(follow: Any) -> None:
+    """What the suite asks of every engine, asked in this process: capabilities, refusals, changes, states, words."""
+    (engine,) = follow("engine").ENGINES
+    for group, cases in GROUPS.items():
+        for case in cases.values():
+            outcome = run_engine(engine, case.system, case.dt, case.steps, tuple(case.changes))
+            if not refused_as_expected(engine, group, case, outcome) and not case.system.obstacles:
+                check_follows(engine, case, outcome)
+    for case in CAPABILITIES.values():
+        if engine.capabilities.issuperset(demands(case.system)):
+            check_state(case.system, *look_on(engine, [case.system]))
+    test_capabilities.test_an_engine_declares_known_capabilities_and_catalogued_schemes(engine)
+    test_capabilities.test_an_engine_says_what_its_numbers_mean_and_what_was_chosen(engine)
 
 
 def test_the_experiment_of_the_recipe_answers_its_question(follow: Any) -> None:

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import click
 
 from report.commands.options import json_option
 from report.commands.terminal import show_table
 
-#: Columns, and a row of words for each thing.
-Listing = tuple[Sequence[str], Sequence[Sequence[str]]]
+#: Columns, and a row for each thing: words, or what is in the JSON only.
+Listing = tuple[Sequence[str], Sequence[Sequence[object]]]
+
+#: In the terminal a column may have another heading than its key in the JSON, or be left out.
+HEADINGS: Mapping[str, str | None] = {"known to be": "claims to be", "settings": None, "precision": None}
 
 
 @click.command("list")
@@ -26,7 +29,9 @@ def list_command(as_json: bool) -> None:
         click.echo(json.dumps(document, indent=2))
         return
     for name, (columns, rows) in listings.items():
-        show_table(name, columns, rows)
+        headings = [HEADINGS.get(column, column) for column in columns]
+        kept = [i for i, heading in enumerate(headings) if heading]
+        show_table(name, [str(headings[i]) for i in kept], [[row[i] for i in kept] for row in rows])
 
 
 def _scenes() -> Listing:
@@ -53,7 +58,8 @@ def _schemes() -> Listing:
 
 
 def _engines() -> Listing:
-    from engines.engine import registry, version
+    """Each with its version, the schemes it claims to step by, and what is recorded with its results."""
+    from engines.engine import precision, registry, version
 
     rows = [
         [
@@ -61,10 +67,12 @@ def _engines() -> Listing:
             version(engine) or f"not available: {engine.package} is not installed",
             ", ".join(dict.fromkeys(engine.identified_as.values())),
             engine.semantics,
+            dict(engine.settings),
+            precision(engine),
         ]
         for engine in registry().values()
     ]
-    return ["engine", "version", "known to be", "in SI units"], rows
+    return ["engine", "version", "known to be", "in SI units", "settings", "precision"], rows
 
 
 def _experiments() -> Listing:

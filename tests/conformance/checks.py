@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 
 from engines.engine import CAPABILITIES, Engine, demands
-from reference.identification import TOLERANCE, identify_run
+from reference.identification import TOLERANCE, Identification, identify_run
 from reference.outcome import Outcome
 from reference.stepper import catalogued, stepper_named
 from reference.system import MassSpringSystem
 from tests.conformance.case import Case
 from tests.conformance.children import Look, answer_of, look_on
 from tests.conformance.refusals import refused_as_expected
-from tests.conformance.runs import expected, rounding
+from tests.conformance.runs import expected, rounding, trajectories
 
 #: Schemes that stop before their equations are solved, and the scheme that solves them.
 EXACT_SOLVE = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
@@ -75,6 +75,15 @@ def check_follows(
         found = identify_run(engine.name, outcome, case.system, known, max(tolerance, rounding(scheme, case)))
     assert found.identified_as == scheme, f"{case.name}: {found}; tolerance {found.tolerance:.2g} m"
     assert outcome.ending == right.ending, f"{engine.name}, {case.name}: {outcome.ending}; {scheme}: {right.ending}"
+
+
+def identify_claimed(engine: Engine, case: Case, outcome: Outcome) -> Identification:
+    """The scheme claimed, where an engine follows it to rounding: no other is run then. Else the catalogue, ranked."""
+    claim = claimed(engine, case)
+    found = identify_run(engine.name, outcome, case.system, trajectories(case, [claim]))
+    if found.identified_as is None:
+        found = identify_run(engine.name, outcome, case.system, trajectories(case, [*catalogued(), claim]))
+    return found
 
 
 def check_capability(engine: Engine, case: Case, outcome: Outcome) -> None:

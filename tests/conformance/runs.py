@@ -20,11 +20,16 @@ _ENDED: dict[str, Outcome] = {}
 
 def outcomes(engine: Engine, cases: Sequence[Case]) -> list[Outcome]:
     """How each case ends for an engine. One process runs all that have not been run."""
-    keys = [digest(engine, case.system, case.dt, case.steps, case.changes) for case in cases]
+    keys = [digest(engine, _digest_of(case)) for case in cases]
     new = {key: case for key, case in zip(keys, cases, strict=True) if key not in _ENDED}
     if new:
         _ENDED.update(zip(new, answer_of(run_all, engine, [*new.values()]), strict=True))
     return [_ENDED[key] for key in keys]
+
+
+@cache
+def _digest_of(case: Case) -> str:
+    return digest(case.system, case.dt, case.steps, case.changes)
 
 
 def outcome_of(engine: Engine, case: Case) -> Outcome:

@@ -8,7 +8,7 @@ from importlib import metadata
 
 import pytest
 
-from engines.engine import installed_version, registry, version
+from engines.engine import installed_version, recorded_settings, registry, version
 from experiments.experiment import NAMES
 from experiments.runs.steppers import all_steppers
 from reference.scenes import scenes
@@ -62,6 +62,17 @@ def test_an_installed_engine_is_listed_with_its_version() -> None:
     for name, engine in registry().items():
         if version(engine) is not None:
             assert rows[name]["version"] == metadata.version(engine.package)
+
+
+def test_what_is_recorded_with_results_is_listed_and_claims_are_called_claims() -> None:
+    """Settings and precision in the JSON; in the terminal the heading of the schemes says whose word they are."""
+    rows = {row["engine"]: row for row in json.loads(springlab("list", "--json").out)["engines"]}
+    for name, engine in registry().items():
+        assert {**rows[name]["settings"], "precision": rows[name]["precision"]} == recorded_settings(engine)
+        assert rows[name]["known to be"] == ", ".join(dict.fromkeys(engine.identified_as.values()))
+    said = springlab("list").out
+    assert "claims to be" in said
+    assert "known to be" not in said
 
 
 def test_a_missing_engine_is_listed_with_why(missing: str) -> None:
