@@ -1,0 +1,108 @@
+"""Energies over time in the colours of what was measured of them; momenta as dots, angular momenta as diamonds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+
+from experiments.energy import DURATION
+from report.figures import COLOURS
+from report.figures.energy import FLOOR, HIGHEST, LOOKS, LOWEST, SPANS
+from tests.experiments.canned import energy
+from tests.report.figures.artists import data, marks, text, tick_labels, verticals, words
+from tests.report.figures.shown import records, result, shown
+
+
+def above() -> Axes:
+    """Energies."""
+    return shown("energy").figure.axes[0]
+
+
+def below() -> Axes:
+    """Momenta."""
+    return shown("energy").figure.axes[1]
+
+
+def largest(name: str) -> list[float]:
+    """The largest error in each span, from the table: of the last times in it, 25 of them."""
+    errors = np.abs(
+        [r["energy error [1]"] for r in records(result("energy"), "energy_over_time") if r["stepper"] == name]
+    )
+    return [errors[i * 25 : (i + 1) * 25].max() for i in range(SPANS - 1)] + [errors[(SPANS - 1) * 25 :].max()]
+
+
+def test_lines_are_the_largest_errors_of_each_second() -> None:
+    """Of one that stands for all that do the same; at the span's end."""
+    by_end = {data(line)[1][-1]: line for line in marks(above()) if line.get_color() != "#000000"}
+    for name in ("kick_drift", "rk4", "pendulum_kick_drift", "heun_link_by_link"):
+        line = by_end[largest(name)[-1]]
+        assert data(line) == (
+            pytest.approx([DURATION / SPANS * (i + 1) for i in range(SPANS)]),
+            pytest.approx(np.clip(largest(name), LOWEST, HIGHEST)),
+        )
+
+
+def test_colour_and_marker_are_of_the_measured_kind_dashes_of_constraints() -> None:
+    """The rod's pendulum was predicted bounded, and grows: it has the colour of what grows."""
+    ends = {
+        name: energy.errors(kind, size)[-50:]
+        for name, kind, size in (("rk4", "decaying", 1.0), ("pendulum", "growing", 0.1))
+    }
+    for name, style in (("rk4", "-"), ("pendulum", "--")):
+        (line,) = [
+            m for m in marks(above(), linestyle=style) if data(m)[1][-1] == pytest.approx(np.abs(ends[name]).max())
+        ]
+        kind = "decaying" if name == "rk4" else "growing"
+        assert (line.get_color(), line.get_marker()) == (LOOKS[kind]["color"], LOOKS[kind]["marker"])
+    assert len({tuple(look.values()) for look in LOOKS.values()}) == len(LOOKS)
+    assert "dashed: distance constraints" in above().get_title(loc="left")
+
+
+def test_rings_are_on_lines_of_engines() -> None:
+    """On kick_drift's, which pymunk_springs is; on no other."""
+    (ring,) = marks(above(), marker="o", fillstyle="none")
+    assert data(ring)[1] == pytest.approx(largest("kick_drift"))
+    assert text(above(), "kick_drift, 1 engine: bounded")
+
+
+def test_labels_say_what_was_measured_and_what_was_predicted_where_it_is_not_that() -> None:
+    """At the end of the line; one that diverged says when."""
+    odd = text(above(), "pendulum_kick_drift: growing (predicted bounded)")
+    assert odd.xy == (pytest.approx(DURATION), pytest.approx(0.1 * energy.LARGEST["growing"]))
+    assert not [said for said in words(above()) if "predicted" in said and "pendulum" not in said]
+    diverged = text(above(), "diverged at 4 s")
+    assert diverged.get_text().startswith("euler: growing")
+    assert diverged.xy == (pytest.approx(energy.TORN), pytest.approx(100.0))
+
+
+def test_axes_have_units_and_what_is_beyond_them_is_said() -> None:
+    """Both logarithmic in what is not time."""
+    assert (above().get_xlabel(), above().get_yscale(), above().get_xlim()) == ("time [s]", "log", (0, DURATION))
+    assert above().get_ylabel().startswith("largest energy error in a second [1]")
+    labels = tick_labels(above().yaxis)
+    assert "or less" in labels[LOWEST]
+    assert "or more" in labels[HIGHEST]
+    assert below().get_xlabel().startswith("largest error [1]: dots, of momentum")
+    assert "diamonds, of angular momentum" in below().get_xlabel()
+    assert below().get_xscale() == "log"
+    assert tick_labels(below().xaxis)[FLOOR] == "none"
+
+
+def test_dots_are_momenta_and_diamonds_angular_momenta() -> None:
+    """Of all that flew, as the table has them."""
+    table = [row for row in records(result("energy")) if row["momentum [1]"] is not None]
+    assert [*tick_labels(below().yaxis).values()] == [row["stepper"] for row in table]
+    dots, diamonds = marks(below(), marker="o", color=COLOURS[6]), marks(below(), marker="D")
+    assert [data(dot) for dot in dots] == [([row["momentum [1]"]], [i]) for i, row in enumerate(table)]
+    assert [data(diamond) for diamond in diamonds] == [([row["angular [1]"]], [i]) for i, row in enumerate(table)]
+    assert verticals(below()) == [result("energy").data["rounding"]]
+    assert text(below(), "rounding up to here").get_position()[0] == result("energy").data["rounding"]
+
+
+def test_the_words_for_it_name_the_kinds() -> None:
+    """And the momenta."""
+    alt = shown("energy").alt
+    assert "bounded: kick_drift, pymunk_springs; growing: pendulum_kick_drift, heun_link_by_link, euler" in alt
+    assert "decaying: rk4" in alt
+    assert "heun_link_by_link 3e-02 and 4e-02" in alt
