@@ -22,7 +22,7 @@ from reference.changes import Driven, whole_steps
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.scenes.crossing import Crossing
-from reference.scenes.ground_motion import GroundMotion, Sweep
+from reference.scenes.ground_motion import FrequencySweep, GroundMotion
 from reference.state import Array, Trajectory
 from reference.stepper import Stepper, catalogued
 from reference.system import MassSpringSystem
@@ -35,7 +35,7 @@ DT = 4e-3
 
 #: The bridge that is shaken, up and down, and how.
 SHAKEN = {"on": "rock", "axis": "y", "damping": 8e4, "panels": 6}
-SWEEP = Sweep(0.8, 2.0, 0.1, 20.0, direction=(0.0, 1.0))
+SWEEP = FrequencySweep(0.8, 2.0, 0.1, 20.0, direction=(0.0, 1.0))
 
 #: How fast the truck goes [m/s].
 SPEEDS = (2.5, 10.0, 40.0)

@@ -1,4 +1,4 @@
-"""Many steppers at one task, and which scheme each of them is."""
+"""One function of many steppers, and which scheme each of them is."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ Progress = Callable[[str], None]
 
 
 def side_by_side(
-    steppers: Sequence[Stepper], task: Callable[[Stepper], T], progress: Progress
+    steppers: Sequence[Stepper], function: Callable[[Stepper], T], progress: Progress
 ) -> Iterator[tuple[Stepper, T]]:
-    """What a task makes of every stepper, in their order. Engines, being other processes, run beside one another."""
+    """What a function makes of every stepper, in their order. Engines, being other processes, run in parallel."""
 
     def told(stepper: Stepper) -> T:
         progress(stepper.name)
-        return task(stepper)
+        return function(stepper)
 
     with current().threads() as pool:
         engines = {s.name: pool.submit(told, s) for s in steppers if isinstance(s, EngineStepper)}
