@@ -20,7 +20,8 @@ import numpy as np
 
 from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import all_steppers, installed_engines
 from reference.conserved import energy
 from reference.lecture.slide_17 import CircleAsMeant

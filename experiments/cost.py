@@ -15,12 +15,12 @@ from time import perf_counter
 import numpy as np
 
 from engines.process.isolation import EngineStepper, isolated
+from experiments.benchmark.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
 from experiments.runs.environment import processor
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import all_steppers
-from experiments.runs.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from reference.compiled.kernels import advance, arrays_of, compiled, lists, loops_for
 from reference.compiled.tracing import why_not_compiled
 from reference.errors import SolverError

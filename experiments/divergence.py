@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import Comparison, Run, compare, finite
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import default_steppers
 from reference.scenes import Setup, find
 from reference.state import Array

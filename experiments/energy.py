@@ -15,10 +15,11 @@ import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress, identify_start, scheme_of, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import all_steppers
 from reference.conserved import angular_momentum, energy, momentum
-from reference.identification import candidates
+from reference.identification import candidates, identify_beginning, scheme_of
 from reference.motion import EquationsOf
 from reference.outcome import Outcome, first_diverged_frame
 from reference.pendulum import PendulumMotion
@@ -139,7 +140,7 @@ def free_string(system: MassSpringSystem) -> MassSpringSystem:
 def measure(stepper: Stepper, on: Bench) -> Row:
     """One stepper on both strings."""
     outcome = stepper.run(on.system, DT, round(DURATION / DT))
-    identification = identify_start(stepper, outcome, on.system, on.known)
+    identification = identify_beginning(stepper.name, outcome, on.system, on.known)
     scheme = scheme_of(stepper, identification)
     predicted = None if scheme is None else predicted_kind(scheme, on.at_rest[scheme.equations])
     times, errors = energy_errors(on.system, outcome.trajectory)
@@ -182,9 +183,8 @@ def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tu
     if trajectory is None:
         return np.zeros(0), np.zeros(0)
     whole = slice(0, first_diverged_frame(system, trajectory, stretch_ratio=100.0), EVERY)
-    states = map(State, trajectory.times[whole].tolist(), trajectory.positions[whole], trajectory.velocities[whole])
     with np.errstate(over="ignore"):
-        energies = np.array([energy(system, state) for state in states])
+        energies = np.array([energy(system, state) for state in trajectory.frames(whole).states()])
     released = energy(system, system.start) - energy(system, hanging_string(system))
     return trajectory.times[whole], (energies - energy(system, system.start)) / released
 

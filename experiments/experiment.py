@@ -10,7 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.errors import unknown_name
 
 #: The experiments, in the order they are shown; each is the module experiments.NAME.

@@ -13,7 +13,7 @@ import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.scenes import find
 from reference.schemes.catalogue import Scheme
 from reference.schemes.catalogue import find as find_scheme

@@ -16,7 +16,8 @@ import numpy as np
 
 from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import all_steppers
 from reference.changes import Driven, whole_steps
 from reference.outcome import Outcome

@@ -9,9 +9,8 @@ import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.map_axes import axes_for, system_maker
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import all_steppers
-from experiments.stability_map import StabilityMap, stability_map
 from reference.errors import InputError
 from reference.state import Array
 

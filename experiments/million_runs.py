@@ -16,7 +16,7 @@ from engines.process.isolation import isolated
 from engines.process.supervisor import supervisor
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.cluster import BATCH_SECONDS
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import all_steppers, installed_engines
 from experiments.runs.store import Store
 from experiments.runs.sweeps import ParameterSweep

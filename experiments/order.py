@@ -14,11 +14,12 @@ import numpy as np
 from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress, identify_start, scheme_of, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.step_size_series import engine_ladder
 from experiments.runs.steppers import all_steppers
 from reference.forces import SpringMotion
-from reference.identification import candidates
+from reference.identification import candidates, identify_beginning, scheme_of
 from reference.motion import EquationsOf
 from reference.outcome import Outcome
 from reference.scenes import find
@@ -138,7 +139,7 @@ def measure(stepper: Stepper, benches: Sequence[Bench]) -> Row:
         if any(outcome.ending != "unsupported" for outcome in outcomes):
             break
         refused.append(outcomes[0].reason)
-    identification = identify_start(stepper, outcomes[IDENTIFYING], on.system, on.known)
+    identification = identify_beginning(stepper.name, outcomes[IDENTIFYING], on.system, on.known)
     scheme = scheme_of(stepper, identification)
     errors = _distances(outcomes, on.true[scheme.equations if scheme else SpringMotion])
     fitted = straight(errors, on.rounding)

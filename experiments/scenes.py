@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import installed_engines
 from reference.identification import LARGE, Identification, candidates_for, identify_run
 from reference.outcome import Outcome
@@ -110,8 +111,7 @@ def _known(steppers: Sequence[Stepper], runs: Sequence[Outcome], setup: Setup) -
 def _beginning(outcome: Outcome) -> Outcome:
     """What there was of a run after the first steps."""
     assert outcome.trajectory is not None
-    at, few = outcome.trajectory, slice(FIRST + 1)
-    return replace(outcome, trajectory=Trajectory(at.times[few], at.positions[few], at.velocities[few]))
+    return replace(outcome, trajectory=outcome.trajectory.frames(slice(FIRST + 1)))
 
 
 def motion(setup: Setup) -> Trajectory:
@@ -123,7 +123,7 @@ def thinned(whole: Trajectory) -> Trajectory:
     """About STATES states of a trajectory, the first and the last of them too."""
     last = len(whole) - 1
     kept = [round(i * last / STATES) for i in range(STATES + 1)] if last > STATES else list(range(last + 1))
-    return Trajectory(whole.times[kept], whole.positions[kept], whole.velocities[kept])
+    return whole.frames(kept)
 
 
 def result_of(runs: list[Run], motions: Mapping[str, tuple[MassSpringSystem, Trajectory]]) -> Result:

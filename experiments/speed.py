@@ -11,12 +11,12 @@ import numpy as np
 
 from engines.engine import Engine, registry
 from engines.process.isolation import isolated
+from experiments.benchmark.meshes import LARGE, cases, peak_per_mass, string
+from experiments.benchmark.timing import adapter_overhead
+from experiments.benchmark.tuned import TunedHeun
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.environment import processor
-from experiments.runs.side_by_side import Progress
-from experiments.runs.timing import adapter_overhead
-from experiments.speed_meshes import LARGE, cases, peak_per_mass, string
-from experiments.tuned import TunedHeun
+from experiments.runs.progress import Progress
 from reference.compiled.kernels import Kernel
 from reference.compiled.loops import LANES
 from reference.compiled.sweep import sweep

@@ -19,7 +19,7 @@ from engines.process.environments import environment, numpy_version
 from engines.process.isolation import EngineStepper, isolated
 from engines.process.supervisor import supervisor
 from experiments.engine_versions.conformance import Value, measure
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.errors import InputError, unknown_name
 
 #: What was measured of a version: by engine (the crash list by package), by measure.

@@ -11,7 +11,8 @@ import numpy as np
 
 from engines.engine import demands
 from engines.process.isolation import EngineStepper
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from reference.changes import whole_steps
 from reference.errors import InputError
 from reference.identification import Identification, candidates_for, identify_by_rounding

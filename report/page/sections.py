@@ -16,7 +16,6 @@ from engines.process.isolation import isolated
 from experiments.advice.own_scene import experiments_of
 from experiments.experiment import Experiment, find, write_tables
 from experiments.runs.runner import LocalExecutor, Runner, current, using
-from experiments.runs.side_by_side import Progress
 from experiments.runs.store import Store, StoreError
 from reference.scenes import Setup
 from report.figures import animate, draw
