@@ -197,7 +197,7 @@ def installed_version(package: str) -> str | None:
         return None
 
 
-def _files() -> list[str]:
+def modules() -> list[str]:
     """Every module of this folder and those below it."""
     return [found.name for found in pkgutil.walk_packages(engines.__path__, "engines.") if not found.ispkg]
 
@@ -210,7 +210,7 @@ def registry() -> Mapping[str, Engine]:
         InputError: where two engines have one name.
     """
     known = Registry[Engine]("engine")
-    for file in _files():
+    for file in modules():
         for engine in getattr(importlib.import_module(file), "ENGINES", ()):
             known.enter(engine.name, engine, file)
     return known.all()

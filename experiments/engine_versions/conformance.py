@@ -49,7 +49,7 @@ def measure(stepper: EngineStepper) -> dict[str, Value]:
         "runs": "yes",
         **{f"identified, {case}": _identity(stepper, case) for case in IDENTIFIED},
         **{f"largest stable dt [s], {case}": _limit(stepper, case) for case in LIMITED},
-        **{f"can: {name}": _capability(stepper, name) for name in _trials()},
+        **{f"can: {name}": _capability(stepper, name) for name in _capability_cases()},
     }
 
 
@@ -87,7 +87,7 @@ def _limit(stepper: EngineStepper, case: str) -> Value:
 
 def _capability(stepper: EngineStepper, name: str) -> str:
     """Whether it steps a system by the scheme it claims, or refuses it."""
-    engine, system = stepper.engine, _trials()[name]
+    engine, system = stepper.engine, _capability_cases()[name]
     outcome = stepper.run(system, DT, STEPS)
     if outcome.ending == "unsupported":
         return f"refused: {outcome.reason}"
@@ -115,12 +115,12 @@ def _hanging(case: str) -> tuple[MassSpringSystem, Equilibrium]:
 
 
 @cache
-def _trials() -> Mapping[str, MassSpringSystem]:
+def _capability_cases() -> Mapping[str, MassSpringSystem]:
     return for_each_capability()
 
 
 @cache
-def _claimed(scheme: str, trial: str) -> Trajectory:
-    trajectory = stepper_named(scheme).run(_trials()[trial], DT, STEPS).trajectory
-    assert trajectory is not None, f"{scheme} cannot step {trial}"
+def _claimed(scheme: str, case: str) -> Trajectory:
+    trajectory = stepper_named(scheme).run(_capability_cases()[case], DT, STEPS).trajectory
+    assert trajectory is not None, f"{scheme} cannot step {case}"
     return trajectory

@@ -15,6 +15,7 @@ from time import perf_counter
 from engines.process.isolation import isolated
 from experiments.advice.own_scene import experiments_of
 from experiments.experiment import Experiment, find, write_tables
+from experiments.runs.progress import Progress
 from experiments.runs.runner import LocalExecutor, Runner, current, using
 from experiments.runs.store import Store, StoreError
 from reference.scenes import Setup
