@@ -72,8 +72,9 @@ class Engine(Protocol):
     """One engine with one choice of settings. Implementations are frozen dataclasses: they travel between processes.
 
     One whose steps cost much more than masses and springs may have `interactive_up_to` besides, the largest system for
-    interactive use: so many masses it steps some hundred times within half a minute. `compare` leaves it out beyond,
-    unless it is asked for by name. One that computes in single precision has `precision` "single" (see `precision`).
+    interactive use, in masses: that many it steps some hundred times within half a minute. `compare` leaves it out
+    beyond, unless it is asked for by name. One that computes in single precision has `precision` "single" (see
+    `precision`).
     """
 
     @property
@@ -230,6 +231,6 @@ def _differ(values: Array) -> bool:
 
 def _stretched(system: MassSpringSystem) -> bool:
     a, b = system.springs.T
-    gaps = system.positions[b] - system.positions[a]
-    lengths = (gaps**2).sum(axis=1) ** 0.5
+    separations = system.positions[b] - system.positions[a]
+    lengths = (separations**2).sum(axis=1) ** 0.5
     return bool((abs(lengths - system.rest_lengths) > 1e-12 * lengths).any())

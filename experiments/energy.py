@@ -1,7 +1,7 @@
 """What does each stepper do to energy and momentum, which physics keeps?
 
-An undamped string swings for a long time: its energy should stay. A string that nothing holds and nothing pulls at
-should keep its momentum and its angular momentum.
+An undamped string swings for a long time: its energy should stay. A free string without gravity should keep its
+momentum and its angular momentum.
 """
 
 from __future__ import annotations
@@ -39,13 +39,13 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 STRING: Mapping[str, float] = {"masses": 3, "stiffness": 10, "angle": 60}
 DT, DURATION = 5e-3, 20.0
 
-#: Every so many steps the energy is looked at.
+#: The energy is looked at once in this many steps.
 EVERY = 8
 
-#: The run is cut into so many parts, to see a trend in.
+#: How many parts the run is cut into, to see a trend in.
 PARTS = 10
 
-#: So many steps tell which scheme a stepper is.
+#: How many steps tell which scheme a stepper is.
 IDENTIFYING_STEPS = 200
 
 #: How long the free string flies [s], and how fast its masses are thrown [m/s].
@@ -100,7 +100,7 @@ class Bench:
 
     Attributes:
         system: the undamped string.
-        at_rest: how it would hang still, by either's equations of motion.
+        at_rest: how it would hang still, by each of the equations of motion.
         known: the catalogue's trajectories, to identify others by.
         free: the string that nothing holds.
     """
@@ -178,7 +178,7 @@ def predicted_kind(scheme: SchemeStepper, at_rest: Equilibrium) -> Kind:
 def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tuple[Array, Array]:
     """Times [s], and energies less that at the start, as a part of the energy that falling to rest would release.
 
-    Up to where the string is torn: what is further is no string any more.
+    Up to where it diverges: what comes after is not the motion of a string any more.
     """
     if trajectory is None:
         return np.zeros(0), np.zeros(0)

@@ -25,7 +25,7 @@ from reference.scenes import find
 from reference.scenes.crossing import Crossing
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion
 from reference.state import Array, Trajectory
-from reference.stepper import Stepper, catalogued
+from reference.stepper import Stepper, stepper_named
 from reference.system import MassSpringSystem
 
 #: Who is shown: the schemes that the engines are, and the engines.
@@ -61,7 +61,7 @@ def run(progress: Progress) -> Result:
     """The schemes that engines are, then the engines, on the same bridges."""
     known = all_steppers()
     engines = [s for s in (known[name] for name in ENGINES) if isinstance(s, EngineStepper)]
-    schemes = {name: catalogued()[name] for e in engines for name in claims(e)}
+    schemes = {name: stepper_named(name) for e in engines for name in claims(e)}
     ends: dict[str, list[Outcome]] = {
         stepper.name: found for stepper, found in side_by_side([*schemes.values(), *engines], outcomes, progress)
     }

@@ -20,11 +20,11 @@ from reference.state import Trajectory
 from reference.stepper import Stepper, catalogued
 from reference.system import MassSpringSystem
 
-#: Every engine takes so many steps of a scene, and is identified where a scheme is as near as this [m].
+#: How many steps every engine takes of a scene, and how near a scheme must be for it to be identified [m].
 STEPS, NEAR = 100, 1e-9
 
-#: What no scheme that engines are known for is near to is compared with the whole catalogue, for so many steps: on a
-#: mesh of rods STEPS would take minutes.
+#: For how many steps a run that no engine's scheme is near to is compared with the whole catalogue: on a mesh of rods
+#: STEPS would take minutes.
 FIRST = 20
 
 #: A mass this near to an obstacle, as a part of the system's size, touches it.
@@ -36,7 +36,7 @@ SHOWN_BY, STATES = "heun", 60
 
 @dataclass(frozen=True)
 class Run:
-    """What an engine did on a scene, and what it was there, over so many steps."""
+    """What an engine did on a scene, and which scheme it was there, compared over some steps."""
 
     scene: Scene
     system: MassSpringSystem

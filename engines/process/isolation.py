@@ -20,7 +20,7 @@ from reference.system import MassSpringSystem
 #: A run may take this long [s] before it counts as hung.
 TIME_LIMIT = 60.0
 
-#: And its process hold so much memory [bytes].
+#: The most memory that its process may hold [bytes].
 MEMORY_LIMIT = 4 * 2**30
 
 T = TypeVar("T")

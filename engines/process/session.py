@@ -21,7 +21,7 @@ from reference.system import MassSpringSystem, Value
 #: An answer may take this long [s] before the engine counts as hung.
 TIME_LIMIT = 10.0
 
-#: And its process hold so much memory [bytes].
+#: The most memory that its process may hold [bytes].
 MEMORY_LIMIT = 2 * 2**30
 
 #: What stays between two tasks, in the process of its own: the simulation under way.

@@ -43,7 +43,7 @@ def kept_versions(subject: Subject, asked: Sequence[str], folder: Path = FOLDER)
     """The versions asked for, or all that are kept.
 
     Raises:
-        InputError: for one that is not kept, or where none is.
+        InputError: for one that is not kept, or where there is no baseline.
     """
     kept = list(read(subject.package, folder))
     if not kept:

@@ -1,7 +1,7 @@
 """The conformance suite as measurements: what an engine does, one row for each thing that is asked of it.
 
 Nothing in a row depends on how fast a machine is or how it rounds: a trajectory is a scheme's to rounding or it is not,
-and limits are kept to what can be measured of them.
+and limits are kept to the figures that can be measured of them.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ LIMITED: Mapping[str, Mapping[str, float]] = {
 #: The step [s] and number of steps of a run.
 DT, STEPS = 1e-3, 200
 
-#: Limits are measured to this part of themselves, and kept to so many figures.
+#: Limits are measured to this part of themselves, and kept to this number of figures.
 PRECISION, FIGURES = 1e-6, 7
 
 

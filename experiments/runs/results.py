@@ -31,7 +31,7 @@ def rows(store: Path, filters: Mapping[str, str], retired: bool = False) -> list
         retired: whether to show also those that were started over.
 
     Raises:
-        InputError: if there is no store, it is none, or nothing in it has a column that is asked for.
+        InputError: if there is no store, the file is not a store, or nothing in it has a column that is asked for.
     """
     found = [_flat(row) for row in _read(store) if retired or not row["retired"]]
     known = {name: None for row in found for name in row}

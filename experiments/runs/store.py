@@ -1,7 +1,7 @@
 """Where results are kept: one SQLite file, with the arrays beside it, each in a file named by its run's key.
 
 Nothing is written over and nothing is deleted. A run's arrays are in place before its row is, and a row is there whole
-or not at all: whoever is killed whenever leaves a store that opens, and in it every run that was finished.
+or not at all: a process that is killed at any moment leaves a store that opens, and in it every run that was finished.
 """
 
 from __future__ import annotations

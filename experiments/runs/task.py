@@ -143,7 +143,7 @@ def _tell(update: Callable[[bytes], object], kind: str, content: bytes) -> None:
 
 
 def _plain(kind: np.dtype[Any]) -> bool:
-    """Whether an array's bytes say all there is to it: truths, numbers, words; but not long floats, which have gaps."""
+    """Whether an array's bytes say all there is to it: truths, numbers, words; not long floats, which have padding."""
     return kind.kind in "biufcSU" and kind.char not in "gG"
 
 

@@ -74,7 +74,7 @@ def test_who_has_blown_up_has_no_error() -> None:
 
 def test_rigid_segments_are_compared_with_rods() -> None:
     """The pendulum's own end has no error; taken for a string of springs it is over a centimetre off."""
-    end = cost.truth(PendulumMotion)
+    end = cost.true_end(PendulumMotion)
     timings = [Timing(0.0, end)] * len(DTS)
     assert {p.error for p in cost.points(timings, PendulumMotion)} == {0.0}
     assert min(p.error for p in cost.points(timings, SpringMotion)) > 1e-2
@@ -109,7 +109,9 @@ def test_findings_are_made_from_the_costs() -> None:
     alone = " ".join(cost.result_of(costs).findings)
     assert "takes the kick_drift kernel 100 ns" in alone
     assert "No engine ran." in alone
-    assert "The cheapest scheme that ends within 0.001 m of the truth is heun, with dt = 0.008 s: 0.012 ms" in alone
+    assert (
+        "The cheapest scheme that ends within 0.001 m of the true motion is heun, with dt = 0.008 s: 0.012 ms" in alone
+    )
     assert "cheapest engine" not in alone
     slow = made_up("drift_kick", 3e-6, 1.01e-2, "engine", ANCHOR)
     result = cost.result_of([*costs, slow])

@@ -1,4 +1,4 @@
-"""The registry of experiments: each under its own name, in the order they are shown; a name that is taken is refused."""
+"""The registry of experiments: each under its own name, in the order they are shown; a taken name is refused."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ def test_one_doctored_number_is_named(tmp_path: Path) -> None:
 
 
 def test_words_and_what_is_missing_deviate_too(tmp_path: Path) -> None:
-    """Another word; a measure that is gone, or new; a version that cannot be had. What is not asked is not compared."""
+    """Another word; a measure gone, or new; a version that cannot be installed. What is not asked is not compared."""
     baseline.write(MEASURED, tmp_path)
     rows = made_up()
     rows["1.9.0"]["spring"]["crash list: a"] = "hangs"

@@ -173,7 +173,7 @@ def test_a_version_that_never_was_is_one_line_and_leaves_nothing(
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     done = springlab("versions", "pymunk", "99.9")
     assert done.code == 2
-    assert done.err.startswith("springlab: pymunk==99.9 cannot be had: ")
+    assert done.err.startswith("springlab: pymunk==99.9 cannot be installed: ")
     assert done.err.count("\n") == 1
     assert not [found for found in (tmp_path / "springlab" / "environments").iterdir() if found.is_dir()]
 
