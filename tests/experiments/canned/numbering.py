@@ -23,7 +23,9 @@ START = 1e-2
 def row(name: str, predicted: frozenset[str] | None, masses: float, springs: float, damping: float, ends: float) -> Row:
     """Differences of each permutation [m]; a name that is no scheme's is an engine's."""
     stepper = catalogued().get(name) or Named(name)
-    return Row(stepper, damping, predicted, PermutationEffects(dict(zip(CHANGES, (masses, springs, ends), strict=True)), {}))
+    return Row(
+        stepper, damping, predicted, PermutationEffects(dict(zip(CHANGES, (masses, springs, ends), strict=True)), {})
+    )
 
 
 def rows() -> list[Row]:
