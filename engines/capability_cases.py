@@ -13,7 +13,7 @@ from reference.scenes import find
 from reference.state import Array
 from reference.system import MassSpringSystem
 
-#: Obstacles that nothing comes near in the 200 steps of a trial: there an engine is to step as it does without them.
+#: Obstacles that nothing comes near in the 200 steps of a case: there an engine is to step as it does without them.
 AWAY = (0.6, 1.0, 0.0)
 FLOOR, BAR = Plane((0.0, -3.0), (0.0, 1.0)), Cylinder(AWAY, (0.0, 0.0, 1.0), 0.3)
 DISC, BALL, BLOCK = Circle(AWAY[:2], 0.3), Sphere(AWAY, 0.3), Box(AWAY[:2], (0.3, 0.2))

@@ -1,7 +1,7 @@
-"""The known ways to break each engine, and what becomes of it: the crash list. Needs NumPy only.
+"""The known ways to break each engine, and what becomes of it. Needs NumPy only.
 
 Each is a function that does to an engine what should not be done, in a process of its own, and says how it went if it
-is still there to say so. Any file of an engine enters its own with `breaks`.
+is still there to say so. Any file of an engine enters its own with `crash_case`.
 """
 
 from __future__ import annotations
@@ -13,56 +13,61 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import registry
+from engines.engine import modules
 from reference.outcome import Outcome
+from reference.registry import Registry
 
-#: What is not over after so long [s] hangs.
+#: How long a case may take before it counts as hanging [s].
 TIME_LIMIT = 5.0
 
-#: What a function of the list may answer.
-FINE, NO_NUMBER, RESET = "fine", "goes on with what is not a number", "starts over silently"
-
-_LIST: dict[str, dict[str, Breach]] = {}
+#: What a case may answer.
+FINE, NOT_FINITE, RESET = "fine", "goes on with what is not a number", "starts over silently"
 
 
 @dataclass(frozen=True)
-class Breach:
+class CrashCase:
     """One way to break an engine.
 
     Attributes:
         package: the engine's.
-        task: does it, and answers with one of the words above.
+        function: does it, and answers with one of the words above.
     """
 
     package: str
-    task: Callable[[], str]
+    function: Callable[[], str]
 
     @property
     def name(self) -> str:
         """The function's, in words."""
-        return self.task.__name__.replace("_", " ")
+        return self.function.__name__.replace("_", " ")
 
     @property
     def summary(self) -> str:
         """The first line of the function's docstring."""
-        return (self.task.__doc__ or "").splitlines()[0]
+        return (self.function.__doc__ or "").splitlines()[0]
 
 
-def breaks(package: str) -> Callable[[Callable[[], str]], Callable[[], str]]:
-    """Enter the decorated function into the crash list of a package."""
+_CASES = Registry[CrashCase]("crash case", modules)
 
-    def enter(task: Callable[[], str]) -> Callable[[], str]:
-        breach = Breach(package, task)
-        _LIST.setdefault(package, {})[breach.name] = breach
-        return task
+
+def crash_case(package: str) -> Callable[[Callable[[], str]], Callable[[], str]]:
+    """Enter the decorated function among the crash cases of a package.
+
+    Raises:
+        InputError: where the package has one of that name.
+    """
+
+    def enter(function: Callable[[], str]) -> Callable[[], str]:
+        case = CrashCase(package, function)
+        _CASES.enter(f"{package}: {case.name}", case, function.__module__)
+        return function
 
     return enter
 
 
-def crash_list(package: str) -> Mapping[str, Breach]:
-    """By name, all known ways to break an engine; none for a package nobody knows to break."""
-    registry()  # imports all files of this folder
-    return _LIST.get(package, {})
+def crash_cases(package: str) -> Mapping[str, CrashCase]:
+    """By name, all known ways to break an engine; none for a package that nobody has broken."""
+    return {case.name: case for case in _CASES.all().values() if case.package == package}
 
 
 def ending(answer: str | Outcome) -> str:
@@ -77,5 +82,5 @@ def ending(answer: str | Outcome) -> str:
 
 
 def numbers(values: Any) -> str:
-    """FINE, or NO_NUMBER where one of the values is none."""
-    return FINE if np.isfinite(np.asarray(values, dtype=float)).all() else NO_NUMBER
+    """FINE, or NOT_FINITE where one of the values is not."""
+    return FINE if np.isfinite(np.asarray(values, dtype=float)).all() else NOT_FINITE

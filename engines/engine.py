@@ -72,8 +72,9 @@ class Engine(Protocol):
     """One engine with one choice of settings. Implementations are frozen dataclasses: they travel between processes.
 
     One whose steps cost much more than masses and springs may have `interactive_up_to` besides, the largest system for
-    interactive use: so many masses it steps some hundred times within half a minute. `compare` leaves it out beyond,
-    unless it is asked for by name. One that computes in single precision has `precision` "single" (see `precision`).
+    interactive use, in masses: that many it steps some hundred times within half a minute. `compare` leaves it out
+    beyond, unless it is asked for by name. One that computes in single precision has `precision` "single" (see
+    `precision`).
     """
 
     @property
@@ -197,7 +198,7 @@ def installed_version(package: str) -> str | None:
         return None
 
 
-def _files() -> list[str]:
+def modules() -> list[str]:
     """Every module of this folder and those below it."""
     return [found.name for found in pkgutil.walk_packages(engines.__path__, "engines.") if not found.ispkg]
 
@@ -210,7 +211,7 @@ def registry() -> Mapping[str, Engine]:
         InputError: where two engines have one name.
     """
     known = Registry[Engine]("engine")
-    for file in _files():
+    for file in modules():
         for engine in getattr(importlib.import_module(file), "ENGINES", ()):
             known.enter(engine.name, engine, file)
     return known.all()
@@ -230,6 +231,6 @@ def _differ(values: Array) -> bool:
 
 def _stretched(system: MassSpringSystem) -> bool:
     a, b = system.springs.T
-    gaps = system.positions[b] - system.positions[a]
-    lengths = (gaps**2).sum(axis=1) ** 0.5
+    separations = system.positions[b] - system.positions[a]
+    lengths = (separations**2).sum(axis=1) ** 0.5
     return bool((abs(lengths - system.rest_lengths) > 1e-12 * lengths).any())

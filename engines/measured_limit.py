@@ -1,16 +1,19 @@
-"""How a push grows in an engine, and up to which dt it does not: measured in the engine's process. Needs NumPy only."""
+"""How a perturbation grows in an engine, and up to which dt it does not: measured, in the engine's own process.
+
+Needs NumPy only.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TypedDict
 
 import numpy as np
 
 from engines.engine import Engine, Unsupported
 from engines.step_jacobian import step_jacobian
 from reference.growth_factor import growth_factor
+from reference.limit import Limit
 from reference.measured_stability import GROWN, SEEN, STEPS, limit_near, measured_limit, random_growth
 from reference.outcome import Outcome
 from reference.state import Array
@@ -20,81 +23,58 @@ from reference.system import MassSpringSystem
 BELOW, ABOVE = 0.99, 1.01
 
 
-class FoundLimit(TypedDict):
-    """What is found of an engine's limit, in plain numbers.
-
-    Attributes:
-        dt: the limit [s], or None with the reason.
-        radius_below, radius_above: the spectral radii of the engine's step at BELOW and ABOVE of the limit; None
-            where the engine cannot start stretched and in motion.
-    """
-
-    dt: float | None
-    reason: str
-    radius_below: float | None
-    radius_above: float | None
-
-
 def limit_of_engine(
-    engine: Engine, still: Array, pushed: MassSpringSystem, dt: float, precision: float
-) -> FoundLimit | Outcome:
+    engine: Engine, rest: Array, perturbed: MassSpringSystem, dt: float, precision: float
+) -> Limit | Outcome:
     """Run an engine again and again until its limit is found; then look at its step there.
 
     Args:
-        still: where all masses are at rest [m], shape (n, d).
-        pushed: the system with its masses pushed a little from there.
+        rest: where all masses are at rest [m], shape (n, d).
+        perturbed: the system with its masses moved a little from there.
         dt: about as long as the fastest mode lasts [s].
         precision: as a part of the limit.
+
+    Returns:
+        The limit, with the growth factors of the engine's step at BELOW and ABOVE of it where the engine can start
+        stretched and in motion.
     """
     try:
-        limit, reason = measured_limit(
-            lambda h, steps: growth_of_engine(engine, still, pushed, h, steps), dt, precision
-        )
-        below = above = None
-        if limit is not None and {"stretched", "velocities"} <= engine.capabilities:
-            rest = replace(pushed, positions=still)
-            below, above = (growth_factor(step_jacobian(engine, rest, f * limit)) for f in (BELOW, ABOVE))
-        return {"dt": limit, "reason": reason, "radius_below": below, "radius_above": above}
+        limit = measured_limit(lambda h, steps: growth_of_engine(engine, rest, perturbed, h, steps), dt, precision)
+        if limit.dt is None or not {"stretched", "velocities"} <= engine.capabilities:
+            return limit
+        below, above = (_growth_factor(engine, rest, perturbed, part * limit.dt) for part in (BELOW, ABOVE))
+        return replace(limit, factors=(below, above))
     except Unsupported as error:
         return Outcome("unsupported", str(error))
 
 
-class NearLimit(TypedDict):
-    """An engine's limit, and whether pushes grow beyond it, in plain numbers.
-
-    Attributes:
-        dt: the limit [s], or None with the reason.
-        grows: whether pushes grow at so many times the limit; None where there is none.
-    """
-
-    dt: float | None
-    reason: str
-    grows: bool | None
-
-
 def limit_of_engine_near(
     engine: Engine,
-    still: Array,
-    pushed: MassSpringSystem,
+    rest: Array,
+    perturbed: MassSpringSystem,
     expected: float | None,
     dt: float,
     precision: float,
     beyond: float,
-) -> NearLimit | Outcome:
+) -> Limit | Outcome:
     """As `limit_of_engine`, in a few runs where the limit is where theory expects it; and what is beyond it.
 
     Args:
         expected: the predicted limit [s]; None where there is none.
-        beyond: at so many times the limit pushes are to be looked at too.
+        beyond: the part of the limit (over 1) at which it is looked whether perturbations grow.
+
+    Returns:
+        The limit, and whether perturbations grow beyond it.
     """
 
     def growth(h: float, steps: int) -> float:
-        return growth_of_engine(engine, still, pushed, h, steps)
+        return growth_of_engine(engine, rest, perturbed, h, steps)
 
     try:
-        limit, reason = limit_near(growth, expected, dt, precision)
-        grows = None if limit is None else growth(beyond * limit, STEPS) > SEEN
-        return {"dt": limit, "reason": reason, "grows": grows}
+        limit = limit_near(growth, expected, dt, precision)
+        if limit.dt is None:
+            return limit
+        return replace(limit, grows_beyond=growth(beyond * limit.dt, STEPS) > SEEN)
     except Unsupported as error:
         return Outcome("unsupported", str(error))
 
@@ -102,21 +82,26 @@ def limit_of_engine_near(
 def growths_of_engine(
     engine: Engine, cases: Sequence[tuple[Array, MassSpringSystem, float]], steps: int
 ) -> dict[str, Array] | Outcome:
-    """The "growth" of pushes in an engine, per step: of each case of rest positions, pushed system, and dt [s]."""
+    """The "growth" of perturbations in an engine, per step: of cases of rest positions, perturbed system, dt [s]."""
     try:
         return {"growth": np.array([growth_of_engine(engine, *case, steps) for case in cases])}
     except Unsupported as error:
         return Outcome("unsupported", str(error))
 
 
-def growth_of_engine(engine: Engine, still: Array, pushed: MassSpringSystem, dt: float, steps: int) -> float:
-    """What becomes of a push in an engine, per step."""
-    simulation = engine.start(pushed, dt)
-    offsets = [pushed.positions - still]
+def growth_of_engine(engine: Engine, rest: Array, perturbed: MassSpringSystem, dt: float, steps: int) -> float:
+    """What becomes of a perturbation in an engine, per step."""
+    simulation = engine.start(perturbed, dt)
+    offsets = [perturbed.positions - rest]
     far = GROWN * np.linalg.norm(offsets[0])
     for _ in range(steps):
         simulation.step()
-        offsets.append(simulation.state()[0] - still)
-        if not np.linalg.norm(offsets[-1]) <= far:  # nor where it is no number: the rest would say no more
+        offsets.append(simulation.state()[0] - rest)
+        if not np.linalg.norm(offsets[-1]) <= far:  # nor where it is not finite: the rest would say no more
             break
     return random_growth(np.array(offsets))
+
+
+def _growth_factor(engine: Engine, rest: Array, system: MassSpringSystem, dt: float) -> float:
+    """Of the engine's own step about rest."""
+    return growth_factor(step_jacobian(engine, replace(system, positions=rest), dt))

@@ -1,7 +1,7 @@
 """The Jacobian of an engine's own step: by the engine's own derivatives where it has them, else by differences.
 
-An engine is a black box that can be started anywhere. From a state pushed one way and the other, one coordinate at a
-time, a step of each says how the step answers: the same matrix that theory makes of a scheme. Needs NumPy only.
+An engine is a black box that can be started anywhere. From a state perturbed one way and the other, one coordinate
+at a time, a step of each says how the step answers: the same matrix that theory makes of a scheme. Needs NumPy only.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from engines.engine import Engine
 from reference.state import Array
 from reference.system import MassSpringSystem
 
-#: A push, as a part of the shortest rest length: second-order differences are best at the cube root of rounding.
-PUSH = float(np.cbrt(np.finfo(float).eps))
+#: A perturbation, as a part of the shortest rest length: differences of second order are best at the cube root of
+#: rounding.
+PERTURBATION = float(np.cbrt(np.finfo(float).eps))
 
 
 @runtime_checkable
@@ -35,7 +36,7 @@ def step_jacobian(engine: Engine, system: MassSpringSystem, dt: float) -> Array:
     """
     free = ~system.fixed
     count = int(free.sum()) * system.dimension
-    push = PUSH * float(system.rest_lengths.min())
+    size = PERTURBATION * float(system.rest_lengths.min())
 
     def after(z: Array) -> Array:
         x, v = system.positions.copy(), system.velocities.copy()
@@ -46,8 +47,8 @@ def step_jacobian(engine: Engine, system: MassSpringSystem, dt: float) -> Array:
         x, v = simulation.state()
         return np.concatenate([x[free], dt * v[free]], axis=None)
 
-    columns = [after(z) - after(-z) for z in push * np.eye(2 * count)]
-    return np.stack(columns, axis=1) / (2 * push)
+    columns = [after(z) - after(-z) for z in size * np.eye(2 * count)]
+    return np.stack(columns, axis=1) / (2 * size)
 
 
 def own_jacobian(engine: Engine, system: MassSpringSystem, dt: float) -> Array | None:

@@ -1,14 +1,15 @@
 """What does a barrier do to the motion, by the lecture's rule and in each engine?
 
 A mass let go at rest on a frictionless circle, at an angle a from its top, slides down and leaves it where
-cos(angle) = (2/3) cos(a): there the circle need no longer push, m v^2/R = m g cos(angle) with v^2 = 2 g R (cos a - cos
-angle). With a tiny push at the top that is cos(angle) = 2/3.
+cos(angle) = (2/3) cos(a): there the circle need give no force any more, m v^2/R = m g cos(angle) with
+v^2 = 2 g R (cos a - cos angle). From the very top, barely perturbed, that is cos(angle) = 2/3.
 
-A rule that takes velocity inwards only, as the lab's does, leaves to the circle what it may do: push. Slide 17's, even
-as it is meant, takes all velocity across the circle: outwards too. Kick-drift moves by h v' with v' = v - h g, so that
-a mass that slides along comes to h^2 (v^2/(2 R) - g cos(angle)) from the circle: it is inside, and by slide 17 held,
-until v^2 = 2 R g cos(angle), where cos(angle) = (1/2) cos(a), whatever the step. Heun and others of second order move
-by h v - h^2 g/2, and are inside as long as they should be: with them both rules are right.
+A rule that takes velocity inwards only, as the lab's does, leaves to the circle what it may do: give a force outwards.
+Slide 17's, even as it is meant, takes all velocity across the circle: outwards too. Semi-implicit Euler, velocities
+first (`kick_drift`), moves by h v' with v' = v - h g, so that a mass that slides along comes to
+h^2 (v^2/(2 R) - g cos(angle)) from the circle: it is inside, and by slide 17 held, until v^2 = 2 R g cos(angle), where
+cos(angle) = (1/2) cos(a), whatever the step. Heun and others of second order move by h v - h^2 g/2, and are inside as
+long as they should be: with them both rules are right.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ import numpy as np
 
 from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import all_steppers, installed_engines
 from reference.conserved import energy
 from reference.lecture.slide_17 import CircleAsMeant
@@ -37,8 +39,8 @@ START, RADIUS, DURATION = 0.1, 1.0, 1.3
 #: Steps [s].
 STEPS = (4e-3, 2e-3, 1e-3, 5e-4)
 
-#: The circle pushes at a step that changes the horizontal velocity by more than this part of g dt.
-PUSH = 1e-4
+#: The circle has given a force in a step that changes the horizontal velocity by more than this part of g dt.
+CONTACT = 1e-4
 
 #: A mass that is this near to the circle in the end [m] has not left it.
 NEAR = 0.01
@@ -75,7 +77,7 @@ class Slide:
 
 
 def slope(circle: Circle, start: float = START) -> MassSpringSystem:
-    """A mass at rest on a circle, at an angle from its top [rad]; high above it the anchor of a spring without pull."""
+    """A mass at rest on a circle, at an angle from its top [rad]; far above it the anchor of a spring without force."""
     centre, anchor = np.array(circle.centre), np.array([0.0, 4 * circle.radius])
     place = circle.radius * np.array([np.sin(start), np.cos(start)])
     return MassSpringSystem(
@@ -101,16 +103,16 @@ def measure(system: MassSpringSystem, motion: Trajectory) -> Slide:
     """
     (circle,) = system.obstacles
     assert isinstance(circle, Circle)
-    gaps = circle.signed_distances(motion.positions[:, 1])[0][:, 0]
+    distances = circle.signed_distances(motion.positions[:, 1])[0][:, 0]
     dt = motion.times[1]
-    pushed = np.flatnonzero(np.abs(np.diff(motion.velocities[:, 1, 0])) > PUSH * -system.gravity[1] * dt)
-    left = len(pushed) > 0 and gaps[-1] > NEAR
-    last = int(pushed[-1]) + 1 if left else len(motion) - 1
+    in_contact = np.flatnonzero(np.abs(np.diff(motion.velocities[:, 1, 0])) > CONTACT * -system.gravity[1] * dt)
+    left = len(in_contact) > 0 and distances[-1] > NEAR
+    last = int(in_contact[-1]) + 1 if left else len(motion) - 1
     x, y = motion.positions[last, 1] - np.array(circle.centre)
     angle = float(np.arctan2(x, y))
     states = motion.states()
     gained = energy(system, states[last]) - energy(system, states[0])
-    return Slide(angle if left else None, angle, float(max(0.0, -gaps[: last + 1].min())), gained)
+    return Slide(angle if left else None, angle, float(max(0.0, -distances[: last + 1].min())), gained)
 
 
 def run(progress: Progress) -> Result:

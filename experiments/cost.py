@@ -2,7 +2,8 @@
 
 Wall time of the stepping alone, on this machine: an engine's inside its own process, and nothing read in between.
 Schemes run as compiled kernels where they can be (one thread), else step by step in Python. Those that treat only the
-damping in a way of their own are left out: without damping they are kick_drift or drift_kick to the bit.
+damping in a way of their own are left out: without damping they are kick_drift or drift_kick, semi-implicit Euler, to
+the bit.
 """
 
 from __future__ import annotations
@@ -15,12 +16,13 @@ from time import perf_counter
 import numpy as np
 
 from engines.process.isolation import EngineStepper, isolated
+from experiments.benchmark.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs.claims import claimed
 from experiments.runs.comparison import finite
 from experiments.runs.environment import processor
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import all_steppers
-from experiments.runs.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from reference.compiled.kernels import advance, arrays_of, compiled, lists, loops_for
 from reference.compiled.tracing import why_not_compiled
 from reference.errors import SolverError
@@ -31,7 +33,7 @@ from reference.scenes import find
 from reference.schemes.catalogue import Scheme
 from reference.simulate import simulate
 from reference.state import Array
-from reference.stepper import SchemeStepper, Stepper, catalogued
+from reference.stepper import SchemeStepper, Stepper
 from reference.system import MassSpringSystem
 from reference.theory.exact import exact
 
@@ -53,7 +55,7 @@ GOAL = 1e-3
 
 @dataclass(frozen=True)
 class Point:
-    """One run: its step [s], wall time [s], and how far its masses are from the truth at the end, at most [m]."""
+    """One run: its step [s], wall time [s], and how far its masses are from the true motion at the end, at most [m]."""
 
     dt: float
     seconds: float
@@ -111,7 +113,7 @@ def steppers() -> Iterator[SchemeStepper | EngineStepper]:
 
 @cache
 def string(masses: int = MASSES[0]) -> MassSpringSystem:
-    """The default string, of so many masses."""
+    """The default string, of a number of masses."""
     return find("string").system({"masses": masses})
 
 
@@ -130,8 +132,8 @@ def scheme(stepper: SchemeStepper) -> Cost:
 
 def engine(stepper: EngineStepper) -> Cost:
     """An engine's cost, measured in a process of its own."""
-    named = stepper.engine.identified_as.get("plain")
-    cost = partial(Cost, stepper, "engine", named)
+    scheme = claimed(stepper.engine)
+    cost = partial(Cost, stepper, "engine", None if scheme is None else scheme.name)
     if stepper.version is None:
         return cost([], Speeds([]), f"unsupported, {stepper.engine.package} is not installed")
     runs = [(dt, _steps(dt)) for dt in DTS]
@@ -140,8 +142,7 @@ def engine(stepper: EngineStepper) -> Cost:
     if isinstance(answer, Outcome):
         return cost([], Speeds([]), f"{answer.ending}, {answer.reason}")
     timings, speeds = answer
-    equations = SpringMotion if named is None else catalogued()[named].equations
-    return cost(points(timings, equations), speeds)
+    return cost(points(timings, SpringMotion if scheme is None else scheme.equations), speeds)
 
 
 def _steps(dt: float) -> int:
@@ -149,12 +150,12 @@ def _steps(dt: float) -> int:
 
 
 def kernel(system: MassSpringSystem, scheme: Scheme, dt: float) -> Callable[[int], None]:
-    """What advances a system by so many steps, as `kernels.advance` does, but for setting up: that is done here."""
+    """What advances a system by a number of steps, as `kernels.advance` does, but for setting up: that is done here."""
     loops = loops_for(scheme, system)
     arrays, joined = arrays_of(system, loops), lists(system, loops)
     values = [arrays[name] for name in (*loops.arrays, "drag")]
-    function = compiled(loops).advance
-    return lambda steps: function(*values, dt, *joined, steps)
+    function, numbers = compiled(loops).advance, loops.program.numbers(dt)
+    return lambda steps: function(*values, *numbers, *joined, steps)
 
 
 def _time_kernel(scheme: Scheme, dt: float) -> Timing:
@@ -174,14 +175,14 @@ def points(timings: Sequence[Timing], equations: EquationsOf) -> list[Point]:
     found = []
     for dt, timing in zip(DTS, timings, strict=True):
         with np.errstate(over="ignore", invalid="ignore"):
-            error = float(np.linalg.norm(timing.positions - truth(equations), axis=1).max())
-        # Further off than the string is long, or no number: it has blown up.
+            error = float(np.linalg.norm(timing.positions - true_end(equations), axis=1).max())
+        # Further off than the string is long, or not finite: it has blown up.
         found.append(Point(dt, timing.seconds, error if error < string().size else np.inf))
     return found
 
 
 @cache
-def truth(equations: EquationsOf) -> Array:
+def true_end(equations: EquationsOf) -> Array:
     """Where the string is at the end [m]; that of rods where an engine's segments are rigid."""
     return exact(string(), DURATION, 1, equations=equations).positions[-1]
 
@@ -204,7 +205,7 @@ def _summary(costs: Sequence[Cost]) -> Table:
 
 
 def anchor(costs: Sequence[Cost], masses: int | None = None) -> float:
-    """Wall time of a step of the anchor [s]: on the string of the runs, or on one of so many masses."""
+    """Wall time of a step of the anchor [s]: on the string of the runs, or on one of that many masses."""
     (cost,) = [c for c in costs if c.stepper.name == ANCHOR]
     if masses is not None:
         return 1 / dict(cost.steps_per_second)[masses]
@@ -239,7 +240,7 @@ def _findings(costs: Sequence[Cost]) -> list[str]:
         if met:
             seconds, dt, cost = min(met, key=lambda m: m[:2])
             sentences.append(
-                f"The cheapest {what} that ends within {GOAL:g} m of the truth is {cost.stepper.name}, with "
+                f"The cheapest {what} that ends within {GOAL:g} m of the true motion is {cost.stepper.name}, with "
                 f"dt = {dt:g} s: {1e3 * seconds:.2g} ms for {DURATION:g} s of motion."
             )
     sentences.append(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import Comparison, Run, compare, finite
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import default_steppers
 from reference.scenes import Setup, find
 from reference.state import Array
@@ -39,8 +39,8 @@ def _findings(comparison: Comparison) -> list[str]:
         f"{len(named)} of {len(engines)} engine settings are identified: each follows a scheme of the catalogue to "
         f"{worst.identification.error:.1e} m or better, though {furthest.stepper.name} is up to "
         f"{_error(furthest):.1e} m from the true motion.",
-        "What separates an engine from the truth is its scheme at this dt: rounding, and what else an engine might "
-        f"do, comes to {worst.identification.error:.1e} m at most.",
+        "What separates an engine from the true motion is its scheme at this dt: rounding, and what else an engine "
+        f"might do, comes to {worst.identification.error:.1e} m at most.",
     ]
     strangers = [r.stepper.name for r in engines if not r.identification.identified_as]
     if strangers:

@@ -20,8 +20,8 @@ import numpy as np
 
 from engines.engine import Engine, demands, registry, version
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs.progress import Progress
 from experiments.runs.runner import answer, current
-from experiments.runs.side_by_side import Progress
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.scenes.drape import STANDARD_GRAVITY, disc

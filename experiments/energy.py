@@ -1,7 +1,7 @@
 """What does each stepper do to energy and momentum, which physics keeps?
 
-An undamped string swings for a long time: its energy should stay. A string that nothing holds and nothing pulls at
-should keep its momentum and its angular momentum.
+An undamped string swings for a long time: its energy should stay. A free string without gravity should keep its
+momentum and its angular momentum.
 """
 
 from __future__ import annotations
@@ -15,10 +15,11 @@ import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress, identify_start, scheme_of, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import all_steppers
 from reference.conserved import angular_momentum, energy, momentum
-from reference.identification import candidates
+from reference.identification import candidates, identify_beginning, scheme_of
 from reference.motion import EquationsOf
 from reference.outcome import Outcome, first_diverged_frame
 from reference.pendulum import PendulumMotion
@@ -38,13 +39,13 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 STRING: Mapping[str, float] = {"masses": 3, "stiffness": 10, "angle": 60}
 DT, DURATION = 5e-3, 20.0
 
-#: Every so many steps the energy is looked at.
+#: The energy is looked at once in this many steps.
 EVERY = 8
 
-#: The run is cut into so many parts, to see a trend in.
+#: How many parts the run is cut into, to see a trend in.
 PARTS = 10
 
-#: So many steps tell which scheme a stepper is.
+#: How many steps tell which scheme a stepper is.
 IDENTIFYING_STEPS = 200
 
 #: How long the free string flies [s], and how fast its masses are thrown [m/s].
@@ -99,7 +100,7 @@ class Bench:
 
     Attributes:
         system: the undamped string.
-        at_rest: how it would hang still, by either's equations of motion.
+        at_rest: how it would hang still, by each of the equations of motion.
         known: the catalogue's trajectories, to identify others by.
         free: the string that nothing holds.
     """
@@ -139,7 +140,7 @@ def free_string(system: MassSpringSystem) -> MassSpringSystem:
 def measure(stepper: Stepper, on: Bench) -> Row:
     """One stepper on both strings."""
     outcome = stepper.run(on.system, DT, round(DURATION / DT))
-    identification = identify_start(stepper, outcome, on.system, on.known)
+    identification = identify_beginning(stepper.name, outcome, on.system, on.known)
     scheme = scheme_of(stepper, identification)
     predicted = None if scheme is None else predicted_kind(scheme, on.at_rest[scheme.equations])
     times, errors = energy_errors(on.system, outcome.trajectory)
@@ -177,14 +178,13 @@ def predicted_kind(scheme: SchemeStepper, at_rest: Equilibrium) -> Kind:
 def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tuple[Array, Array]:
     """Times [s], and energies less that at the start, as a part of the energy that falling to rest would release.
 
-    Up to where the string is torn: what is further is no string any more.
+    Up to where it diverges: what comes after is not the motion of a string any more.
     """
     if trajectory is None:
         return np.zeros(0), np.zeros(0)
     whole = slice(0, first_diverged_frame(system, trajectory, stretch_ratio=100.0), EVERY)
-    states = map(State, trajectory.times[whole].tolist(), trajectory.positions[whole], trajectory.velocities[whole])
     with np.errstate(over="ignore"):
-        energies = np.array([energy(system, state) for state in states])
+        energies = np.array([energy(system, state) for state in trajectory.frames(whole).states()])
     released = energy(system, system.start) - energy(system, hanging_string(system))
     return trajectory.times[whole], (energies - energy(system, system.start)) / released
 

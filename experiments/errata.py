@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.identification import identify
 from reference.lecture.listings import Links, StringConstants, derivatives, force_from_next, listings
 from reference.lecture.slide_17 import CircleAsMeant, CircleAsPrinted

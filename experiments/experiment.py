@@ -7,11 +7,11 @@ import importlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.errors import unknown_name
+from reference.registry import Registry
 
 #: The experiments, in the order they are shown; each is the module experiments.NAME.
 NAMES = (
@@ -42,7 +42,7 @@ class Table:
     Attributes:
         name: what its CSV file is called.
         columns: headings, with the unit in brackets.
-        rows: one value per column; None where there is nothing to say.
+        rows: one value per column; None for an empty cell.
     """
 
     name: str
@@ -79,7 +79,7 @@ class Experiment:
         run: answers it, telling `progress` what it is at.
         in_report: whether `springlab report` runs it unasked.
         timed: whether it measures times, and so must run alone.
-        run_in_full: the same, with more or finer numbers, where that can be had.
+        run_in_full: the same, with more or finer numbers, where there is such a run.
     """
 
     name: str
@@ -93,9 +93,16 @@ class Experiment:
 
 
 def experiments() -> Mapping[str, Experiment]:
-    """All experiments by name. Imports their modules, which import what they need when they run."""
-    modules = {name: importlib.import_module(f"experiments.{name}") for name in NAMES}
-    return MappingProxyType({name: module.EXPERIMENT for name, module in modules.items()})
+    """All experiments by name, in the order of NAMES. Imports their modules, which import what they need when they run.
+
+    Raises:
+        InputError: where two have one name.
+    """
+    known = Registry[Experiment]("experiment", [f"experiments.{name}" for name in NAMES])
+    for name in NAMES:
+        module = importlib.import_module(f"experiments.{name}")
+        known.enter(module.EXPERIMENT.name, module.EXPERIMENT, module.__name__)
+    return known.all()
 
 
 def find(name: str) -> Experiment:

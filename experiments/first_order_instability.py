@@ -13,7 +13,7 @@ import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.scenes import find
 from reference.schemes.catalogue import Scheme
 from reference.schemes.catalogue import find as find_scheme
@@ -31,8 +31,8 @@ DT, DURATION, DRAG = 1e-3, 1.2, 0.02
 #: When the string is drawn [s].
 TIMES = (0.0, 0.15, 0.3, 0.45, 0.6, 0.75, 0.9, 1.05, 1.2)
 
-#: How hard the hanging string is pushed [m], and for how many steps it is watched.
-PUSH, PUSHED_STEPS = 1e-9, 500
+#: How much the hanging string is perturbed [m], and for how many steps it is watched.
+PERTURBATION, PERTURBED_STEPS = 1e-9, 500
 
 #: On the swinging string the fastest mode's growth is fitted between these sizes [m]: it is more by then than what the
 #: other modes leak into it, and the string still a string.
@@ -45,16 +45,16 @@ class Fate:
 
     Attributes:
         predicted: by what the fastest mode is multiplied in a step.
-        pushed: the same, measured on the string at rest, pushed a little.
+        perturbed: the same, measured on the string at rest, perturbed a little.
         swinging: the same, measured on the swinging string; None where the mode never grows so large.
         motion: of the swinging string.
-        distance: from the truth [m], one for each time.
-        mode: how large the fastest mode of the difference from the truth is [m], one for each time.
+        distance: from the true motion [m], one for each time.
+        mode: how large the fastest mode of the difference from the true motion is [m], one for each time.
     """
 
     scheme: Scheme
     predicted: float
-    pushed: float
+    perturbed: float
     swinging: float | None
     motion: Trajectory
     distance: Array
@@ -75,10 +75,10 @@ def run(progress: Progress) -> Result:
 
 def result_of(fates: Sequence[Fate], true: Trajectory) -> Result:
     """Fates, and the true motion that they are measured by, as findings and tables."""
-    columns = ["scheme", "growth - 1 in a step, predicted", "measured: pushed", "measured: swinging"]
-    columns += ["predicted: tenfold in [s]", f"distance from the truth at {DURATION:g} s [m]"]
+    columns = ["scheme", "growth - 1 in a step, predicted", "measured: perturbed", "measured: swinging"]
+    columns += ["predicted: tenfold in [s]", f"distance from the true motion at {DURATION:g} s [m]"]
     rows = [
-        [f.scheme.name, *_less_one(f.predicted, f.pushed, f.swinging), tenfold(f.predicted), last(f)] for f in fates
+        [f.scheme.name, *_less_one(f.predicted, f.perturbed, f.swinging), tenfold(f.predicted), last(f)] for f in fates
     ]
     tables = [Table("first_order_instability", columns, rows), _over_time(true, fates)]
     return Result(_findings(fates), tables, {"fates": fates, "true": true})
@@ -89,19 +89,19 @@ def _less_one(*factors: float | None) -> list[float | None]:
 
 
 def fate(system: MassSpringSystem, scheme: Scheme, true: Trajectory) -> Fate:
-    """What becomes of a string under a scheme, compared with the truth at the same times."""
+    """What becomes of a string under a scheme, compared with the true motion at the same times."""
     motion = simulate(system, scheme, DT, DURATION)
     predicted = growth(scheme, spring_equilibrium(system), DT)
     mode = mode_sizes(system, motion, true)
-    return Fate(scheme, predicted, pushed(system, scheme), _fit(mode), motion, motion.distance(true), mode)
+    return Fate(scheme, predicted, perturbed(system, scheme), _fit(mode), motion, motion.distance(true), mode)
 
 
-def pushed(system: MassSpringSystem, scheme: Scheme) -> float:
-    """By what a scheme multiplies a small push of the hanging string, in the shape of its fastest mode."""
+def perturbed(system: MassSpringSystem, scheme: Scheme) -> float:
+    """By what a scheme multiplies a small perturbation of the hanging string, in the shape of its fastest mode."""
     rest = hanging_string(system)
     positions = rest.positions.copy()
-    positions[:, 1] += PUSH * fastest_mode(system)[0]
-    motion = simulate(replace(system, positions=positions), scheme, DT, PUSHED_STEPS * DT)
+    positions[:, 1] += PERTURBATION * fastest_mode(system)[0]
+    motion = simulate(replace(system, positions=positions), scheme, DT, PERTURBED_STEPS * DT)
     return _factor(mode_sizes(system, motion, Trajectory.of([rest])))
 
 
@@ -134,9 +134,9 @@ def mode_sizes(system: MassSpringSystem, motion: Trajectory, true: Trajectory) -
 def _lengths_and_rates(system: MassSpringSystem, motion: Trajectory) -> tuple[Array, Array]:
     """Of all springs at all times, each of shape (times, springs): [m] and [m/s]."""
     a, b = system.springs.T
-    gap, relative = (q[:, b] - q[:, a] for q in (motion.positions, motion.velocities))
-    length = np.linalg.norm(gap, axis=2)
-    return length, (gap * relative).sum(axis=2) / length
+    separation, relative = (q[:, b] - q[:, a] for q in (motion.positions, motion.velocities))
+    length = np.linalg.norm(separation, axis=2)
+    return length, (separation * relative).sum(axis=2) / length
 
 
 def _fit(sizes: Array) -> float | None:
@@ -161,12 +161,12 @@ def tenfold(factor: float) -> float | None:
 
 
 def last(fate: Fate) -> float | None:
-    """How far it is from the truth at the end [m]; None where it is nowhere."""
+    """How far it is from the true motion at the end [m]; None where that is not finite."""
     return finite(float(fate.distance[-1]))
 
 
 def _over_time(true: Trajectory, fates: Sequence[Fate]) -> Table:
-    measures = {"distance from the truth": "distance", "its fastest mode": "mode"}
+    measures = {"distance from the true motion": "distance", "its fastest mode": "mode"}
     columns = ["time [s]", *(f"{fate.scheme.name}: {what} [m]" for fate in fates for what in measures)]
     rows = [
         [time, *(finite(float(getattr(f, name)[i])) for f in fates for name in measures.values())]
@@ -180,7 +180,7 @@ def _findings(fates: Sequence[Fate]) -> list[str]:
 
 
 def _ends(fates: Sequence[Fate]) -> str:
-    ends = [f"{f.scheme.name} {'no number' if last(f) is None else f'{last(f):.2g} m'}" for f in fates]
+    ends = [f"{f.scheme.name} {'not a finite number' if last(f) is None else f'{last(f):.2g} m'}" for f in fates]
     return (
         f"With dt = {DT:g} s and a drag of {DRAG:g} N s/m the distances from the true motion after {DURATION:g} s are: "
         f"{', '.join(ends)}."
@@ -193,7 +193,7 @@ def _grows(fate: Fate) -> str:
     swinging = "" if fate.swinging is None else f", and {fate.swinging:.4f} on the swinging one"
     return (
         f"{fate.scheme.name} is predicted to multiply the fastest mode by {fate.predicted:.5f} in a step, {fortune}; "
-        f"measured: {fate.pushed:.5f} on the hanging string, pushed a little{swinging}."
+        f"measured: {fate.perturbed:.5f} on the hanging string, perturbed a little{swinging}."
     )
 
 

@@ -16,15 +16,16 @@ import numpy as np
 
 from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import all_steppers
 from reference.changes import Driven, whole_steps
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.scenes.crossing import Crossing
-from reference.scenes.ground_motion import GroundMotion, Sweep
+from reference.scenes.ground_motion import FrequencySweep, GroundMotion
 from reference.state import Array, Trajectory
-from reference.stepper import Stepper, catalogued
+from reference.stepper import Stepper, stepper_named
 from reference.system import MassSpringSystem
 
 #: Who is shown: the schemes that the engines are, and the engines.
@@ -35,7 +36,7 @@ DT = 4e-3
 
 #: The bridge that is shaken, up and down, and how.
 SHAKEN = {"on": "rock", "axis": "y", "damping": 8e4, "panels": 6}
-SWEEP = Sweep(0.8, 2.0, 0.1, 20.0, direction=(0.0, 1.0))
+SWEEP = FrequencySweep(0.8, 2.0, 0.1, 20.0, direction=(0.0, 1.0))
 
 #: How fast the truck goes [m/s].
 SPEEDS = (2.5, 10.0, 40.0)
@@ -60,7 +61,7 @@ def run(progress: Progress) -> Result:
     """The schemes that engines are, then the engines, on the same bridges."""
     known = all_steppers()
     engines = [s for s in (known[name] for name in ENGINES) if isinstance(s, EngineStepper)]
-    schemes = {name: catalogued()[name] for e in engines for name in claims(e)}
+    schemes = {name: stepper_named(name) for e in engines for name in claims(e)}
     ends: dict[str, list[Outcome]] = {
         stepper.name: found for stepper, found in side_by_side([*schemes.values(), *engines], outcomes, progress)
     }

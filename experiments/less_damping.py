@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.conserved import energy
 from reference.scenes import find
 from reference.state import Array, Trajectory

@@ -1,4 +1,4 @@
-"""Where in a plane of two parameters do pushes grow, and is that where theory says?"""
+"""Where in a plane of two parameters do perturbations grow, and is that where theory says?"""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from functools import partial
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
+from experiments.limits.stability_map import StabilityMap, stability_map
 from experiments.runs.map_axes import axes_for, system_maker
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import all_steppers
-from experiments.stability_map import StabilityMap, stability_map
 from reference.errors import InputError
 from reference.state import Array
 
@@ -27,7 +27,7 @@ MAPS = (
 SURE = 5e-3
 
 
-#: In full, maps have so many times the points along each axis.
+#: In full, maps have this many times the points along each axis.
 FINER = 4
 
 
@@ -93,7 +93,7 @@ def _findings(maps: Sequence[StabilityMap]) -> list[str]:
 EXPERIMENT = Experiment(
     name="maps",
     title="Maps of stability",
-    question="Where in a plane of dt and damping do pushes grow, and is that where theory says?",
+    question="Where in a plane of dt and damping do perturbations grow, and is that where theory says?",
     slides="12, 15",
     run=run,
     run_in_full=partial(run, finer=FINER),

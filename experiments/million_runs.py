@@ -15,18 +15,18 @@ from typing import Any, Literal
 from engines.process.isolation import isolated
 from engines.process.supervisor import supervisor
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.cluster import PORTION
-from experiments.runs.side_by_side import Progress
+from experiments.runs.cluster import BATCH_SECONDS
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import all_steppers, installed_engines
 from experiments.runs.store import Store
-from experiments.runs.sweeps import Sweep
-from experiments.runs.task import Job
+from experiments.runs.sweeps import ParameterSweep
+from experiments.runs.task import Task
 from reference.stepper import Stepper
 
 #: The sweep, and the cores it is thought to run on.
 RUNS, CORES = 1_000_000, (2, 100, 1000)
 
-#: Runs of each kind that are timed, and jobs that are handed out and kept.
+#: Runs of each kind that are timed, and tasks that are handed out and kept.
 TIMED, HANDED = 20, 500
 
 
@@ -43,12 +43,12 @@ class Hand:
     """Something that the one process at the top does, and what it takes [s], measured.
 
     Attributes:
-        where: at every run, at one on this machine's cores, or at a portion of runs for a cluster's worker.
+        where: at every run, at one on this machine's cores, or at a batch of runs for a cluster's worker.
     """
 
     name: str
     seconds: float
-    where: Literal["always", "on this machine", "on a cluster, a portion"] = "always"
+    where: Literal["always", "on this machine", "on a cluster, a batch"] = "always"
 
 
 def run(progress: Progress) -> Result:
@@ -59,9 +59,7 @@ def run(progress: Progress) -> Result:
     hands, size = _hands()
     progress("a cluster")
     dask = _dask()
-    hands += (
-        [] if dask is None else [Hand("a portion of runs to a Dask worker and back", dask, "on a cluster, a portion")]
-    )
+    hands += [] if dask is None else [Hand("a batch of runs to a Dask worker and back", dask, "on a cluster, a batch")]
     failures = [] if dask is not None else ["Dask: not installed; expected the extra springlab[cluster]"]
     return result_of(kinds, hands, size, failures)
 
@@ -80,7 +78,7 @@ def serial(kind: Kind, hands: Sequence[Hand], cores: int) -> float:
     """What the process at the top does for a run, one after another [s]; beyond this machine's cores through Dask."""
     if cores <= (os.cpu_count() or 1):
         return sum(hand.seconds for hand in hands if hand.where in ("always", "on this machine"))
-    shares = {"always": 1.0, "on this machine": 0.0, "on a cluster, a portion": min(1.0, kind.seconds / PORTION)}
+    shares = {"always": 1.0, "on this machine": 0.0, "on a cluster, a batch": min(1.0, kind.seconds / BATCH_SECONDS)}
     return sum(shares[hand.where] * hand.seconds for hand in hands)
 
 
@@ -105,45 +103,45 @@ def _one_of_each() -> list[Stepper]:
 
 def _seconds_of_run(stepper: Stepper, identify: bool = False, afresh: bool = False, runs: int = TIMED) -> float:
     """The mean of some runs on strings of different stiffness, in a process that has run one before."""
-    jobs = list(islice(_jobs(stepper, identify), runs + 1))
-    _do(jobs.pop())
+    tasks = list(islice(_tasks(stepper, identify), runs + 1))
+    _do(tasks.pop())
     begin = perf_counter()
-    for job in jobs:
+    for task in tasks:
         if afresh:
             supervisor().stop()
-        _do(job)
-    return (perf_counter() - begin) / len(jobs)
+        _do(task)
+    return (perf_counter() - begin) / len(tasks)
 
 
-def _jobs(stepper: Stepper, identify: bool = False) -> Iterator[Job]:
+def _tasks(stepper: Stepper, identify: bool = False) -> Iterator[Task]:
     for stiffness in count(150.0, 0.01):
-        yield from Sweep("string", [stepper], {"stiffness": [stiffness]}, {}, identify=identify).jobs()
+        yield from ParameterSweep("string", [stepper], {"stiffness": [stiffness]}, {}, identify=identify).tasks()
 
 
-def _do(job: Job) -> Any:
-    return isolated(job.task, *job.arguments, time_limit=job.time_limit, memory_limit=job.memory_limit)
+def _do(task: Task) -> Any:
+    return isolated(task.function, *task.arguments, time_limit=task.time_limit, memory_limit=task.memory_limit)
 
 
 def _hands() -> tuple[list[Hand], float]:
     """What the process at the top does for a run, and the bytes that a run takes in the store."""
-    waiting = _jobs(all_steppers()["heun"])
+    waiting = _tasks(all_steppers()["heun"])
     answer = _do(next(waiting))
     with tempfile.TemporaryDirectory(prefix="springlab-") as folder:
         store = Store(Path(folder) / "store.sqlite")
-        making, jobs = _mean(lambda: next(waiting))
-        steps: Mapping[str, Callable[[Job], Any]] = {
-            "its key": lambda job: job.key,
+        making, tasks = _mean(lambda: next(waiting))
+        steps: Mapping[str, Callable[[Task], Any]] = {
+            "its key": lambda task: task.key,
             "looking it up in the store": store.find,
-            "keeping its answer": lambda job: store.keep(job, answer, 0.0),
+            "keeping its answer": lambda task: store.keep(task, answer, 0.0),
         }
-        hands = [Hand("making the job", making)]
+        hands = [Hand("making the task", making)]
         for name, step in steps.items():
-            left = iter(jobs)
+            left = iter(tasks)
             hands.append(Hand(name, _mean(lambda step=step, left=left: step(next(left)))[0]))  # type: ignore[misc]
-        there, _ = _mean(lambda: isolated(_nothing, jobs[0].arguments))
-        hands.append(Hand("a job to a process and back", there, "on this machine"))
+        there, _ = _mean(lambda: isolated(_nothing, tasks[0].arguments))
+        hands.append(Hand("a task to a process and back", there, "on this machine"))
         store.close()
-        return hands, store.file.stat().st_size / len(jobs)
+        return hands, store.file.stat().st_size / len(tasks)
 
 
 def _mean(task: Callable[[], Any]) -> tuple[float, list[Any]]:
@@ -155,22 +153,22 @@ def _mean(task: Callable[[], Any]) -> tuple[float, list[Any]]:
 
 
 def _nothing(arguments: tuple[Any, ...]) -> int:
-    """What is left of a job when there is nothing to do."""
+    """What is left of a task when there is nothing to do."""
     return len(arguments)
 
 
 def _dask() -> float | None:
-    """Seconds that a scheduler and its client need for a job with nothing to do, many of them under way at once."""
+    """Seconds that a scheduler and its client need for a task with nothing to do, many of them under way at once."""
     try:
         dask: Any = importlib.import_module("distributed")
     except ImportError:
         return None
     local = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": None, "host": "127.0.0.1"}
     with dask.LocalCluster(**local) as cluster, dask.Client(cluster) as client:
-        job = next(_jobs(all_steppers()["heun"]))
-        client.submit(_nothing, job.arguments, pure=False).result()
+        task = next(_tasks(all_steppers()["heun"]))
+        client.submit(_nothing, task.arguments, pure=False).result()
         begin = perf_counter()
-        client.gather([client.submit(_nothing, job.arguments, pure=False) for _ in range(HANDED)])
+        client.gather([client.submit(_nothing, task.arguments, pure=False) for _ in range(HANDED)])
         return (perf_counter() - begin) / HANDED
 
 
@@ -209,7 +207,7 @@ def _findings(kinds: Sequence[Kind], hands: Sequence[Hand], size: float) -> list
         f"{1e3 * slowest.seconds:.0f} ms ({slowest.name}): a million are predicted to take "
         f"{in_words(predicted(fastest, hands, few))} to {in_words(predicted(slowest, hands, few))} on {few} cores, and "
         f"{in_words(predicted(fastest, hands, many))} to {in_words(predicted(slowest, hands, many))} on {many:,}.",
-        f"The bottleneck is then the one process that hands out jobs and keeps answers: it needs "
+        f"The bottleneck is then the one process that hands out tasks and keeps answers: it needs "
         f"{1e3 * serial(fastest, hands, many):.2g} ms for each, so that beyond {helping[fastest.name]} cores for the "
         f"quickest kind of run, and {helping[slowest.name]} for the slowest, more are predicted to help no more. The "
         f"largest part of that is {most.name}.",

@@ -1,6 +1,6 @@
 """Does it matter how masses and springs are numbered?
 
-Numbers are names, not physics: under other names a string moves as before. A stepper that says otherwise goes through
+Numbers are labels, not physics: numbered otherwise a string moves as before. A stepper that says otherwise goes through
 masses or springs one after the other, and looks at what it has already changed.
 """
 
@@ -14,20 +14,23 @@ import numpy as np
 from engines.process.isolation import EngineStepper
 from engines.pymunk.springs import PymunkSprings
 from experiments.experiment import Experiment, Result, Table
+from experiments.runs.claims import claimed
 from experiments.runs.comparison import finite
-from experiments.runs.permutation import CHANGES, Renamed, differences
+from experiments.runs.permutation import CHANGES, PermutationEffects, permutation_effects
+from experiments.runs.progress import Progress
 from experiments.runs.runner import answer, current
-from experiments.runs.side_by_side import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import default_steppers
 from reference.identification import TOLERANCE
 from reference.scenes import find
 from reference.schemes.catalogue import Scheme
-from reference.stepper import SchemeStepper, Stepper, catalogued
+from reference.stepper import SchemeStepper, Stepper
 from reference.system import MassSpringSystem
+from reference.theory.gauss_seidel import convergence_factor
 
 DT, STEPS = 1e-3, 200
 
-#: Of the springs [N s/m]: so much that in a step a spring alone gives up 0.39 of its lengthening rate; and none.
+#: Of the springs [N s/m]: with 5, a spring alone gives up 0.39 of its elongation rate in a step; and none.
 DAMPINGS = (5.0, 0.0)
 
 #: Rounds of sequential impulses in a step of Pymunk, and the dampings they are tried with [N s/m].
@@ -43,7 +46,7 @@ ROUNDING = TOLERANCE
 
 @dataclass(frozen=True)
 class Row:
-    """One stepper on one string: whose order is predicted to show, and what each change of names changes.
+    """One stepper on one string: whose order is predicted to show, and what each permutation changes.
 
     Attributes:
         damping: of the springs [N s/m].
@@ -53,7 +56,7 @@ class Row:
     stepper: Stepper
     damping: float
     predicted: frozenset[str] | None
-    renamed: Renamed
+    effects: PermutationEffects
 
 
 @dataclass(frozen=True)
@@ -74,15 +77,14 @@ class Convergence:
 
 
 def run(progress: Progress) -> Result:
-    """Every stepper under other names, and Pymunk with more and more rounds."""
+    """Every stepper on the string numbered otherwise, and Pymunk with more and more rounds."""
     with current().threads() as pool:
         rounds = pool.submit(_pymunk_rounds)
-        engines = {s.name: pool.submit(renamed_by, s) for s in steppers() if isinstance(s, EngineStepper)}
-        rows = []
-        for stepper in steppers():
-            progress(stepper.name)
-            renamed = engines[stepper.name].result() if stepper.name in engines else renamed_by(stepper)
-            rows += [Row(stepper, c, predicted(stepper, c), r) for c, r in zip(DAMPINGS, renamed, strict=True)]
+        rows = [
+            Row(stepper, damping, predicted(stepper, damping), of_damping)
+            for stepper, effects in side_by_side(steppers(), effects_on, progress)
+            for damping, of_damping in zip(DAMPINGS, effects, strict=True)
+        ]
         progress("Pymunk's rounds")
         convergences = rounds.result()
     return result_of(rows, convergences)
@@ -96,7 +98,7 @@ def result_of(rows: Sequence[Row], convergences: Sequence[Convergence]) -> Resul
 
 
 def steppers() -> list[Stepper]:
-    """Schemes and engines. The lecture's listings know nothing but links in their order."""
+    """Schemes and engines. The lecture's listings know only links in their order."""
     return [stepper for stepper in default_steppers() if stepper.kind != "lecture"]
 
 
@@ -106,13 +108,13 @@ def string(damping: float) -> MassSpringSystem:
 
 
 def rounding() -> float:
-    """A difference [m] that is none."""
+    """A difference [m] that may be rounding."""
     return ROUNDING * string(0.0).size
 
 
-def renamed_by(stepper: Stepper) -> list[Renamed]:
-    """A stepper under every change of names, for each of DAMPINGS."""
-    return [differences(lambda s: stepper.run(s, DT, STEPS), string(damping)) for damping in DAMPINGS]
+def effects_on(stepper: Stepper) -> list[PermutationEffects]:
+    """What every permutation changes for a stepper, for each of DAMPINGS."""
+    return [permutation_effects(lambda s: stepper.run(s, DT, STEPS), string(damping)) for damping in DAMPINGS]
 
 
 def predicted(stepper: Stepper, damping: float) -> frozenset[str] | None:
@@ -122,13 +124,13 @@ def predicted(stepper: Stepper, damping: float) -> frozenset[str] | None:
         return None
     if scheme.kind == "in_place":
         return frozenset({"masses"})
-    return frozenset({"springs"}) if scheme.name in SPRING_AFTER_SPRING and damping else frozenset()
+    return frozenset({"springs"}) if scheme.step.__name__ in SPRING_AFTER_SPRING and damping else frozenset()
 
 
 def _scheme(stepper: Stepper, damping: float) -> Scheme | None:
     if isinstance(stepper, EngineStepper):
-        named = stepper.engine.identified_as.get("damping" if damping else "plain")
-        return None if named is None else catalogued()[named].scheme
+        known = claimed(stepper.engine, "damping" if damping else "plain")
+        return None if known is None else known.scheme
     assert isinstance(stepper, SchemeStepper)
     return stepper.scheme
 
@@ -140,7 +142,8 @@ def _pymunk_rounds() -> list[Convergence]:
 
 def reversal(stepper: Stepper, damping: float) -> float:
     """What reversing the springs of a string changes [m]; NaN where it cannot be run."""
-    return differences(lambda s: stepper.run(s, DT, STEPS), string(damping)).distances.get("springs reversed", np.nan)
+    effects = permutation_effects(lambda s: stepper.run(s, DT, STEPS), string(damping))
+    return effects.distances.get("springs reversed", np.nan)
 
 
 def convergence(damping: float, distances: Sequence[float]) -> Convergence:
@@ -151,28 +154,7 @@ def convergence(damping: float, distances: Sequence[float]) -> Convergence:
     if len(settled) > 1:
         n, d = np.array(settled).T
         measured = float(np.exp(np.polyfit(n, np.log(d), 1)[0]))
-    return Convergence(damping, distances, gauss_seidel(system, DT), measured)
-
-
-def gauss_seidel(system: MassSpringSystem, dt: float) -> float:
-    """What a round of sequential impulses leaves of what is missing, while the springs point as they do at the start.
-
-    A round is one of Gauss and Seidel's iteration for the springs' impulses p, (A + D) p = -J v. A = J M^-1 J^T is what
-    they do to one another's lengthening rates; with its damping D the diagonal is 1 / (m' (1 - exp(-dt c / m'))), m' a
-    spring's effective mass. Springs in line do most to one another. (Golub and Van Loan, *Matrix Computations*, 11.2.)
-    """
-    from reference.schemes.implicit_damping import effective_masses, spring_directions
-
-    count, (a, b) = np.arange(len(system.springs)), system.springs.T
-    rates = np.zeros((len(system.springs), *system.positions.shape))
-    rates[count, b] = spring_directions(system, system.start)
-    rates[count, a] = -rates[count, b]
-    rates[:, system.fixed] = 0.0
-    mutual = np.einsum("jnd,knd,n->jk", rates, rates, 1 / system.masses)
-    mass = effective_masses(system)
-    mutual[count, count] = -1 / (mass * np.expm1(-dt * system.damping / mass))
-    lower = np.tril(mutual)
-    return float(np.abs(np.linalg.eigvals(np.linalg.solve(lower, lower - mutual))).max())
+    return Convergence(damping, distances, convergence_factor(system, DT), measured)
 
 
 def _table(damping: float, rows: Sequence[Row]) -> Table:
@@ -180,8 +162,8 @@ def _table(damping: float, rows: Sequence[Row]) -> Table:
     columns = ["stepper", "predicted: order shows of", "measured: order shows of", *(f"{c} [m]" for c in CHANGES)]
     cells = []
     for row in rows:
-        seen = None if row.renamed.reasons else names(row.renamed.sees(rounding()))
-        distances = [finite(row.renamed.distances.get(change)) for change in CHANGES]
+        seen = None if row.effects.reasons else names(row.effects.depends_on(rounding()))
+        distances = [finite(row.effects.distances.get(change)) for change in CHANGES]
         cells.append([row.stepper.name, names(row.predicted), seen, *distances])
     return Table(f"numbering_damping_{damping:g}", columns, cells)
 
@@ -204,27 +186,27 @@ def _rounds_table(convergences: Sequence[Convergence]) -> Table:
 
 
 def _findings(rows: Sequence[Row], convergences: Sequence[Convergence]) -> list[str]:
-    ran = [row for row in rows if not row.renamed.reasons]
-    blind = [row for row in ran if not row.renamed.sees(rounding())]
+    ran = [row for row in rows if not row.effects.reasons]
+    blind = [row for row in ran if not row.effects.depends_on(rounding())]
     sentences = [
-        f"In {len(blind)} of {len(ran)} runs it does not matter how masses and springs are numbered: other names "
+        f"In {len(blind)} of {len(ran)} runs it does not matter how masses and springs are numbered: other numbers "
         f"change the motion by {_largest(blind):.1e} m at most, which is rounding."
     ]
     for change, whose in CHANGES.items():
-        seen = [row for row in ran if whose in row.renamed.sees(rounding())]
+        seen = [row for row in ran if whose in row.effects.depends_on(rounding())]
         if seen:
-            distances = [row.renamed.distances[change] for row in seen]
+            distances = [row.effects.distances[change] for row in seen]
             sentences.append(f"With {change} {_list(seen)} differ by {min(distances):.1e} to {max(distances):.1e} m.")
     known = [row for row in ran if row.predicted is not None]
-    wrong = [row for row in known if row.renamed.sees(rounding()) != row.predicted]
+    wrong = [row for row in known if row.effects.depends_on(rounding()) != row.predicted]
     sentences.append(
         f"Whose order shows is as predicted from the scheme in {len(known) - len(wrong)} of {len(known)} runs"
         + (f"; not for {_list(wrong)}." if wrong else ".")
     )
-    partly = [row for row in rows if row.renamed.reasons and row.renamed.tried]
+    partly = [row for row in rows if row.effects.reasons and row.effects.permuted]
     if partly:
         sentences.append(
-            f"{_list(partly)} take a string in its own order only; what they can run under other names "
+            f"{_list(partly)} take a string in its own order only; what they can run numbered otherwise "
             f"({_tried(partly)}) differs by {_largest(partly):.1e} m."
         )
     return sentences + [_rounds_finding(c) for c in convergences if c.measured is not None]
@@ -235,11 +217,11 @@ def _list(rows: Sequence[Row]) -> str:
 
 
 def _tried(rows: Sequence[Row]) -> str:
-    return ", ".join(dict.fromkeys(change for row in rows for change in row.renamed.distances))
+    return ", ".join(dict.fromkeys(change for row in rows for change in row.effects.distances))
 
 
 def _largest(rows: Sequence[Row]) -> float:
-    return max((d for row in rows for d in row.renamed.distances.values()), default=0.0)
+    return max((d for row in rows for d in row.effects.distances.values()), default=0.0)
 
 
 def _rounds_finding(c: Convergence) -> str:
@@ -253,7 +235,7 @@ def _rounds_finding(c: Convergence) -> str:
 
 
 def _failures(rows: Sequence[Row]) -> list[str]:
-    failures = [f"{row.stepper.name}, {what}: {why}" for row in rows for what, why in row.renamed.reasons.items()]
+    failures = [f"{row.stepper.name}, {what}: {why}" for row in rows for what, why in row.effects.reasons.items()]
     return list(dict.fromkeys(failures))
 
 

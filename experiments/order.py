@@ -14,11 +14,12 @@ import numpy as np
 from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress, identify_start, scheme_of, side_by_side
-from experiments.runs.step_size_series import engine_ladder
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
+from experiments.runs.step_size_series import engine_series
 from experiments.runs.steppers import all_steppers
 from reference.forces import SpringMotion
-from reference.identification import candidates
+from reference.identification import candidates, identify_beginning, scheme_of
 from reference.motion import EquationsOf
 from reference.outcome import Outcome
 from reference.scenes import find
@@ -56,7 +57,7 @@ class Bench:
     Attributes:
         name: what resists its motion.
         system: the string.
-        true: where it truly is at the end, by either's equations of motion.
+        true: where it truly is at the end, by each of the equations of motion.
         known: the catalogue's trajectories, to identify others by.
     """
 
@@ -134,11 +135,11 @@ def measure(stepper: Stepper, benches: Sequence[Bench]) -> Row:
     """One stepper on the first bench that it can run on."""
     refused = []
     for on in benches:
-        outcomes = _ladder(stepper, on.system)
+        outcomes = _series(stepper, on.system)
         if any(outcome.ending != "unsupported" for outcome in outcomes):
             break
         refused.append(outcomes[0].reason)
-    identification = identify_start(stepper, outcomes[IDENTIFYING], on.system, on.known)
+    identification = identify_beginning(stepper.name, outcomes[IDENTIFYING], on.system, on.known)
     scheme = scheme_of(stepper, identification)
     errors = _distances(outcomes, on.true[scheme.equations if scheme else SpringMotion])
     fitted = straight(errors, on.rounding)
@@ -156,9 +157,9 @@ def measure(stepper: Stepper, benches: Sequence[Bench]) -> Row:
 def straight(errors: Array, rounding: float) -> slice | None:
     """Where errors [m], of dt halved again and again, fall as a power of dt; None where they nowhere do.
 
-    Errors up to `rounding` [m] are left out, and what is no number. Of the rest it is the longest stretch of three
+    Errors up to `rounding` [m] are left out, and what is not finite. Of the rest it is the longest range of three
     neighbours or more whose slopes from one to the next (log2 of the ratio of their errors) are all within STRAIGHT of
-    one another; of stretches as long, the one with the smallest dt. By theory an error is C dt^p (1 + D dt + ...):
+    one another; of ranges as long, the one with the smallest dt. By theory an error is C dt^p (1 + D dt + ...):
     while D dt shows, and again once rounding does, slopes change from one to the next.
     """
     longest = None
@@ -177,10 +178,10 @@ def fit(dts: Array, errors: Array) -> float:
     return float(np.polyfit(np.log(dts), np.log(errors), 1)[0])
 
 
-def _ladder(stepper: Stepper, system: MassSpringSystem) -> list[Outcome]:
+def _series(stepper: Stepper, system: MassSpringSystem) -> list[Outcome]:
     """The outcomes with each of DTS."""
     if isinstance(stepper, EngineStepper):
-        return engine_ladder(stepper, system, DURATION, STEPS)
+        return engine_series(stepper, system, DURATION, STEPS)
     return [stepper.run(system, DURATION / n, n) for n in STEPS]
 
 
@@ -253,14 +254,14 @@ def _engines_finding(rows: Sequence[Row]) -> list[str]:
     orders = sorted({row.predicted or 0 for row in engines})
     names = {p: ", ".join(row.stepper.name for row in engines if row.predicted == p) for p in orders}
     on_strings = {(row.stepper.name, row.string): row.errors for row in rows}
-    gaps = [
+    distances = [
         float(np.nanmax(np.abs(row.errors - on_strings[row.scheme.name, row.string])))
         for row in engines
         if row.scheme is not None and (row.scheme.name, row.string) in on_strings
     ]
     sentences = [f"Engines of order {p}: {names[p]}." for p in orders]
-    if gaps:
-        sentences.append(f"On the same string their errors are those of their schemes, to {max(gaps):.1e} m.")
+    if distances:
+        sentences.append(f"On the same string their errors are those of their schemes, to {max(distances):.1e} m.")
     return sentences
 
 

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import installed_engines
 from reference.identification import LARGE, Identification, candidates_for, identify_run
 from reference.outcome import Outcome
@@ -19,11 +20,11 @@ from reference.state import Trajectory
 from reference.stepper import Stepper, catalogued
 from reference.system import MassSpringSystem
 
-#: Every engine takes so many steps of a scene, and is identified where a scheme is as near as this [m].
+#: How many steps every engine takes of a scene, and how near a scheme must be for it to be identified [m].
 STEPS, NEAR = 100, 1e-9
 
-#: What no scheme that engines are known for is near to is compared with the whole catalogue, for so many steps: on a
-#: mesh of rods STEPS would take minutes.
+#: For how many steps a run that no engine's scheme is near to is compared with the whole catalogue: on a mesh of rods
+#: STEPS would take minutes.
 FIRST = 20
 
 #: A mass this near to an obstacle, as a part of the system's size, touches it.
@@ -35,7 +36,7 @@ SHOWN_BY, STATES = "heun", 60
 
 @dataclass(frozen=True)
 class Run:
-    """What an engine did on a scene, and what it was there, over so many steps."""
+    """What an engine did on a scene, and which scheme it was there, compared over some steps."""
 
     scene: Scene
     system: MassSpringSystem
@@ -110,8 +111,7 @@ def _known(steppers: Sequence[Stepper], runs: Sequence[Outcome], setup: Setup) -
 def _beginning(outcome: Outcome) -> Outcome:
     """What there was of a run after the first steps."""
     assert outcome.trajectory is not None
-    at, few = outcome.trajectory, slice(FIRST + 1)
-    return replace(outcome, trajectory=Trajectory(at.times[few], at.positions[few], at.velocities[few]))
+    return replace(outcome, trajectory=outcome.trajectory.frames(slice(FIRST + 1)))
 
 
 def motion(setup: Setup) -> Trajectory:
@@ -123,7 +123,7 @@ def thinned(whole: Trajectory) -> Trajectory:
     """About STATES states of a trajectory, the first and the last of them too."""
     last = len(whole) - 1
     kept = [round(i * last / STATES) for i in range(STATES + 1)] if last > STATES else list(range(last + 1))
-    return Trajectory(whole.times[kept], whole.positions[kept], whole.velocities[kept])
+    return whole.frames(kept)
 
 
 def result_of(runs: list[Run], motions: Mapping[str, tuple[MassSpringSystem, Trajectory]]) -> Result:

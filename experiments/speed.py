@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from engines.engine import Engine, registry
 from engines.process.isolation import isolated
+from experiments.benchmark.meshes import LARGE, cases, peak_per_mass, string
+from experiments.benchmark.timing import adapter_overhead, seconds_of
+from experiments.benchmark.tuned import TunedHeun
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.environment import processor
-from experiments.runs.side_by_side import Progress
-from experiments.runs.timing import adapter_overhead
-from experiments.speed_meshes import LARGE, cases, peak_per_mass, string
-from experiments.tuned import TunedHeun
+from experiments.runs.progress import Progress
 from reference.compiled.kernels import Kernel
 from reference.compiled.loops import LANES
 from reference.compiled.sweep import sweep
@@ -30,7 +29,7 @@ from reference.system import MassSpringSystem
 
 DT = 1e-5
 
-#: Every timing is of at least about so many node-steps, and the least of so many rounds.
+#: How many node-steps a timing is of, about, and of how many rounds it is the least.
 WORK, ROUNDS = 4_000_000, 5
 
 
@@ -130,7 +129,7 @@ def _time_kernel(name: str, system: MassSpringSystem, threads: int) -> Timing:
     kernel, tuned = Kernel(system, catalogue.find("heun"), threads), _anchor(system)
     kernel.advance(DT, 1)
     times = [
-        (_seconds(lambda: kernel.advance(DT, steps)), tuned.advance(DT, steps) if tuned else np.inf)
+        (seconds_of(lambda: kernel.advance(DT, steps)), tuned.advance(DT, steps) if tuned else np.inf)
         for _ in range(ROUNDS)
     ]
     ours, theirs = (n * steps / min(column) for column in zip(*times, strict=True))
@@ -148,7 +147,7 @@ def _time_sweep(systems: int, masses: int, threads: int, steps: int = 200) -> Ti
     sweep(system, heun, dt[:LANES], 1, threads=threads)
 
     def seconds(count: int) -> float:
-        return min(_seconds(lambda: sweep(system, heun, dt, count, threads=threads)) for _ in range(2))
+        return min(seconds_of(lambda: sweep(system, heun, dt, count, threads=threads)) for _ in range(2))
 
     speed = systems * masses * steps / (seconds(steps + 1) - seconds(1))
     return Timing(f"sweep of {systems} strings", threads, masses, masses, speed, _anchor_speed(system), None)
@@ -166,7 +165,7 @@ def time_numpy(masses: int = 20) -> Timing:
         for _ in range(steps):
             state = heun(state, DT)
 
-    ours = min(_seconds(stepping) for _ in range(ROUNDS))
+    ours = min(seconds_of(stepping) for _ in range(ROUNDS))
     speed = masses * steps / ours
     return Timing("scheme's own function, string 20", 1, masses, masses, speed, _anchor_speed(system), None)
 
@@ -182,12 +181,6 @@ def _anchor(system: MassSpringSystem) -> TunedHeun | None:
         return TunedHeun(system, as_string=True)
     except Unsupported:
         return None
-
-
-def _seconds(work: Callable[[], object]) -> float:
-    begin = time.perf_counter()
-    work()
-    return time.perf_counter() - begin
 
 
 def _findings(rows: Sequence[Timing]) -> list[str]:

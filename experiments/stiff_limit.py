@@ -10,8 +10,8 @@ from engines.engine import find as find_engine
 from engines.process.isolation import EngineStepper
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
+from experiments.runs.progress import Progress
 from experiments.runs.runner import answer
-from experiments.runs.side_by_side import Progress
 from reference.pendulum import PendulumMotion
 from reference.scenes import find
 from reference.theory.exact import exact

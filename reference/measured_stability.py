@@ -1,9 +1,10 @@
-"""Stability, measured: a stepper is run from a small push, and the push is watched.
+"""Stability, measured: a stepper is run from a small perturbation of rest, and the perturbation is watched.
 
-Two ways, because steppers differ in what can be seen of them. An engine is pushed at random, everywhere, and the mean
-square of what is left is compared between the beginning and the end of the run: no reset, clamp or sleep hides growth
-from so small a push, and nothing of the theory goes in. A scheme can be pushed along its fastest-growing mode and
-watched in that mode alone, so that growth of a millionth in a step is seen in some hundred steps. Needs NumPy only.
+Two ways, because steppers differ in what can be seen of them. An engine is perturbed at random, everywhere, and the
+mean square of what is left is compared between the beginning and the end of the run: no reset, clamp or sleep hides
+growth from so small a perturbation, and nothing of the theory goes in. A scheme can be perturbed along its
+fastest-growing mode and watched in that mode alone, so that growth of a millionth in a step is seen in some hundred
+steps (`theory.measured_mode`). Needs NumPy only.
 """
 
 from __future__ import annotations
@@ -13,21 +14,22 @@ from collections.abc import Callable
 import numpy as np
 
 from reference.bisection import bisect
+from reference.limit import Limit
 from reference.state import Array
 
-#: A push, as a part of the length it is to be small against.
-PUSH = 1e-6
+#: The size of a perturbation, as a part of the length it is to be small against.
+PERTURBATION = 1e-6
 
-#: How long a random push is watched [steps].
+#: How long a random perturbation is watched [steps].
 STEPS = 1200
 
-#: A push that has become so many times as large has grown, whatever stops it then.
+#: A perturbation that is this many times as large as at the start has grown, whatever stops it then.
 GROWN = 100.0
 
-#: Growth in a step that is seen for sure in that time: a doubling between its first and its last quarter.
+#: The least growth in a step that is seen in that time: a doubling between its first and its last quarter.
 SEEN = float(np.log(2) / (0.75 * STEPS))
 
-#: So many times as long is looked below a limit, where growth is seen that is so much less.
+#: How many times as long a run below a limit is: in it, growth is seen that is smaller by the same factor.
 LONGER = 6
 
 #: How near to where it is expected a limit is looked for first, in parts as large as the precision.
@@ -38,8 +40,9 @@ def random_growth(offsets: Array) -> float:
     """Growth in a step, from the mean squares of offsets in the first and the last quarter of a run.
 
     Args:
-        offsets: distances from equilibrium [m], one row per step, the push itself first. Where they are not finite, or
-            GROWN times the push, growth is infinite: what a nonlinear system does after that is another matter.
+        offsets: distances from equilibrium [m], one row per step, the perturbation itself first. Where they are not
+            finite, or GROWN times the perturbation, growth is infinite: what a nonlinear system does after that is
+            another matter.
     """
     with np.errstate(over="ignore", invalid="ignore"):
         power = np.square(offsets.reshape(len(offsets), -1)).mean(axis=1)
@@ -64,8 +67,8 @@ def mode_growth(offsets: Array, mode: Array) -> float:
     return float(np.expm1(slope))
 
 
-def measured_limit(growth: Callable[[float, int], float], dt: float, precision: float) -> tuple[float | None, str]:
-    """The dt [s] up to which a random push does not grow, by doubling, halving and bisection; or None, and why.
+def measured_limit(growth: Callable[[float, int], float], dt: float, precision: float) -> Limit:
+    """Up to which dt a random perturbation does not grow, by doubling, halving and bisection.
 
     Args:
         growth: of a dt [s] and a number of steps, as random_growth measures it.
@@ -80,21 +83,19 @@ def measured_limit(growth: Callable[[float, int], float], dt: float, precision: 
     while unstable(low):
         low, high = low / 2, low
         if low < 1e-6 * dt:
-            return None, f"unstable at any dt that was tried, down to {low:.3g} s"
+            return Limit(None, f"unstable at any dt that was tried, down to {low:.3g} s")
     while high <= low or not unstable(high):
         low, high = high, 2 * high
         if low > 50 * dt:
-            return None, f"stable at any dt that was tried, up to {low:.3g} s"
+            return Limit(None, f"stable at any dt that was tried, up to {low:.3g} s")
     low, high = bisect(unstable, low, high, lambda low, high: high - low <= precision * low)
     # Growth that goes as a power of dt is seen late. Below a true limit a longer run has none either.
     if growth(0.9 * low, LONGER * STEPS) > SEEN / LONGER:
-        return None, f"unstable at any dt that was tried: in longer runs at {0.9 * low:.3g} s too"
-    return low, ""
+        return Limit(None, f"unstable at any dt that was tried: in longer runs at {0.9 * low:.3g} s too")
+    return Limit(low)
 
 
-def limit_near(
-    growth: Callable[[float, int], float], expected: float | None, dt: float, precision: float
-) -> tuple[float | None, str]:
+def limit_near(growth: Callable[[float, int], float], expected: float | None, dt: float, precision: float) -> Limit:
     """As `measured_limit`, in a few runs where the limit is where it is expected, and by its own way where it is not.
 
     The steps that are tried are whole powers of 1 + precision: where to look is expected, what is found is not.
@@ -111,7 +112,8 @@ def limit_near(
         low, high = middle - NEAR, middle + NEAR
         if not unstable((1 + precision) ** low) and unstable((1 + precision) ** high):
             power, _ = bisect(lambda n: unstable((1 + precision) ** n), low, high, lambda low, high: high - low <= 1)
-            return (1 + precision) ** power, ""
+            return Limit((1 + precision) ** power)
     if unstable(dt / 10):
-        return None, f"unstable at {dt / 10:.3g} s, a tenth of what the fastest motion lasts; no shorter step was tried"
+        tenth = f"{dt / 10:.3g} s, a tenth of what the fastest motion lasts"
+        return Limit(None, f"unstable at {tenth}; no shorter step was tried")
     return measured_limit(growth, dt, precision)

@@ -102,6 +102,10 @@ class Trajectory:
             np.array([s.velocities for s in states]),
         )
 
+    def frames(self, which: slice | list[int]) -> Trajectory:
+        """The trajectory at some of its times only."""
+        return Trajectory(self.times[which], self.positions[which], self.velocities[which])
+
     def states(self) -> list[State]:
         """The states, one per time."""
         return [State(t, x, v) for t, x, v in zip(self.times.tolist(), self.positions, self.velocities, strict=True)]

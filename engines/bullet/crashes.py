@@ -1,10 +1,10 @@
-"""Ways to break Bullet: meshes that are none."""
+"""Ways to break Bullet: meshes that are no meshes."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from engines.crash_cases import breaks, numbers
+from engines.crash_cases import crash_case, numbers
 
 
 def _bullet_mesh(vertices: str, faces: str) -> str:
@@ -19,37 +19,37 @@ def _bullet_mesh(vertices: str, faces: str) -> str:
     return numbers(pybullet.getMeshData(body, -1, flags=pybullet.MESH_DATA_SIMULATION_MESH)[1])
 
 
-@breaks("pybullet")
+@crash_case("pybullet")
 def a_repeated_index() -> str:
     """Load a triangle that has a corner twice."""
     return _bullet_mesh("0 0 0, 1 0 0, 0 1 0", "f 1 2 2\n")
 
 
-@breaks("pybullet")
+@crash_case("pybullet")
 def a_triangle_without_area() -> str:
     """Load a triangle that has its corners in a row, and nothing else."""
     return _bullet_mesh("0 0 0, 1 0 0, 2 0 0", "f 1 2 3\n")
 
 
-@breaks("pybullet")
+@crash_case("pybullet")
 def an_index_out_of_range() -> str:
     """Load a triangle with a fourth corner of three."""
     return _bullet_mesh("0 0 0, 1 0 0, 0 1 0", "f 1 2 4\n")
 
 
-@breaks("pybullet")
-def a_corner_that_is_no_number() -> str:
+@crash_case("pybullet")
+def a_corner_that_is_not_finite() -> str:
     """Load a triangle with a corner at NaN."""
     return _bullet_mesh("0 0 0, nan 0 0, 0 1 0", "f 1 2 3\n")
 
 
-@breaks("pybullet")
+@crash_case("pybullet")
 def triangles_that_touch_at_a_corner_only() -> str:
     """Load two triangles without a side in common."""
     return _bullet_mesh("0 0 0, 1 0 0, 0 1 0, -1 0 0, 0 -1 0", "f 1 2 3\nf 1 4 5\n")
 
 
-@breaks("pybullet")
+@crash_case("pybullet")
 def no_triangles() -> str:
     """Load a mesh that has corners only."""
     return _bullet_mesh("0 0 0, 1 0 0, 0 1 0", "")

@@ -4,7 +4,7 @@ A system is springs only, so triangles are found that have them for sides. Three
 and a tetrahedron is four. All must hang together side by side: where they do not, Bullet loads the mesh for ever.
 
 Where springs cannot be reached so, as in a string, each gets a triangle with a third corner that all have in common: an
-apex, pinned so far above the plane that the springs to it pull on nothing (`APEX`).
+apex, pinned at such a height above the plane that the springs to it give no force (`APEX`).
 
 Bullet's other kind of spring, for bending, joins all nodes two sides apart that no side joins, with a stiffness of its
 own.
@@ -23,7 +23,7 @@ from reference.system import BoolArray, MassSpringSystem
 
 #: Height of the apex over the plane, in lengths of the system. The length of a spring to the apex is then the height,
 #: as long as nothing goes further than 2^26 lengths: the rest is lost in rounding. With a power of two for the height,
-#: the direction times the length is exact too, and the spring pulls with exactly no force.
+#: the direction times the length is exact too, and the spring's force is exactly zero.
 APEX = 2.0**80
 
 #: The smaller number first.

@@ -14,7 +14,7 @@ MET = 1e-14
 #: Newton steps before it is given up. From a shape nearby a handful do; towards a flat one, some tens.
 STEPS = 50
 
-#: Of so many masses a shape is looked for, with dense matrices.
+#: The most masses that a shape is looked for, with dense matrices.
 LARGEST = 600
 
 
@@ -53,15 +53,15 @@ def _found(system: MassSpringSystem, guess: Array) -> Array:
     rows = np.arange(len(system.springs))
     shape = guess
     for _ in range(STEPS):
-        gap = shape[b] - shape[a]
-        length = np.linalg.norm(gap, axis=1)
+        separation = shape[b] - shape[a]
+        length = np.linalg.norm(separation, axis=1)
         missing = system.rest_lengths - length
         if not length.all() or not np.isfinite(missing).all():
             break
         if np.abs(missing).max() <= MET * system.size:
             return shape
         matrix = np.zeros((len(rows), len(shape), 3))
-        matrix[rows, b] = gap / length[:, None]
+        matrix[rows, b] = separation / length[:, None]
         matrix[rows, a] = -matrix[rows, b]
         move = np.linalg.lstsq(matrix.reshape(len(rows), -1), missing, rcond=1e-10)[0]
         shape = shape + move.reshape(shape.shape)

@@ -86,7 +86,7 @@ class CableSimulation:
 
     def __init__(self, engine: MujocoCable, mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
         self._engine, self._mujoco, self._model, self._system = engine, mujoco, model, system
-        _write_numbers(mujoco, model, system)
+        _write_parameters(mujoco, model, system)
         self._data = mujoco.MjData(model)
         self._reading = mujoco.MjData(model)  # positions are worked out here: the engine's own step stays untouched
         angles, rates = _angles(system)
@@ -126,11 +126,11 @@ class CableSimulation:
         if parameter == "rest_length":
             raise Unsupported("the segments of a cable are rigid: another rest length would move the masses")
         self._system = changed(self._engine, self._system, parameter, value)
-        _write_numbers(self._mujoco, self._model, self._system)
+        _write_parameters(self._mujoco, self._model, self._system)
 
 
 def _compile(mujoco: ModuleType, system: MassSpringSystem) -> Any:
-    """A straight cable of as many segments; the numbers come in _write_numbers. Raises Unsupported in MuJoCo 4."""
+    """A straight cable of as many segments; the numbers come in _write_parameters. Raises Unsupported in MuJoCo 4."""
     xml = f"""<mujoco><worldbody>
         <composite type="cable" curve="s" count="{len(system.positions)} 1 1" size="1 0 0" initial="ball" prefix="">
             <joint kind="main"/>
@@ -147,7 +147,7 @@ def _compile(mujoco: ModuleType, system: MassSpringSystem) -> Any:
         raise Unsupported("MuJoCo: " + " ".join(str(error).split())) from None
 
 
-def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
+def _write_parameters(mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
     """The parameters of a system into the model of a cable: segments along their own first axis, mass at the end."""
     masses, lengths = system.masses[1:], system.rest_lengths
     check_inertia("mass times length squared", masses * lengths**2, "kg m^2")

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.crash_cases import RESET, breaks, numbers
+from engines.crash_cases import RESET, crash_case, numbers
 
 #: A mass on a tendon between two sites.
 SPRING = """
@@ -38,7 +38,7 @@ def _mujoco_steps(model: Any, data: Any, steps: int = 10) -> str:
     return RESET if data.time - begin < 0.99 * passed else numbers([*data.qpos, *data.qvel])
 
 
-@breaks("mujoco")
+@crash_case("mujoco")
 def a_velocity_beyond_all() -> str:
     """Let a mass move at 1e300 m/s, with the safety net that MuJoCo comes with."""
     model, data = _mujoco_spring()
@@ -47,8 +47,8 @@ def a_velocity_beyond_all() -> str:
     return _mujoco_steps(model, data)
 
 
-@breaks("mujoco")
-def a_position_that_is_no_number() -> str:
+@crash_case("mujoco")
+def a_position_that_is_not_finite() -> str:
     """Put a mass at NaN, with the safety net that MuJoCo comes with."""
     model, data = _mujoco_spring()
     _mujoco_steps(model, data)
@@ -56,7 +56,7 @@ def a_position_that_is_no_number() -> str:
     return _mujoco_steps(model, data)
 
 
-@breaks("mujoco")
+@crash_case("mujoco")
 def the_same_without_the_safety_net() -> str:
     """Put a mass at NaN, with autoreset off."""
     import mujoco
@@ -67,7 +67,7 @@ def the_same_without_the_safety_net() -> str:
     return _mujoco_steps(model, data)
 
 
-@breaks("mujoco")
+@crash_case("mujoco")
 def a_step_too_long() -> str:
     """Step a spring far beyond its largest stable dt, with the safety net that MuJoCo comes with."""
     model, data = _mujoco_spring()
@@ -75,7 +75,7 @@ def a_step_too_long() -> str:
     return _mujoco_steps(model, data, 100)
 
 
-@breaks("mujoco")
+@crash_case("mujoco")
 def an_index_beyond_the_model() -> str:
     """Hang a tendon on site 1073741824 of two."""
     model, data = _mujoco_spring()
@@ -83,7 +83,7 @@ def an_index_beyond_the_model() -> str:
     return _mujoco_steps(model, data)
 
 
-@breaks("mujoco")
+@crash_case("mujoco")
 def a_joint_that_is_its_own_parent() -> str:
     """Let a chain of joints go in a circle."""
     model, data = _mujoco_spring()

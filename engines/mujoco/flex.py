@@ -80,22 +80,23 @@ class FlexSimulation(SlidingMasses):
         groups: Sequence[Group],
     ) -> None:
         self._engine, self._groups = engine, groups
-        _write_numbers(mujoco, model, system, groups)
         super().__init__(mujoco, model, system)
 
     def change(self, parameter: str, value: Value) -> None:
-        """Every parameter can change between two steps; the state stays where it is, to the last bit.
+        """Every parameter can change between two steps.
 
         Raises:
             Unsupported: for springs of one flex, which were alike, that are to differ.
         """
         system = changed(self._engine, self._system, parameter, value)
         _refuse_unlike(parameter, getattr(system, parameter, None), self._groups)
-        self._system = system
-        if parameter == "gravity":
-            self.set_gravity(system.gravity)
-            return
-        _write_numbers(self._mujoco, self._model, system, self._groups)
+        self.go_on_with(system, parameter)
+
+    def _write_parameters(self) -> None:
+        write_masses_and_lengths(self._mujoco, self._model, self._system, self._groups)
+        for flex, group in enumerate(self._groups):
+            self._model.flex_edgestiffness[flex] = self._system.stiffness[group[0]]
+            self._model.flex_edgedamping[flex] = self._system.damping[group[0]]
 
 
 def groups_of(system: MassSpringSystem, *alike: Array) -> list[Group]:
@@ -184,13 +185,6 @@ def _refuse_unlike(parameter: str, values: Array | None, groups: Sequence[Group]
     for group in groups:
         if np.ptp(values[group]):
             raise Unsupported(f"{parameter} of springs that began alike cannot become different: they are one flex")
-
-
-def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group]) -> None:
-    write_masses_and_lengths(mujoco, model, system, groups)
-    for flex, group in enumerate(groups):
-        model.flex_edgestiffness[flex] = system.stiffness[group[0]]
-        model.flex_edgedamping[flex] = system.damping[group[0]]
 
 
 ENGINES = (MujocoFlex("mujoco_flex", "Euler"), MujocoFlex("mujoco_flex_rk4", "RK4"))

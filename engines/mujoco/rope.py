@@ -26,8 +26,8 @@ ITERATIONS = 3
 class MujocoRope:
     """Point masses on one slide joint per axis; a spring is an edge of a flex that a soft equality holds at its length.
 
-    With h = dt, a the acceleration by gravity and drag, J the rates at which edges lengthen by the masses' velocities,
-    r by how much they are too long, p their pulls and w their inverse weights (MuJoCo's manual, *Computation*):
+    With h = dt, a the acceleration by gravity and drag, J the Jacobian of the edges' lengths, r by how much these are
+    too long, p the edges' forces and w their inverse weights (MuJoCo's manual, *Computation*):
         (J M^-1 J^T + R) p = -b J v - k r - J a,   b = 2 / (d T),   k = 1 / (d T^2),   R = (1 - d) / d w
         v' = v + h (a + M^-1 J^T p),   x' = x + h v'
     T is the time constant, here 2 h: MuJoCo allows none that is shorter. An edge loses a quarter of what it is too long
@@ -51,7 +51,7 @@ class MujocoRope:
 
     @property
     def interactive_up_to(self) -> int:
-        """See Engine: every step solves for the pulls of all edges at once."""
+        """See Engine: every step solves for the forces of all edges at once."""
         return 1000
 
     @property
@@ -101,27 +101,21 @@ class RopeSimulation(SlidingMasses):
         groups: Sequence[Group],
     ) -> None:
         self._engine, self._groups = engine, groups
-        _write_numbers(mujoco, model, system, groups, engine.weight)
         super().__init__(mujoco, model, system)
 
     def change(self, parameter: str, value: Value) -> None:
         """All can change but the stiffness; damping without effect, and to a new rest length it takes some steps."""
         if parameter == "stiffness":
             raise Unsupported("the edges of a rope do not stretch: there is no stiffness to change")
-        self._system = changed(self._engine, self._system, parameter, value)
-        if parameter == "gravity":
-            self.set_gravity(self._system.gravity)
-            return
-        _write_numbers(self._mujoco, self._model, self._system, self._groups, self._engine.weight)
+        self.go_on_with(changed(self._engine, self._system, parameter, value), parameter)
 
-
-def _write_numbers(
-    mujoco: ModuleType, model: Any, system: MassSpringSystem, groups: Sequence[Group], weight: float
-) -> None:
-    write_masses_and_lengths(mujoco, model, system, groups)
-    inverse = np.where(system.fixed, 0.0, 1 / system.masses)
-    for j, group in zip(model.flex_edgeadr, groups, strict=True):
-        model.flexedge_invweight0[j : j + len(group)] = weight * inverse[system.springs[group]].sum(axis=1)
+    def _write_parameters(self) -> None:
+        system, model = self._system, self._model
+        write_masses_and_lengths(self._mujoco, model, system, self._groups)
+        inverse = np.where(system.fixed, 0.0, 1 / system.masses)
+        for j, group in zip(model.flex_edgeadr, self._groups, strict=True):
+            weights = self._engine.weight * inverse[system.springs[group]].sum(axis=1)
+            model.flexedge_invweight0[j : j + len(group)] = weights
 
 
 ENGINES = (MujocoRope(),)

@@ -1,7 +1,8 @@
-"""Point masses in MuJoCo, on one slide joint per axis: what is read from them, and how they step."""
+"""Point masses in MuJoCo, on one slide joint per axis: what is read from them, and how they step and change."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import partial
 from types import ModuleType
@@ -13,16 +14,18 @@ from reference.state import Array
 from reference.system import MassSpringSystem
 
 
-class SlidingMasses:
+class SlidingMasses(ABC):
     """A system in MuJoCo. The coordinates are positions, or with nested bodies the steps from each to the next.
 
     Args:
-        model: complete, its bodies those of the free masses in their order, and none of the fixed.
+        model: complete but for the system's parameters, its bodies those of the free masses in their order, and none of
+            the fixed.
         nested: whether each body is inside the one before it.
     """
 
     def __init__(self, mujoco: ModuleType, model: Any, system: MassSpringSystem, nested: bool = False) -> None:
         self._mujoco, self._model, self._system, self._nested = mujoco, model, system, nested
+        self._write_parameters()
         self._data = mujoco.MjData(model)
         # MuJoCo's own memory seen as one row per free mass
         self._q = self._data.qpos.reshape(-1, system.dimension)
@@ -35,6 +38,18 @@ class SlidingMasses:
         self._order = np.argsort(order)
         self._positions, self._velocities = system.positions[order], system.velocities[order]
         self._free_positions, self._free_velocities = self._positions[: len(free)], self._velocities[: len(free)]
+
+    @abstractmethod
+    def _write_parameters(self) -> None:
+        """The system's parameters into the model, in double precision."""
+
+    def go_on_with(self, system: MassSpringSystem, parameter: str) -> None:
+        """Let a parameter be that of another system from here on; the state stays where it is, to the last bit."""
+        self._system = system
+        if parameter == "gravity":  # MuJoCo keeps nothing of it, so it may change at every step at no cost
+            self._model.opt.gravity[:] = three(system.gravity)
+        else:
+            self._write_parameters()
 
     def step(self) -> None:
         """One mj_step."""
@@ -49,10 +64,6 @@ class SlidingMasses:
         self._free_positions[:] = self._q.cumsum(axis=0) if self._nested else self._q
         self._free_velocities[:] = self._v.cumsum(axis=0) if self._nested else self._v
         return self._positions.take(self._order, axis=0), self._velocities.take(self._order, axis=0)
-
-    def set_gravity(self, gravity: Array) -> None:
-        """Gravity [m/s^2], shape (d,). MuJoCo keeps nothing of it, so it may change at every step at no cost."""
-        self._model.opt.gravity[:] = three(gravity)
 
     def jacobian(self) -> Array | None:
         """MuJoCo's mjd_transitionFD over (qpos, qvel), centred; None for RK4, which it refuses."""

@@ -28,8 +28,8 @@ SCHEMES: Mapping[Integrator, Mapping[str, str]] = {
     },
 }
 
-#: Nested masses that a step takes 0.02 s of a processor for.
-NESTED_QUICK_UP_TO = 100
+#: The most nested masses for interactive use: a step of them takes 0.02 s of a processor.
+NESTED_UP_TO = 100
 
 #: [m]. The edge of the cube that gives a mass its moments of inertia. Nothing rotates: it only sets the Stokes drag.
 CUBE = 1.0
@@ -80,7 +80,7 @@ class MujocoTendons:
     @property
     def interactive_up_to(self) -> int | None:
         """See Engine: nested, a step takes a time as the masses' number to the third power."""
-        return NESTED_QUICK_UP_TO if self.nested else None
+        return NESTED_UP_TO if self.nested else None
 
     @property
     def settings(self) -> Mapping[str, object]:
@@ -111,20 +111,31 @@ class TendonSimulation(SlidingMasses):
 
     def __init__(self, engine: MujocoTendons, mujoco: ModuleType, model: Any, system: MassSpringSystem) -> None:
         self._engine = engine
-        _write_numbers(mujoco, model, system, engine.nested)
         super().__init__(mujoco, model, system, engine.nested)
 
     def change(self, parameter: str, value: Value) -> None:
-        """Every parameter can change between two steps; the state stays where it is, to the last bit."""
-        self._system = changed(self._engine, self._system, parameter, value)
-        if parameter == "gravity":
-            self.set_gravity(self._system.gravity)
-            return
-        _write_numbers(self._mujoco, self._model, self._system, self._nested)
+        """Every parameter can change between two steps."""
+        self.go_on_with(changed(self._engine, self._system, parameter, value), parameter)
+
+    def _write_parameters(self) -> None:
+        mujoco, model, system = self._mujoco, self._model, self._system
+        masses = system.masses[~system.fixed]
+        check_inertia("mass", masses, "kg")
+        model.body_mass[1:] = masses  # body 0 is the world
+        model.body_inertia[1:] = masses[:, None] * CUBE**2 / 6
+        model.tendon_stiffness[:] = system.stiffness
+        model.tendon_damping[:] = system.damping
+        model.tendon_lengthspring[:] = system.rest_lengths[:, None]  # no slack: from the rest length to the rest length
+        model.opt.gravity[:] = three(system.gravity)
+        if self._nested:
+            model.opt.viscosity = system.drag / (3 * np.pi * CUBE)
+        else:
+            model.dof_damping[:] = system.drag
+        update_constants(mujoco, model)
 
 
 def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float) -> Any:
-    """Bodies, joints, sites and tendons: what is joined to what. The numbers come in _write_numbers."""
+    """Bodies, joints, sites and tendons: what is joined to what. The parameters are written later."""
     spec = mujoco.MjSpec()
     if nested:
         # a step of n nested coordinates works in 120 n^2 bytes, beyond what MuJoCo sets aside from some 900 on
@@ -146,23 +157,6 @@ def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float)
         tendon.wrap_site(f"mass {b}")
     add_obstacles(mujoco, spec, system, dt)
     return spec
-
-
-def _write_numbers(mujoco: ModuleType, model: Any, system: MassSpringSystem, nested: bool) -> None:
-    """The parameters of a system into a model that has its bodies and tendons, in double precision."""
-    masses = system.masses[~system.fixed]
-    check_inertia("mass", masses, "kg")
-    model.body_mass[1:] = masses  # body 0 is the world
-    model.body_inertia[1:] = masses[:, None] * CUBE**2 / 6
-    model.tendon_stiffness[:] = system.stiffness
-    model.tendon_damping[:] = system.damping
-    model.tendon_lengthspring[:] = system.rest_lengths[:, None]  # no slack: from the rest length to the rest length
-    model.opt.gravity[:] = three(system.gravity)
-    if nested:
-        model.opt.viscosity = system.drag / (3 * np.pi * CUBE)
-    else:
-        model.dof_damping[:] = system.drag
-    update_constants(mujoco, model)
 
 
 ENGINES = (

@@ -37,7 +37,7 @@ def environment(package: str, version: str) -> Path:
     """The Python of the environment with a version of a package, made now if there is none.
 
     Raises:
-        InputError: where that version cannot be had; with the reason, shortened.
+        InputError: where that version cannot be installed; with the reason, shortened.
     """
     if not re.fullmatch(r"\d[\w.!+-]*", version):
         raise InputError(f"{package} version {version!r}: expected one such as 1.2.3")
@@ -84,7 +84,7 @@ def _call(wanted: str, *words: str) -> None:
     plain = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
     done = subprocess.run(words, capture_output=True, text=True, env=plain, stdin=subprocess.DEVNULL)
     if done.returncode:
-        raise InputError(f"{wanted} cannot be had: {_reason(done.stderr or done.stdout)}")
+        raise InputError(f"{wanted} cannot be installed: {_reason(done.stderr or done.stdout)}")
 
 
 def _reason(said: str) -> str:

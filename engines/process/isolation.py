@@ -20,37 +20,37 @@ from reference.system import MassSpringSystem
 #: A run may take this long [s] before it counts as hung.
 TIME_LIMIT = 60.0
 
-#: And its process hold so much memory [bytes].
+#: The most memory that its process may hold [bytes].
 MEMORY_LIMIT = 4 * 2**30
 
 T = TypeVar("T")
 
 
 class Isolate(Protocol):
-    """Something that does a task in a process of its own, somewhere."""
+    """Something that calls a function in a process of its own, somewhere."""
 
-    def __call__(self, task: Callable[..., T], *arguments: Any, time_limit: float = TIME_LIMIT) -> T | Outcome:
+    def __call__(self, function: Callable[..., T], *arguments: Any, time_limit: float = TIME_LIMIT) -> T | Outcome:
         """See `isolated`."""
 
 
 def isolated(
-    task: Callable[..., T],
+    function: Callable[..., T],
     *arguments: Any,
     time_limit: float = TIME_LIMIT,
     memory_limit: float = MEMORY_LIMIT,
     python: Path | None = None,
 ) -> T | Outcome:
-    """What a task in a process of its own returns; if that ends without an answer, the outcome that says why.
+    """What a function returns, called in a process of its own; if that ends first, the outcome that says why.
 
     The process works in a scratch folder that is removed afterwards, and what it prints is kept for the reason.
 
     Args:
-        task: a function of a module (it travels by name); its arguments travel as pickles.
+        function: of a module (it travels by name); its arguments travel as pickles.
         time_limit: [s].
         memory_limit: [bytes].
         python: an interpreter that can import `engines` and NumPy; left out, this one.
     """
-    return supervisor(python).run(task, arguments, time_limit, memory_limit)
+    return supervisor(python).run(function, arguments, time_limit, memory_limit)
 
 
 @dataclass(frozen=True)

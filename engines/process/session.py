@@ -21,7 +21,7 @@ from reference.system import MassSpringSystem, Value
 #: An answer may take this long [s] before the engine counts as hung.
 TIME_LIMIT = 10.0
 
-#: And its process hold so much memory [bytes].
+#: The most memory that its process may hold [bytes].
 MEMORY_LIMIT = 2 * 2**30
 
 #: What stays between two tasks, in the process of its own: the simulation under way.
@@ -69,7 +69,7 @@ class Session:
         self._ask(begin, self._engine, system, dt)
 
     def advance(self, steps: int) -> tuple[Array, Array]:
-        """So many steps: positions [m] and velocities [m/s] after them, each (n, d)."""
+        """A number of steps: positions [m] and velocities [m/s] after them, each (n, d)."""
         x, v = self._ask(advance, steps)
         return x, v
 
@@ -83,11 +83,11 @@ class Session:
             self._worker.end()
             self._worker = None
 
-    def _ask(self, task: Callable[..., Any], *arguments: Any) -> Any:
+    def _ask(self, function: Callable[..., Any], *arguments: Any) -> Any:
         if self._worker is None:
             raise EngineStopped(Outcome("crashed", "the engine is no more"))
         try:
-            answer = self._worker.do(task, arguments, self._time_limit, MEMORY_LIMIT)
+            answer = self._worker.do(function, arguments, self._time_limit, MEMORY_LIMIT)
         except NoAnswerError as failure:
             self.end()
             raise EngineStopped(failure.outcome) from None
@@ -119,7 +119,7 @@ def begin(engine: Engine, system: MassSpringSystem, dt: float) -> Outcome | None
 
 
 def advance(steps: int) -> tuple[Array, Array]:
-    """So many steps of the simulation under way, and where it is then."""
+    """A number of steps of the simulation under way, and where it is then."""
     (simulation,) = _under_way
     for _ in range(steps):
         simulation.step()

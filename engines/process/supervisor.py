@@ -16,7 +16,7 @@ from typing import Any
 from engines.process.worker import NoAnswerError, Worker
 from reference.outcome import Outcome
 
-#: A task whose processes are killed from outside so many times over is given up.
+#: How often a task's processes may be killed from outside before it is given up.
 KILLS = 10
 
 
@@ -34,8 +34,10 @@ class Supervisor:
         self._busy: set[Worker] = set()
         self._stops = 0
 
-    def run(self, task: Callable[..., Any], arguments: tuple[Any, ...], time_limit: float, memory_limit: float) -> Any:
-        """What a task in a process of its own returns, or the outcome that says why it did not.
+    def run(
+        self, function: Callable[..., Any], arguments: tuple[Any, ...], time_limit: float, memory_limit: float
+    ) -> Any:
+        """What a function returns, called in a process of its own, or the outcome that says why it did not.
 
         Raises:
             InterruptedError: if the supervisor was stopped meanwhile.
@@ -44,7 +46,7 @@ class Supervisor:
         while True:
             worker = self._take(fresh, stops)
             try:
-                answer = worker.do(task, arguments, time_limit, memory_limit)
+                answer = worker.do(function, arguments, time_limit, memory_limit)
             except NoAnswerError as failure:
                 was_fresh = worker.fresh
                 self._end(worker)

@@ -26,10 +26,10 @@ from reference.outcome import Outcome
 #: How often a working process's memory is looked at [s].
 LOOK = 0.05
 
-#: A process that has closed its connection has so long [s] to end by itself.
+#: How long a process that has closed its connection has to end by itself [s].
 GRACE = 1.0
 
-#: So often a process is tried to be started, should the server that forks it be killed meanwhile.
+#: How often to try to start a process, should the server that forks it be killed meanwhile.
 STARTS = 20
 
 #: Signals that come from outside: the kernel short of memory, a person, a machine that shuts down.
@@ -104,11 +104,13 @@ class Worker:
         """The process's number."""
         return self._process.pid
 
-    def do(self, task: Callable[..., Any], arguments: tuple[Any, ...], time_limit: float, memory_limit: float) -> Any:
-        """What a task returns there.
+    def do(
+        self, function: Callable[..., Any], arguments: tuple[Any, ...], time_limit: float, memory_limit: float
+    ) -> Any:
+        """What a function returns there.
 
         Args:
-            task: a function of a module (it travels by name); its arguments travel as pickles.
+            function: of a module (it travels by name); its arguments travel as pickles.
             time_limit: [s].
             memory_limit: [bytes], of the whole process.
 
@@ -116,7 +118,7 @@ class Worker:
             NoAnswerError: with how it ended. The worker is of no more use then.
         """
         with suppress(BrokenPipeError, ConnectionResetError):  # it is no more; why is seen below
-            self._connection.send((task, arguments))
+            self._connection.send((function, arguments))
         self._wait(time_limit, memory_limit)
         with suppress(EOFError, OSError):  # no answer, or half of one
             if self._connection.poll():

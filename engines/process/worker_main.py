@@ -67,8 +67,8 @@ def _do(connection: Connection, message: bytes, folder: Path) -> None:
     folder.mkdir()
     os.chdir(folder)
     try:
-        task, arguments = pickle.loads(message)
-        answer = pickle.dumps(task(*arguments))
+        function, arguments = pickle.loads(message)
+        answer = pickle.dumps(function(*arguments))
     except Exception as error:
         answer = pickle.dumps(Outcome("crashed", f"{type(error).__name__}: {one_line(str(error))}"))
     finally:

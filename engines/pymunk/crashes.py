@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from engines.crash_cases import breaks, numbers
+from engines.crash_cases import crash_case, numbers
 
 
 def _pymunk_spring() -> tuple[Any, Any]:
@@ -25,7 +25,7 @@ def _pymunk_steps(space: Any, body: Any) -> str:
     return numbers(body.position)
 
 
-@breaks("pymunk")
+@crash_case("pymunk")
 def no_iterations() -> str:
     """Let the solver go round no times."""
     space, body = _pymunk_spring()
@@ -33,7 +33,7 @@ def no_iterations() -> str:
     return _pymunk_steps(space, body)
 
 
-@breaks("pymunk")
+@crash_case("pymunk")
 def a_negative_mass() -> str:
     """Give a mass that is already in a space -1 kg."""
     space, body = _pymunk_spring()
@@ -41,7 +41,7 @@ def a_negative_mass() -> str:
     return _pymunk_steps(space, body)
 
 
-@breaks("pymunk")
+@crash_case("pymunk")
 def a_mass_of_zero() -> str:
     """Give a mass that is already in a space 0 kg."""
     space, body = _pymunk_spring()
@@ -49,7 +49,7 @@ def a_mass_of_zero() -> str:
     return _pymunk_steps(space, body)
 
 
-@breaks("pymunk")
+@crash_case("pymunk")
 def a_body_without_mass() -> str:
     """Add a body that was never given a mass."""
     import pymunk
@@ -59,7 +59,7 @@ def a_body_without_mass() -> str:
     return _pymunk_steps(space, body)
 
 
-@breaks("pymunk")
+@crash_case("pymunk")
 def a_body_twice() -> str:
     """Add a body to the space it is in."""
     space, body = _pymunk_spring()
@@ -67,7 +67,7 @@ def a_body_twice() -> str:
     return _pymunk_steps(space, body)
 
 
-@breaks("pymunk")
+@crash_case("pymunk")
 def a_huge_velocity() -> str:
     """Let a mass move at 1e300 m/s."""
     space, body = _pymunk_spring()

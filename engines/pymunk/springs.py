@@ -2,7 +2,7 @@
 
 What it does in a step, in this order: positions move with the velocities they have; every spring gives its elastic
 impulse; gravity and forces act; then the springs' damping is applied in rounds, one spring after the other. So it is
-drift-kick, with damping by sequential impulses.
+semi-implicit (symplectic) Euler, positions first (`drift_kick`), with damping by sequential impulses.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ class PymunkSprings:
         """What its numbers mean."""
         alone = "1/(1 + dt c/m)" if self.backward_euler else "exp(-dt c/m)"
         return (
-            f"stiffness is k [N/m]; with damping c [N s/m] a spring alone keeps {alone} of its lengthening rate in a "
+            f"stiffness is k [N/m]; with damping c [N s/m] a spring alone keeps {alone} of its elongation rate in a "
             "step, m its effective mass; drag is the force -Cd v set before each step"
         )
 

@@ -1,8 +1,8 @@
 """With which dt should a scene be run in each engine? Measured, predicted and tried.
 
-An engine's limit is measured, from small pushes about the scene at rest, and predicted, from the scheme the engine is
-identified with there. The advice is a step a tenth below the limit, and it is tried: the scene itself is run with it,
-and with a step a tenth above the limit the pushes have to grow.
+An engine's limit is measured, from small perturbations of the scene at rest, and predicted, from the scheme the engine
+is identified with there. The advice is a step a tenth below the limit, and it is tried: the scene itself is run with
+it, and with a step a tenth above the limit the perturbations have to grow.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ from math import floor, log10
 
 from engines.measured_limit import limit_of_engine_near
 from engines.process.isolation import EngineStepper
+from experiments.limits.perturbed import perturbed, rest_of_engine, rest_of_scheme
+from experiments.runs.claims import claimed
 from experiments.runs.comparison import too_slow
+from experiments.runs.progress import Progress
 from experiments.runs.runner import current
-from experiments.runs.side_by_side import Progress
-from experiments.stability import at_rest_and_pushed, rest_of_engine, rest_of_scheme
 from reference.changes import whole_steps
 from reference.errors import InputError, SolverError
 from reference.identification import Identification, candidates_for, identify_run
@@ -25,7 +26,7 @@ from reference.outcome import Outcome
 from reference.pendulum import why_no_pendulum
 from reference.scenes import Setup
 from reference.schemes.catalogue import find
-from reference.stepper import SchemeStepper, catalogued
+from reference.stepper import SchemeStepper, stepper_named
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
 from reference.theory.limits import fastest_rate, find_limit, growth
@@ -33,10 +34,10 @@ from reference.theory.limits import fastest_rate, find_limit, growth
 #: The advised step, and the one that is to be unstable, as parts of the limit.
 ADVISED, REFUTED = 0.9, 1.1
 
-#: Where the scene itself needs shorter steps than pushes about its rest do, this often the step is halved.
+#: How often the step is halved where the scene itself needs shorter ones than perturbations of its rest do.
 HALVINGS = 6
 
-#: An engine is identified from so many steps, at a tenth of what the fastest mode allows.
+#: How many steps an engine is identified from, at a tenth of what the fastest mode allows.
 IDENTIFYING_STEPS = 40
 
 #: Limits are predicted and measured to this part of themselves.
@@ -53,11 +54,11 @@ class Advice:
     Attributes:
         engine: its name.
         scheme: what it was identified as on this scene; None where it was not.
-        predicted, measured: its limits, each with the reason where there is none.
+        predicted, measured: its limits, each with the reason where there is none; of the measured one, whether
+            perturbations grow at REFUTED of it.
         own: how the scene ended with the dt it was given.
         advised: the step to use [s]; None where there is none.
         confirmed: how the scene ended with it.
-        grows: whether pushes grow at REFUTED of the limit; None where that was not looked at.
     """
 
     engine: str
@@ -67,7 +68,6 @@ class Advice:
     own: Outcome
     advised: float | None = None
     confirmed: Outcome | None = None
-    grows: bool | None = None
 
     @property
     def limit(self) -> float | None:
@@ -75,9 +75,14 @@ class Advice:
         return self.measured.dt
 
     @property
+    def grows(self) -> bool | None:
+        """Whether perturbations grow at REFUTED of the limit; None where that was not looked at."""
+        return self.measured.grows_beyond
+
+    @property
     def on_rods(self) -> bool:
         """Whether the engine puts rods for the springs: what it steps is not quite the scene."""
-        return self.scheme is not None and catalogued()[self.scheme].on_rods
+        return self.scheme is not None and stepper_named(self.scheme).on_rods
 
 
 def advise(setup: Setup, engines: Sequence[EngineStepper], progress: Progress) -> list[Advice]:
@@ -148,7 +153,7 @@ def _predicted(
     for name in dict.fromkeys(found.identified_as for found in identified.values()):
         if name is not None:
             progress(f"predicted limit of {name}")
-            limits[name] = predict(catalogued()[name], system, rest)
+            limits[name] = predict(stepper_named(name), system, rest)
     predicted = {name: limits[found.identified_as] for name, found in identified.items()}
     return identified, predicted
 
@@ -170,17 +175,17 @@ def _advice(
     about = rest_of_engine(engine.engine, system, rest)
     if isinstance(about, Outcome):
         return Advice(engine.name, scheme, predicted, Limit(None, about.reason), own)
-    still, pushed = at_rest_and_pushed(system, about)
-    unit = 1 / fastest_rate(about)
-    asked = (engine.engine, still, pushed, predicted.dt, unit, MEASUREMENT, REFUTED)
-    answer = engine.isolate(limit_of_engine_near, *asked, time_limit=2 * engine.time_limit)
-    if isinstance(answer, Outcome):
-        return Advice(engine.name, scheme, predicted, Limit(None, answer.reason), own)
-    if answer["dt"] is None:
-        return Advice(engine.name, scheme, predicted, Limit(None, answer["reason"]), own)
-    limit = min(answer["dt"], predicted.dt or answer["dt"])  # pushes may grow too slowly to be seen
+    asked = (predicted.dt, 1 / fastest_rate(about), MEASUREMENT, REFUTED)
+    measured = engine.isolate(
+        limit_of_engine_near, engine.engine, *perturbed(system, about), *asked, time_limit=2 * engine.time_limit
+    )
+    if isinstance(measured, Outcome):
+        return Advice(engine.name, scheme, predicted, Limit(None, measured.reason), own)
+    if measured.dt is None:
+        return Advice(engine.name, scheme, predicted, measured, own)
+    limit = min(measured.dt, predicted.dt or measured.dt)  # perturbations may grow too slowly to be seen
     dt, confirmed = _tried(engine, setup, own, rounded_down(ADVISED * limit))
-    return Advice(engine.name, scheme, predicted, Limit(answer["dt"]), own, dt, confirmed, answer["grows"])
+    return Advice(engine.name, scheme, predicted, measured, own, dt, confirmed)
 
 
 def _tried(engine: EngineStepper, setup: Setup, own: Outcome, dt: float) -> tuple[float | None, Outcome]:
@@ -211,6 +216,6 @@ def _left_out(engine: EngineStepper, system: MassSpringSystem) -> Outcome | None
     slow = too_slow(engine, system)
     if slow:
         return replace(slow, reason=slow.reason.partition(";")[0])
-    named = catalogued().get(engine.engine.identified_as.get("plain", ""))
-    reason = why_no_pendulum(replace(system, obstacles=())) if named is not None and named.on_rods else None
+    scheme = claimed(engine.engine)
+    reason = why_no_pendulum(replace(system, obstacles=())) if scheme is not None and scheme.on_rods else None
     return Outcome("unsupported", f"{engine.name} puts rods for springs: {reason}") if reason else None

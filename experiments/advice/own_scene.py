@@ -1,4 +1,4 @@
-"""What a report says of somebody's own scene: which dt to use, how engines move it, what it is made of."""
+"""What a report says of a user's own scene: which dt to use, how engines move it, what it is made of."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from experiments.advice.advice import Advice
 from experiments.divergence import result_of
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import compare
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import installed_engines
 from experiments.scenes import thinned
 from reference.changes import whole_steps

@@ -6,12 +6,12 @@ from collections.abc import Sequence
 
 from experiments.advice.advice import ADVISED, Advice, advise
 from experiments.experiment import Result, Table
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from experiments.runs.steppers import installed_engines
 from reference.scenes import Setup
 
 COLUMNS = ["engine", "identified as", "at the scene's dt", "margin", "predicted limit [s]", "measured limit [s]"]
-COLUMNS += ["advised dt [s]", "the scene with it", "pushes at 1.1 of the limit", "reason"]
+COLUMNS += ["advised dt [s]", "the scene with it", "perturbations at 1.1 of the limit", "reason"]
 
 
 def answer(setup: Setup, progress: Progress) -> Result:

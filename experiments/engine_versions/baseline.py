@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from experiments.engine_versions.changes import differences
-from experiments.engine_versions.versions import Measured, Rows, Subject, in_order
+from experiments.engine_versions.versions import Rows, Subject, VersionMeasurements, in_order
 from reference.errors import InputError
 
 #: Where the files are.
@@ -28,7 +28,7 @@ def read(package: str, folder: Path = FOLDER) -> dict[str, Rows]:
     return found
 
 
-def write(measured: Measured, folder: Path = FOLDER) -> Path:
+def write(measured: VersionMeasurements, folder: Path = FOLDER) -> Path:
     """Keep what was measured, in place of what the baseline had of the same versions and engines. The file."""
     kept = read(measured.package, folder)
     merged = {version: {**kept.get(version, {}), **rows} for version, rows in measured.rows.items()}
@@ -43,7 +43,7 @@ def kept_versions(subject: Subject, asked: Sequence[str], folder: Path = FOLDER)
     """The versions asked for, or all that are kept.
 
     Raises:
-        InputError: for one that is not kept, or where none is.
+        InputError: for one that is not kept, or where there is no baseline.
     """
     kept = list(read(subject.package, folder))
     if not kept:
@@ -62,7 +62,7 @@ def unknown_engines(subject: Subject, folder: Path = FOLDER) -> list[str]:
     return [name for name in subject.names if name not in known]
 
 
-def deviations(subject: Subject, measured: Measured, folder: Path = FOLDER) -> list[str]:
+def deviations(subject: Subject, measured: VersionMeasurements, folder: Path = FOLDER) -> list[str]:
     """Each difference between the baseline and what was measured, in a line; of the subject's known engines only."""
     lines = [f"{subject.package} {version}: {why}" for version, why in measured.missing.items()]
     unknown = unknown_engines(subject, folder)

@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import isclose
 
 from experiments.engine_versions.conformance import Value
-from experiments.engine_versions.versions import Measured, Rows
+from experiments.engine_versions.versions import Rows, VersionMeasurements
 from experiments.experiment import Result, Table
 
 #: Numbers are the same up to this part of themselves.
@@ -47,7 +47,7 @@ def changes(before: Rows, after: Rows) -> list[Change]:
     return [c for c in differences(before, after) if c.before is not None and c.after is not None]
 
 
-def result_of(measured: Measured) -> Result:
+def result_of(measured: VersionMeasurements) -> Result:
     """What changed from version to version, in sentences and tables."""
     versions, rows = [*measured.rows], measured.rows
     asked = [(engine, name) for engine, name in _asked(rows)]

@@ -1,7 +1,7 @@
 """The conformance suite as measurements: what an engine does, one row for each thing that is asked of it.
 
 Nothing in a row depends on how fast a machine is or how it rounds: a trajectory is a scheme's to rounding or it is not,
-and limits are kept to what can be measured of them.
+and limits are kept to the figures that can be measured of them.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from functools import cache
 from engines.capability_cases import for_each_capability
 from engines.engine import demands
 from engines.process.isolation import EngineStepper
-from experiments.stability import measure_engine
+from experiments.limits.engine_limit import measure_engine
 from reference.identification import Identification, candidates, identify_run
 from reference.outcome import Outcome
 from reference.scenes import find
@@ -36,7 +36,7 @@ LIMITED: Mapping[str, Mapping[str, float]] = {
 #: The step [s] and number of steps of a run.
 DT, STEPS = 1e-3, 200
 
-#: Limits are measured to this part of themselves, and kept to so many figures.
+#: Limits are measured to this part of themselves, and kept to this number of figures.
 PRECISION, FIGURES = 1e-6, 7
 
 
@@ -49,7 +49,7 @@ def measure(stepper: EngineStepper) -> dict[str, Value]:
         "runs": "yes",
         **{f"identified, {case}": _identity(stepper, case) for case in IDENTIFIED},
         **{f"largest stable dt [s], {case}": _limit(stepper, case) for case in LIMITED},
-        **{f"can: {name}": _capability(stepper, name) for name in _trials()},
+        **{f"can: {name}": _capability(stepper, name) for name in _capability_cases()},
     }
 
 
@@ -79,16 +79,15 @@ def _identity(stepper: EngineStepper, case: str) -> str:
 def _limit(stepper: EngineStepper, case: str) -> Value:
     """Its largest stable dt [s]; else why there is none."""
     system, rest = _hanging(case)
-    answer = measure_engine(stepper, system, rest, 1 / fastest_rate(rest), PRECISION)
-    if isinstance(answer, Outcome):
-        return f"{answer.ending}: {answer.reason}"
-    limit, _ = answer
+    limit = measure_engine(stepper, system, rest, 1 / fastest_rate(rest), PRECISION)
+    if isinstance(limit, Outcome):
+        return f"{limit.ending}: {limit.reason}"
     return limit.reason if limit.dt is None else float(f"{limit.dt:.{FIGURES}g}")
 
 
 def _capability(stepper: EngineStepper, name: str) -> str:
     """Whether it steps a system by the scheme it claims, or refuses it."""
-    engine, system = stepper.engine, _trials()[name]
+    engine, system = stepper.engine, _capability_cases()[name]
     outcome = stepper.run(system, DT, STEPS)
     if outcome.ending == "unsupported":
         return f"refused: {outcome.reason}"
@@ -116,12 +115,12 @@ def _hanging(case: str) -> tuple[MassSpringSystem, Equilibrium]:
 
 
 @cache
-def _trials() -> Mapping[str, MassSpringSystem]:
+def _capability_cases() -> Mapping[str, MassSpringSystem]:
     return for_each_capability()
 
 
 @cache
-def _claimed(scheme: str, trial: str) -> Trajectory:
-    trajectory = stepper_named(scheme).run(_trials()[trial], DT, STEPS).trajectory
-    assert trajectory is not None, f"{scheme} cannot step {trial}"
+def _claimed(scheme: str, case: str) -> Trajectory:
+    trajectory = stepper_named(scheme).run(_capability_cases()[case], DT, STEPS).trajectory
+    assert trajectory is not None, f"{scheme} cannot step {case}"
     return trajectory

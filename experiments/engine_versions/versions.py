@@ -13,22 +13,22 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from engines.crash_cases import TIME_LIMIT, Breach, crash_list, ending
+from engines.crash_cases import TIME_LIMIT, CrashCase, crash_cases, ending
 from engines.engine import Engine, registry
 from engines.process.environments import environment, numpy_version
 from engines.process.isolation import EngineStepper, isolated
 from engines.process.supervisor import supervisor
 from experiments.engine_versions.conformance import Value, measure
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.errors import InputError, unknown_name
 
-#: What was measured of a version: by engine (the crash list by package), by measure.
+#: What was measured of a version: by engine (crash cases by package), by measure.
 Rows = dict[str, dict[str, Value]]
 
 
 @dataclass(frozen=True)
 class Subject:
-    """What is measured of a package: settings of its engine, and the package itself, by its crash list and so on."""
+    """What is measured of a package: settings of its engine, and the package itself, by its crash cases and so on."""
 
     package: str
     engines: Sequence[Engine]
@@ -41,12 +41,12 @@ class Subject:
 
 
 @dataclass(frozen=True)
-class Measured:
+class VersionMeasurements:
     """What versions of a package do.
 
     Attributes:
         rows: by version, in their order.
-        missing: by version, why it could not be had.
+        missing: by version, why it could not be installed.
     """
 
     package: str
@@ -70,14 +70,16 @@ def in_order(versions: Sequence[str]) -> list[str]:
     return sorted(dict.fromkeys(versions), key=lambda version: [int(n) for n in re.findall(r"\d+", version)])
 
 
-def measure_versions(subject: Subject, versions: Sequence[str], progress: Progress, patient: bool = False) -> Measured:
+def measure_versions(
+    subject: Subject, versions: Sequence[str], progress: Progress, patient: bool = False
+) -> VersionMeasurements:
     """What each version does.
 
     Args:
-        patient: whether a version that cannot be had is let be.
+        patient: whether a version that cannot be installed is left out.
 
     Raises:
-        InputError: for one that cannot be had, unless patient.
+        InputError: for one that cannot be installed, unless patient.
     """
     pythons: dict[str, Path] = {}
     missing: dict[str, str] = {}
@@ -90,7 +92,7 @@ def measure_versions(subject: Subject, versions: Sequence[str], progress: Progre
                 raise
             missing[version] = str(error)
     try:
-        return Measured(subject.package, _measure(subject, pythons, progress), missing)
+        return VersionMeasurements(subject.package, _measure(subject, pythons, progress), missing)
     finally:
         for python in pythons.values():
             supervisor(python).stop()
@@ -105,8 +107,8 @@ def _measure(subject: Subject, pythons: Mapping[str, Path], progress: Progress) 
             tasks[version, engine.name, "conformance"] = partial(measure, stepper)
         if subject.whole:
             tasks[version, subject.package, "NumPy"] = partial(_numpy, python)
-            for breach in crash_list(subject.package).values():
-                tasks[version, subject.package, breach.name] = partial(_break, breach, python)
+            for case in crash_cases(subject.package).values():
+                tasks[version, subject.package, case.name] = partial(_break, case, python)
     answers = {}
     for key, answer in _side_by_side(tasks):
         answers[key] = answer
@@ -136,6 +138,6 @@ def _numpy(python: Path) -> Mapping[str, Value]:
     return {"NumPy": answer if isinstance(answer, str) else f"{answer.ending}: {answer.reason}"}
 
 
-def _break(breach: Breach, python: Path) -> Mapping[str, Value]:
+def _break(case: CrashCase, python: Path) -> Mapping[str, Value]:
     """What becomes of an engine, as a row."""
-    return {f"crash list: {breach.name}": ending(isolated(breach.task, time_limit=TIME_LIMIT, python=python))}
+    return {f"crash list: {case.name}": ending(isolated(case.function, time_limit=TIME_LIMIT, python=python))}

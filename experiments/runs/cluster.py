@@ -1,4 +1,4 @@
-"""A Dask cluster as a crew: every job goes to some worker, and there through the supervisor, as it would here."""
+"""A Dask cluster as an executor: every task goes to some worker, and there through the supervisor, as it would here."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from typing import Any
 
 from engines.process.supervisor import KILLS
 from experiments.runs.runner import Done, do_here
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from reference.errors import InputError
 from reference.outcome import Outcome
 
 #: How long [s] to wait for a scheduler, and for its first worker.
 PATIENCE = 10.0
 
-#: How much work to give a worker at once [s]: much more than handing it over takes, and little to do again.
-PORTION = 5.0
+#: How much work a batch is for a worker [s]: much more than handing it over takes, and little to do again.
+BATCH_SECONDS = 5.0
 
 
-class DaskCrew:
-    """The workers of a Dask scheduler. It takes milliseconds to hand something to one of them: jobs go in portions.
+class DaskExecutor:
+    """The workers of a Dask scheduler. It takes milliseconds to hand something to one of them: tasks go in batches.
 
     Args:
         address: the scheduler's, tcp://HOST:PORT.
-        size: how many portions to give them at once; left out, twice as many as they have threads, so that none waits.
+        size: how many batches to give them at once; left out, twice as many as they have threads, so that none waits.
 
     Raises:
         InputError: where Dask is not installed, the scheduler is not there, or has no workers, or they have other
             versions than we do.
     """
 
-    portion = PORTION
+    batch_seconds = BATCH_SECONDS
 
     def __init__(self, address: str, size: int | None = None) -> None:
         try:
@@ -55,44 +55,44 @@ class DaskCrew:
         threads = sum(worker["nthreads"] for worker in self._client.scheduler_info(n_workers=-1)["workers"].values())
         self.size = size or 2 * threads
 
-    def do(self, jobs: Sequence[Job]) -> list[Done]:
-        """See Crew. A worker that is lost costs its jobs another try, somewhere else, in the end each by itself."""
-        asked = [(job, job.key, job.labels["version"]) for job in jobs]
+    def do(self, tasks: Sequence[Task]) -> list[Done]:
+        """See Executor. A worker that is lost costs its tasks another try, elsewhere, in the end each by itself."""
+        asked = [(task, task.key, task.labels["version"]) for task in tasks]
         for _ in range(KILLS):
             try:
                 return list(self._client.submit(do_there, asked, pure=False).result())
             except self._lost:
-                if len(jobs) > 1:
-                    return [self.do([job])[0] for job in jobs]
+                if len(tasks) > 1:
+                    return [self.do([task])[0] for task in tasks]
             except (CancelledError, OSError) as error:
                 raise InputError(f"--cluster {self._address}: lost the scheduler ({type(error).__name__})") from None
         return [Done(Outcome("crashed", f"lost the worker it ran on, {KILLS} times over"), 0.0)]
 
     def stop(self) -> None:
-        """See Crew."""
+        """See Executor."""
         self._client.close(timeout=PATIENCE)
 
 
-def do_there(asked: Sequence[tuple[Job, str, str | None]]) -> list[Done]:
-    """Jobs on a worker's machine, through its supervisor.
+def do_there(asked: Sequence[tuple[Task, str, str | None]]) -> list[Done]:
+    """Tasks on a worker's machine, through its supervisor.
 
     Args:
-        asked: jobs, their keys where they were asked for, and their engines' versions there.
+        asked: tasks, their keys where they were asked for, and their engines' versions there.
 
     Raises:
-        InputError: where a job's key is another one there: what decides its result is not the same; or where the
+        InputError: where a task's key is another one there: what decides its result is not the same; or where the
             worker may not start processes.
     """
     if multiprocessing.current_process().daemon:
         raise InputError(
             "a worker of the cluster may not start processes; expected DASK_DISTRIBUTED__WORKER__DAEMON=False"
         )
-    return [do_here(_checked(*of_job)) for of_job in asked]
+    return [do_here(_checked(task, key, version)) for task, key, version in asked]
 
 
-def _checked(job: Job, key: str, version: str | None) -> Job:
-    """The job; what it is keyed by is looked up anew on this machine."""
-    there = Job(job.task, job.arguments, job.parameters, job.time_limit, job.memory_limit)
+def _checked(task: Task, key: str, version: str | None) -> Task:
+    """The task; what it is keyed by is looked up anew on this machine."""
+    there = Task(task.function, task.arguments, task.parameters, task.time_limit, task.memory_limit)
     if there.key != key:
         name, found = there.labels["stepper"], there.labels["version"]
         if found != version:

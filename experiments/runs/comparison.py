@@ -11,7 +11,8 @@ import numpy as np
 
 from engines.engine import demands
 from engines.process.isolation import EngineStepper
-from experiments.runs.side_by_side import Progress, side_by_side
+from experiments.runs.progress import Progress
+from experiments.runs.side_by_side import side_by_side
 from reference.changes import whole_steps
 from reference.errors import InputError
 from reference.identification import Identification, candidates_for, identify_by_rounding
@@ -90,7 +91,7 @@ def compare(
     """Run steppers on a setup. An engine that fails is a run with that outcome; the others still report.
 
     Args:
-        patient: also run those that take long on so many masses.
+        patient: also run those that take long on that many masses.
 
     Raises:
         InputError: for a dt or duration that makes no sense; where the trajectories would not fit into the memory.
@@ -145,5 +146,5 @@ def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:
 
 
 def finite(value: float | None) -> float | None:
-    """The number, or None if it is none: JSON has no infinity."""
+    """The number, or None where it is not finite: JSON has no infinity."""
     return value if value is not None and math.isfinite(value) else None

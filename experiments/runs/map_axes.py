@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from experiments.stability_map import Axis, SystemAt
+from experiments.limits.plane import Axis, SystemAt
 from reference.errors import InputError, unknown_name
 from reference.files.setup import setup_for
 from reference.system import PARAMETERS, MassSpringSystem

@@ -1,6 +1,7 @@
 """What a task answered, as JSON and arrays, and back: how the store keeps it.
 
-An answer is made of numbers, words, None, arrays of numbers, outcomes, lists of such, and mappings of such by names.
+An answer is made of numbers, words, None, arrays of numbers, outcomes, limits, lists of such, and mappings of such by
+names.
 """
 
 from __future__ import annotations
@@ -11,12 +12,13 @@ from typing import Any
 
 import numpy as np
 
+from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.state import Array, Trajectory
 
-#: In place of an array, an outcome, or a number that JSON does not know, stands a mapping with one of these alone. No
-#: mapping of an answer's own is taken for one: its keys are names, as those of variables are.
-ARRAY, OUTCOME, NUMBER = "<array>", "<outcome>", "<number>"
+#: In place of an array, an outcome, a limit, or a number that JSON does not know, stands a mapping with one of these
+#: alone. No mapping of an answer's own is taken for one: its keys are names, as those of variables are.
+ARRAY, OUTCOME, LIMIT, NUMBER = "<array>", "<outcome>", "<limit>", "<number>"
 
 
 def encode(answer: Any) -> tuple[Any, dict[str, Array]]:
@@ -42,6 +44,8 @@ def _encode(value: Any, name: str, arrays: dict[str, Array]) -> Any:
     if isinstance(value, Outcome):
         fields = {"ending": value.ending, "reason": value.reason, "trajectory": _fields(value.trajectory)}
         return {OUTCOME: _encode(fields, name, arrays)}
+    if isinstance(value, Limit):
+        return {LIMIT: _encode(vars(value), name, arrays)}
     if isinstance(value, Mapping):
         return {_named(key): _encode(item, f"{name}.{key}", arrays) for key, item in value.items()}
     if isinstance(value, list | tuple):
@@ -75,4 +79,11 @@ def decode(document: Any, arrays: Mapping[str, Array]) -> Any:
         fields = decode(document[OUTCOME], arrays)
         trajectory = fields["trajectory"]
         return Outcome(fields["ending"], fields["reason"], None if trajectory is None else Trajectory(**trajectory))
+    if LIMIT in document:
+        return Limit(**{name: _as_tuple(value) for name, value in decode(document[LIMIT], arrays).items()})
     return {key: decode(item, arrays) for key, item in document.items()}
+
+
+def _as_tuple(value: Any) -> Any:
+    """A field of a limit: JSON has its tuples as lists."""
+    return tuple(map(_as_tuple, value)) if isinstance(value, list) else value

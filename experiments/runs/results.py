@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TextIO
 
+from experiments.runs.result_codec import LIMIT
 from experiments.runs.store import JSON_COLUMNS, StoreError, check_format
 from reference.errors import InputError, unknown_name
 
@@ -30,7 +31,7 @@ def rows(store: Path, filters: Mapping[str, str], retired: bool = False) -> list
         retired: whether to show also those that were started over.
 
     Raises:
-        InputError: if there is no store, it is none, or nothing in it has a column that is asked for.
+        InputError: if there is no store, the file is not a store, or nothing in it has a column that is asked for.
     """
     found = [_flat(row) for row in _read(store) if retired or not row["retired"]]
     known = {name: None for row in found for name in row}
@@ -96,11 +97,19 @@ def _flat(row: sqlite3.Row) -> dict[str, Any]:
     flat = {name: values[name] for name in COLUMNS[:3]} | (parsed["parameters"] or {})
     flat |= {name: values[name] for name in COLUMNS[3:]}
     if isinstance(parsed["answer"], dict):
-        answer = {k: v for k, v in parsed["answer"].items() if v is None or isinstance(v, str | int | float)}
         taken = {*flat, *values}
-        flat |= {f"found_{name}" if name in taken else name: value for name, value in answer.items()}
+        flat |= {f"found_{name}" if name in taken else name: value for name, value in _found(parsed["answer"]).items()}
     flat["settings"] = json.dumps(parsed["settings"])
     return flat | {name: values[name] for name in MORE_COLUMNS[1:]}
+
+
+def _found(answer: Mapping[str, Any]) -> dict[str, Any]:
+    """The numbers and words of an answer, by name; of a limit those that it has."""
+    if LIMIT in answer:
+        limit = {name: value for name, value in answer[LIMIT].items() if value is not None or name == "dt"}
+        factors = limit.pop("factors", ())
+        answer = limit | dict(zip(("growth_factor_below", "growth_factor_above"), factors, strict=False))
+    return {name: value for name, value in answer.items() if value is None or isinstance(value, str | int | float)}
 
 
 def _equal(value: Any, wanted: str) -> bool:

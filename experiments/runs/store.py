@@ -1,7 +1,7 @@
 """Where results are kept: one SQLite file, with the arrays beside it, each in a file named by its run's key.
 
 Nothing is written over and nothing is deleted. A run's arrays are in place before its row is, and a row is there whole
-or not at all: whoever is killed whenever leaves a store that opens, and in it every run that was finished.
+or not at all: a process that is killed at any moment leaves a store that opens, and in it every run that was finished.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import numpy as np
 
 from experiments.runs.environment import environment
 from experiments.runs.result_codec import decode, encode
-from experiments.runs.task import Job, digest
+from experiments.runs.task import Task, digest
 from reference.errors import InputError
 from reference.outcome import Outcome
 from reference.state import Array
@@ -61,7 +61,7 @@ class StoreError(InputError):
 
 
 @dataclass(frozen=True)
-class Kept:
+class Stored:
     """An answer from the store."""
 
     answer: Any
@@ -91,49 +91,49 @@ class Store:
             self.close()
             raise
 
-    def find(self, job: Job) -> Kept | None:
-        """What is kept of a job; None where it is to be run: not yet, to be run again, or stopped at other limits."""
+    def find(self, task: Task) -> Stored | None:
+        """What is kept of a task; None where it is to be run: not yet, to be run again, or stopped at other limits."""
         with self._said(), self._lock:
-            row = self._current(job)
+            row = self._current(task)
         if row is None:
             return None
         arrays = read_arrays(self._arrays, row["arrays"])
         if arrays is None:
-            self.retire([job.key])
+            self.retire([task.key])
             return None
-        return Kept(decode(json.loads(row["answer"]), arrays))
+        return Stored(decode(json.loads(row["answer"]), arrays))
 
-    def keep(self, job: Job, answer: Any, seconds: float) -> None:
-        """Keep what a job answered, and how long it took [s]; where another springlab has just kept it, let that be."""
+    def keep(self, task: Task, answer: Any, seconds: float) -> None:
+        """Keep a task's answer and how long it took [s]; where another springlab has just kept one, let that be."""
         document, arrays = encode(answer)
         outcome = outcome_of_answer(answer)
-        columns = job.labels | {
-            "key": job.key,
-            "question": job.question,
+        columns = task.labels | {
+            "key": task.key,
+            "question": task.question,
             "retired": 0,
             "outcome": outcome.ending,
             "reason": outcome.reason,
             "answer": document,
-            "time_limit": job.time_limit,
-            "memory_limit": job.memory_limit,
+            "time_limit": task.time_limit,
+            "memory_limit": task.memory_limit,
             "seconds": seconds,
             "finished": datetime.now(UTC).isoformat(timespec="milliseconds"),
             "environment": self._environment,
         }
         columns |= {name: json.dumps(columns[name]) for name in JSON_COLUMNS}
         with self._changing():
-            if self._current(job) is not None:
+            if self._current(task) is not None:
                 return
             (columns["generation"],) = self._sql.execute(
-                "SELECT COUNT(*) FROM runs WHERE key = ?", [job.key]
+                "SELECT COUNT(*) FROM runs WHERE key = ?", [task.key]
             ).fetchone()
-            columns["arrays"] = self._write(f"{job.key}-{columns['generation']}", arrays) if arrays else None
-            self._sql.execute("UPDATE runs SET retired = 1 WHERE question = ?", [job.question])
+            columns["arrays"] = self._write(f"{task.key}-{columns['generation']}", arrays) if arrays else None
+            self._sql.execute("UPDATE runs SET retired = 1 WHERE question = ?", [task.question])
             places = ", ".join("?" * len(columns))
             self._sql.execute(f"INSERT INTO runs ({', '.join(columns)}) VALUES ({places})", [*columns.values()])
 
     def retire(self, keys: Iterable[str]) -> None:
-        """Let jobs of these keys count as not yet run. Their rows and arrays stay."""
+        """Let tasks of these keys count as not yet run. Their rows and arrays stay."""
         with self._changing():
             self._sql.executemany("UPDATE runs SET retired = 1 WHERE key = ?", ([key] for key in keys))
 
@@ -158,14 +158,14 @@ class Store:
             for half in self._arrays.glob("*.half"):
                 half.unlink()
 
-    def _current(self, job: Job) -> sqlite3.Row | None:
-        """The row that holds for a job: what was stopped at other limits than its own does not."""
+    def _current(self, task: Task) -> sqlite3.Row | None:
+        """The row that holds for a task: what was stopped at other limits than its own does not."""
         row: sqlite3.Row | None = self._sql.execute(
-            "SELECT * FROM runs WHERE key = ? AND NOT retired ORDER BY generation DESC LIMIT 1", [job.key]
+            "SELECT * FROM runs WHERE key = ? AND NOT retired ORDER BY generation DESC LIMIT 1", [task.key]
         ).fetchone()
         if row is None:
             return None
-        other_limits = (row["time_limit"], row["memory_limit"]) != (job.time_limit, job.memory_limit)
+        other_limits = (row["time_limit"], row["memory_limit"]) != (task.time_limit, task.memory_limit)
         return None if row["outcome"] in ("timed out", "crashed") and other_limits else row
 
     def _write(self, name: str, arrays: Mapping[str, Array]) -> str:
@@ -222,7 +222,7 @@ def read_arrays(folder: Path, path: str | None) -> dict[str, Array] | None:
 
 
 def outcome_of_answer(answer: Any) -> Outcome:
-    """How a job ended: as its answer is or says, else done."""
+    """How a task ended: as its answer is or says, else done."""
     if isinstance(answer, Mapping):
         answer = answer.get("outcome")
     return answer if isinstance(answer, Outcome) else Outcome("done")

@@ -13,7 +13,7 @@ import numpy as np
 
 from engines.engine import Engine
 from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT, EngineStepper, run_engine
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from reference.changes import Change, whole_steps
 from reference.errors import InputError
 from reference.files.setup import setup_for
@@ -23,7 +23,7 @@ from reference.system import MassSpringSystem
 
 
 @dataclass(frozen=True)
-class Sweep:
+class ParameterSweep:
     """What is run.
 
     Attributes:
@@ -59,8 +59,8 @@ class Sweep:
     def __len__(self) -> int:
         return len(self.steppers) * int(np.prod([len(values) for values in self.axes.values()], dtype=int))
 
-    def jobs(self) -> Iterator[Job]:
-        """A job for every run. Raises InputError for a point of the grid that makes no sense."""
+    def tasks(self) -> Iterator[Task]:
+        """A task for every run. Raises InputError for a point of the grid that makes no sense."""
         for values in product(*self.axes.values()):
             point = dict(zip(self.axes, values, strict=True))
             settings = {**self.settings, **{name: f"{value:.17g}" for name, value in point.items() if name != "dt"}}
@@ -71,7 +71,7 @@ class Sweep:
                 wishes = (self.identify, self.keep)
                 arguments = (stepper.name, engine, setup.system, setup.dt, steps, setup.changes, *wishes)
                 named = {"scene": setup.name, **{k: _number(v) for k, v in self.settings.items()}, **point}
-                yield Job(judged, arguments, named, self.time_limit, self.memory_limit)
+                yield Task(judged, arguments, named, self.time_limit, self.memory_limit)
 
 
 def _number(text: str) -> float | str:

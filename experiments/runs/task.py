@@ -1,4 +1,4 @@
-"""A job: a task with its arguments, and the key that everything which decides its result goes into."""
+"""A task: a function with its arguments, and the key that everything which decides its result goes into."""
 
 from __future__ import annotations
 
@@ -28,17 +28,17 @@ COMPUTES_WITH = ("numpy", "numba", "scipy")
 
 
 @dataclass(frozen=True)
-class Job:
-    """A task to be done in a process of its own.
+class Task:
+    """A call of a function, to be made in a process of its own.
 
     Attributes:
-        task: a function of a module; its arguments travel as pickles.
-        parameters: what is varied from job to job, by name: for people, who will look for it in the results.
+        function: a function of a module; its arguments travel as pickles.
+        parameters: what is varied from task to task, by name: for people, who will look for it in the results.
         time_limit: [s].
         memory_limit: [bytes].
     """
 
-    task: Callable[..., Any]
+    function: Callable[..., Any]
     arguments: tuple[Any, ...]
     parameters: Mapping[str, Any] = field(default_factory=dict)
     time_limit: float = TIME_LIMIT
@@ -46,20 +46,20 @@ class Job:
 
     @cached_property
     def question(self) -> str:
-        """The digest of what is asked: task, arguments, version of the engine."""
-        return digest(self.task, self.arguments, self._version)
+        """The digest of what is asked: function, arguments, version of the engine."""
+        return digest(self.function, self.arguments, self._version)
 
     @cached_property
     def key(self) -> str:
         """The digest of everything that decides the result: the question, our sources and versions, the machine."""
-        return digest(self.question, _sources(self.task), _computer())
+        return digest(self.question, _sources(self.function), _computer())
 
     @cached_property
     def labels(self) -> dict[str, Any]:
-        """What the job is about, in the store's columns."""
+        """What the task is about, in the store's columns."""
         engine, system = self._argument("engine"), self._argument("system")
         return {
-            "task": self.task.__name__,
+            "task": self.function.__name__,
             "stepper": getattr(engine, "name", None) or self._argument("stepper"),
             "version": self._version,
             "settings": recorded_settings(engine) if engine is not None else None,
@@ -71,23 +71,23 @@ class Job:
 
     @property
     def _version(self) -> str | None:
-        """Of the engine that the job is about, where it is about one."""
+        """Of the engine that the task is about, where it is about one."""
         engine = self._argument("engine")
         return None if engine is None else version(engine)
 
     def _argument(self, name: str) -> Any:
-        """The argument of that name; None where the task has none."""
+        """The argument of that name; None where the function has none."""
         value = self._bound.get(name)
         return value.item() if isinstance(value, np.generic) else value
 
     def _one_number(self, name: str) -> float | None:
-        """The argument of that name where it is one number: a task may have many of it."""
+        """The argument of that name where it is one number: a function may take many of them."""
         value = self._argument(name)
         return value if isinstance(value, int | float) else None
 
     @cached_property
     def _bound(self) -> dict[str, Any]:
-        return _signature(self.task).bind(*self.arguments).arguments
+        return _signature(self.function).bind(*self.arguments).arguments
 
 
 def digest(*things: Any) -> str:
@@ -143,7 +143,7 @@ def _tell(update: Callable[[bytes], object], kind: str, content: bytes) -> None:
 
 
 def _plain(kind: np.dtype[Any]) -> bool:
-    """Whether an array's bytes say all there is to it: truths, numbers, words; but not long floats, which have gaps."""
+    """Whether an array's bytes say all there is to it: truths, numbers, words; not long floats, which have padding."""
     return kind.kind in "biufcSU" and kind.char not in "gG"
 
 
@@ -155,18 +155,18 @@ def _name(thing: Any) -> str:
 
 
 @cache
-def _signature(task: Callable[..., Any]) -> inspect.Signature:
-    return inspect.signature(task)
+def _signature(function: Callable[..., Any]) -> inspect.Signature:
+    return inspect.signature(function)
 
 
 @cache
-def _sources(task: Callable[..., Any]) -> str:
-    """The digest of all that is written in the rooms that compute, and in the task's own file."""
+def _sources(function: Callable[..., Any]) -> str:
+    """The digest of all that is written in the rooms that compute, and in the function's own file."""
     rooms: Sequence[ModuleType] = (reference, engines)
     files = [file for room in rooms for folder in room.__path__ for file in sorted(Path(folder).rglob("*.py"))]
-    own = inspect.getsourcefile(task)
+    own = inspect.getsourcefile(function)
     texts = [file.read_bytes() for file in [*files, *([Path(own)] if own else [])]]
-    return digest(_name(task), texts)
+    return digest(_name(function), texts)
 
 
 @cache

@@ -27,7 +27,7 @@ OF_SPRINGS = ("rest_length", "stiffness", "damping")
 
 
 @dataclass(frozen=True)
-class Sweep:
+class SweptSystems:
     """Where many systems ended.
 
     Attributes:
@@ -54,7 +54,7 @@ def sweep(
     limit: float = np.inf,
     threads: int | None = None,
     progress: Callable[[float], None] = lambda _: None,
-) -> Sweep:
+) -> SweptSystems:
     """Advance many systems that differ from one in some parameters, in where they start, or in their steps.
 
     Args:
@@ -103,7 +103,7 @@ def sweep(
         progress((done + count) / steps)
     x, v = (np.stack([_out_of_lanes(named[f"{q}{i}"], m) for i in loops.axes], axis=2) for q in "xv")
     history = np.array([f.reshape(-1)[:m] for f in distances])
-    return Sweep(x, v, history, ~(history[-1] <= limit))
+    return SweptSystems(x, v, history, ~(history[-1] <= limit))
 
 
 def _per_system(system: MassSpringSystem, parameters: Mapping[str, Array], m: int) -> dict[str, Array]:

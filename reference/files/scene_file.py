@@ -59,7 +59,7 @@ from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
 from reference.obstacles import KINDS, Obstacle, obstacle_of
 from reference.scenes import Setup, find
-from reference.scenes.ground_motion import GroundMotion, Law, Sweep, read_record
+from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law, read_record
 from reference.system import MassSpringSystem
 
 Numbers = float | list[float]
@@ -168,7 +168,7 @@ class GroundMotionTable(msgspec.Struct, forbid_unknown_fields=True):
                 raise InputError(f"ground_motion.{name} is missing: expected a sweep's numbers or a file")
         if "direction" in given:
             given["direction"] = tuple(given["direction"])
-        return _within("ground_motion", lambda: GroundMotion(Sweep(**given)))
+        return _within("ground_motion", lambda: GroundMotion(FrequencySweep(**given)))
 
 
 class SceneFile(msgspec.Struct, forbid_unknown_fields=True):

@@ -12,8 +12,8 @@ catalogue by largest deviation has a cliff in it, and a name is given only to wh
 """
 
 from reference.identification.amplification import AMPLIFIED, PERTURBATION, amplified
-from reference.identification.naming import identify, identify_by_rounding
-from reference.identification.ranking import NOISE, STRETCH, TOLERANCE, identify_run
+from reference.identification.naming import identify, identify_by_rounding, scheme_of
+from reference.identification.ranking import NOISE, STRETCH, TOLERANCE, identify_beginning, identify_run
 from reference.identification.result import Identification, Match
 from reference.identification.search import LARGE, candidates, candidates_for
 
@@ -30,6 +30,8 @@ __all__ = [
     "candidates",
     "candidates_for",
     "identify",
+    "identify_beginning",
     "identify_by_rounding",
     "identify_run",
+    "scheme_of",
 ]

@@ -11,7 +11,7 @@ from reference.identification.result import Identification
 from reference.identification.search import candidates_for
 from reference.outcome import Outcome
 from reference.state import Trajectory
-from reference.stepper import Stepper, stepper_named
+from reference.stepper import SchemeStepper, Stepper, stepper_named
 from reference.system import MassSpringSystem
 
 
@@ -45,3 +45,11 @@ def identify_by_rounding(
     nearest = stepper_named(found.ranking[0].scheme)
     allowed = min(AMPLIFIED, amplified(nearest, known[nearest.name], system, dt, steps, changes))
     return identify_run(name, outcome, system, known, max(TOLERANCE, allowed))
+
+
+def scheme_of(stepper: Stepper, identification: Identification) -> SchemeStepper | None:
+    """What theory knows a stepper as: a scheme is itself, another is what it was identified as, if it was."""
+    if isinstance(stepper, SchemeStepper):
+        return stepper
+    named = identification.identified_as
+    return None if named is None else stepper_named(named)

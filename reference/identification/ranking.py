@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 from reference.identification.result import Identification, Match
 from reference.outcome import Outcome, first_diverged_frame
@@ -37,6 +38,16 @@ def identify_run(
         return Identification(name, (), limit, "it blew up in its first step")
     errors = {scheme: largest_distance(outcome.trajectory, run, frames) for scheme, run in known.items()}
     return Identification(name, ranked(errors, limit, NOISE * system.size), limit)
+
+
+def identify_beginning(
+    name: str, outcome: Outcome, system: MassSpringSystem, known: Mapping[str, Trajectory]
+) -> Identification:
+    """As `identify_run`, by the beginning of a run: as much of it as is known of the longest of the trajectories."""
+    if outcome.trajectory is None:
+        return identify_run(name, outcome, system, known)
+    begun = outcome.trajectory.frames(slice(max(map(len, known.values()))))
+    return identify_run(name, replace(outcome, trajectory=begun), system, known)
 
 
 def comparable_frames(outcome: Outcome, system: MassSpringSystem) -> int:

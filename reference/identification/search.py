@@ -121,5 +121,4 @@ def _is_one_of(known: Mapping[str, Trajectory], run: Outcome, system: MassSpring
 def _beginning(run: Outcome) -> Outcome:
     """What a run had done after the first steps."""
     assert run.trajectory is not None
-    few, whole = slice(FIRST_STEPS + 1), run.trajectory
-    return replace(run, trajectory=Trajectory(whole.times[few], whole.positions[few], whole.velocities[few]))
+    return replace(run, trajectory=run.trajectory.frames(slice(FIRST_STEPS + 1)))

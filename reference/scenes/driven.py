@@ -9,7 +9,7 @@ import numpy as np
 from reference.changes import Driven
 from reference.scenes import scene
 from reference.scenes.crossing import Crossing, cambered
-from reference.scenes.ground_motion import GroundMotion, Law, Sweep
+from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law
 from reference.scenes.parameters import PerItem, counted
 from reference.scenes.trusses import Kind, bridge, soil
 from reference.state import Array
@@ -100,5 +100,5 @@ def earthquake(
         damping=damping,
         gravity=gravity,
     )
-    sweep = Sweep(from_frequency, to_frequency, amplitude, shaking, law, {"x": (1.0,), "y": (0.0, 1.0)}[axis])
+    sweep = FrequencySweep(from_frequency, to_frequency, amplitude, shaking, law, {"x": (1.0,), "y": (0.0, 1.0)}[axis])
     return Driven(cambered(standing), (GroundMotion(sweep),))

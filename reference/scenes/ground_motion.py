@@ -70,7 +70,7 @@ class GroundMotion:
 
 
 @dataclass(frozen=True)
-class Sweep:
+class FrequencySweep:
     """The ground shakes as a sine whose frequency goes from one to another.
 
     a(t) = A sin(2 pi times the integral of f from 0 to t), with f = f0 + (f1 - f0) t/T, linear, or f0 (f1/f0)^(t/T),

@@ -51,18 +51,18 @@ def chosen_runner(resume: bool, store: Path, jobs: int | None = None, cluster: s
     Raises:
         InputError: for a store that cannot be used, or a cluster that cannot be reached.
     """
-    from experiments.runs.runner import Crew, LocalCrew, Runner, using
+    from experiments.runs.runner import Executor, LocalExecutor, Runner, using
     from experiments.runs.store import Store
 
     with closing(Store(store)) as kept:
-        crew: Crew
+        executor: Executor
         if cluster is None:
-            crew = LocalCrew(jobs)
+            executor = LocalExecutor(jobs)
         else:
-            from experiments.runs.cluster import DaskCrew
+            from experiments.runs.cluster import DaskExecutor
 
-            crew = DaskCrew(cluster, jobs)
-        runner = Runner(crew, kept, fresh=not resume)
+            executor = DaskExecutor(cluster, jobs)
+        runner = Runner(executor, kept, fresh=not resume)
         try:
             with using(runner):
                 yield runner
@@ -71,4 +71,4 @@ def chosen_runner(resume: bool, store: Path, jobs: int | None = None, cluster: s
             print(f"springlab: interrupted; what is done is kept in {store}: {again} goes on", file=sys.stderr)
             raise click.exceptions.Exit(INTERRUPTED) from None
         finally:
-            crew.stop()
+            executor.stop()

@@ -21,7 +21,7 @@ from report.commands.options import (
 from report.commands.terminal import RESULTS, progress, show_result
 
 if TYPE_CHECKING:
-    from experiments.stability import Row
+    from experiments.limits.limit_rows import Row
 
 
 @click.command("stability")
@@ -56,8 +56,9 @@ def stability_command(
 
 def _limits(scene: str, settings: Mapping[str, str], names: Sequence[str]) -> list[Row]:
     """The limits of steppers of these names, or of all that theory knows on springs."""
+    from experiments.limits.limit_rows import stability_rows
     from experiments.runs.steppers import all_steppers, find_steppers
-    from experiments.stability import CASES, stability_rows
+    from experiments.stability import CASES
     from reference.files.setup import is_file, setup_for
 
     known = all_steppers().values()
@@ -97,9 +98,9 @@ def _write_maps(
     out: Path,
 ) -> None:
     """A map of each stepper, as a figure and as CSV, into a folder."""
+    from experiments.limits.stability_map import stability_map, write_map
     from experiments.runs.map_axes import axes_for, system_maker
     from experiments.runs.steppers import find_steppers
-    from experiments.stability_map import stability_map, write_map
     from report.figures.stability_map import draw_map
 
     found = find_steppers(steppers)

@@ -58,19 +58,19 @@ def sweep_command(
     """
     from experiments.runs.steppers import find_steppers
     from experiments.runs.store import outcome_of_answer
-    from experiments.runs.sweeps import Sweep, count, parse_axes, tally
+    from experiments.runs.sweeps import ParameterSweep, count, parse_axes, tally
 
     steppers, values = find_steppers(names), parse_axes(axes)
     limits = (time_limit, memory_limit * 2**30)
-    sweep = Sweep(scene, steppers, values, settings, dt, duration, identify, keep, *limits)
+    sweep = ParameterSweep(scene, steppers, values, settings, dt, duration, identify, keep, *limits)
     tallies, begin, done = tally(steppers), perf_counter(), 0
     with chosen_runner(resume, store, jobs, cluster) as runner, progress("sweep") as tell:
         if not resume:
-            runner.start_over(sweep.jobs())
-        with closing(runner.answers(sweep.jobs())) as answers:
-            for job, answer in answers:
+            runner.start_over(sweep.tasks())
+        with closing(runner.answers(sweep.tasks())) as answers:
+            for task, answer in answers:
                 done += 1
-                count(tallies, job.labels["stepper"], outcome_of_answer(answer))
+                count(tallies, task.labels["stepper"], outcome_of_answer(answer))
                 tell(f"{done} of {len(sweep)} runs")
     seconds = perf_counter() - begin
     if as_json:

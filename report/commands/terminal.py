@@ -13,7 +13,7 @@ from reference.errors import InputError, SolverError
 
 if TYPE_CHECKING:  # these import NumPy, Numba and the engines' adapters: `springlab --help` does without
     from experiments.experiment import Experiment, Result, Table
-    from experiments.runs.side_by_side import Progress
+    from experiments.runs.progress import Progress
 
 #: Where results go unless told otherwise.
 RESULTS = Path("results")

@@ -17,7 +17,7 @@ from report.commands.options import json_option, out_option
 from report.commands.terminal import RESULTS, progress, show_table
 
 if TYPE_CHECKING:
-    from experiments.engine_versions.versions import Measured, Subject
+    from experiments.engine_versions.versions import Subject, VersionMeasurements
 
 
 @click.command("versions")
@@ -69,7 +69,7 @@ def _wanted(engine: str | None, versions: Sequence[str], kept: bool) -> list[tup
     return [(s, kept_versions(s, versions) if kept or not versions else list(versions)) for s in subjects]
 
 
-def _compare(measured: Sequence[tuple[Subject, Measured]], as_json: bool) -> int:
+def _compare(measured: Sequence[tuple[Subject, VersionMeasurements]], as_json: bool) -> int:
     from experiments.engine_versions.baseline import deviations, unknown_engines
 
     for subject, _ in measured:
@@ -84,7 +84,7 @@ def _compare(measured: Sequence[tuple[Subject, Measured]], as_json: bool) -> int
     return int(bool(lines))
 
 
-def _show(measured: Sequence[tuple[Subject, Measured]], as_json: bool, out: Path) -> int:
+def _show(measured: Sequence[tuple[Subject, VersionMeasurements]], as_json: bool, out: Path) -> int:
     from experiments.engine_versions.changes import result_of
     from experiments.experiment import write_tables
     from report.figures import draw
@@ -109,7 +109,7 @@ def _show(measured: Sequence[tuple[Subject, Measured]], as_json: bool, out: Path
     return 0
 
 
-def _document(found: Measured) -> dict[str, Any]:
+def _document(found: VersionMeasurements) -> dict[str, Any]:
     """What was measured of a package, and what changed, as JSON has it."""
     from experiments.engine_versions.changes import changes
 

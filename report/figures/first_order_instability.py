@@ -61,7 +61,7 @@ def _predicted(axes: Any, fate: Fate, times: Any) -> None:
 
 def _alt(fates: list[Fate]) -> str:
     ends = [f"{f.scheme.name} {'not a finite number' if last(f) is None else f'{last(f):.1e} m'}" for f in fates]
-    growths = [f"{f.scheme.name} {f.predicted:.5f} predicted, {f.pushed:.5f} measured" for f in fates]
+    growths = [f"{f.scheme.name} {f.predicted:.5f} predicted, {f.perturbed:.5f} measured" for f in fates]
     return (
         f"A string at {len(TIMES)} times under {' and '.join(f.scheme.name for f in fates)}, over its true motion; "
         f"distances from that at {TIMES[-1]:g} s: {', '.join(ends)}; growth of the fastest mode in a step: "

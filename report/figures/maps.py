@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from experiments.experiment import Result
-from experiments.stability_map import StabilityMap
+from experiments.limits.stability_map import StabilityMap
 from report.figures import Picture, new_figure
 from report.figures.stability_map import add_scale, draw_field, words
 

@@ -30,7 +30,7 @@ def _dots(axes: Any, rows: list[Row], rounding: float) -> None:
     axes.axvline(rounding, color="#777777", linewidth=1)
     for i, change in enumerate(CHANGES):
         # One under the other, so that all can be seen where they are equal.
-        places = [(max(row.renamed.distances[change], FLOOR), y + 0.24 * (i - 1)) for y, row in _placed(rows, change)]
+        places = [(max(row.effects.distances[change], FLOOR), y + 0.24 * (i - 1)) for y, row in _placed(rows, change)]
         axes.plot(*zip(*places, strict=True), linestyle="none", markersize=6, label=change, **look(i))
     axes.set_xscale("log")
     axes.set_xlim(FLOOR / 4, 1)
@@ -60,7 +60,7 @@ def _dots(axes: Any, rows: list[Row], rounding: float) -> None:
 
 
 def _placed(rows: list[Row], change: str) -> list[tuple[int, Row]]:
-    return [(y, row) for y, row in enumerate(rows) if change in row.renamed.distances]
+    return [(y, row) for y, row in enumerate(rows) if change in row.effects.distances]
 
 
 def _lines(axes: Any, convergences: list[Convergence], rounding: float) -> None:
@@ -90,7 +90,9 @@ def _lines(axes: Any, convergences: list[Convergence], rounding: float) -> None:
 
 def _alt(rows: list[Row], convergences: list[Convergence], rounding: float) -> str:
     seen = [
-        f"{row.stepper.name} {max(row.renamed.distances.values()):.1e} m" for row in rows if row.renamed.sees(rounding)
+        f"{row.stepper.name} {max(row.effects.distances.values()):.1e} m"
+        for row in rows
+        if row.effects.depends_on(rounding)
     ]
     parts = [
         f"{c.damping:g} N s/m: {c.distances[0]:.1e} m with 1 round, {c.distances[-1]:.1e} m with {ROUNDS[-1]}"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from experiments.experiment import Result
-from experiments.stability import Row
+from experiments.limits.limit_rows import Row
 from report.figures import COLOURS, MEASURED, PREDICTED, Picture, new_figure
 
 

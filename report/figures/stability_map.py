@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from experiments.stability_map import Axis, StabilityMap
+from experiments.limits.plane import Axis
+from experiments.limits.stability_map import StabilityMap
 from reference.system import PARAMETERS
 from report.figures import BLACK_ON_COLOURS, Picture, new_figure
 

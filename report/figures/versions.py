@@ -8,7 +8,7 @@ from typing import Any
 
 from experiments.engine_versions.changes import same
 from experiments.engine_versions.conformance import Value
-from experiments.engine_versions.versions import Measured
+from experiments.engine_versions.versions import VersionMeasurements
 from experiments.experiment import Result
 from report.figures import COLOURS, Picture, new_figure
 
@@ -22,7 +22,7 @@ MARK = "\N{BLACK RIGHT-POINTING TRIANGLE} "
 
 def draw(result: Result) -> Picture:
     """A row for each engine and measure that differs, a column for each version; a change in bold and marked."""
-    measured: Measured = result.data["measured"]
+    measured: VersionMeasurements = result.data["measured"]
     versions, rows = [*measured.rows], result.tables[0].rows
     cells = [[f"{row[0]}\n{row[1]}", *(_words(value) for value in row[2:])] for row in rows]
     heights = [max(cell.count("\n") + 1 for cell in row) + 0.7 for row in cells]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from experiments.runs.comparison import Comparison, Run
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
 from reference.changes import changes_by_step
 from reference.errors import InputError
 from reference.identification import TOLERANCE

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from engines.crash_cases import crash_list
+from engines.crash_cases import crash_cases
 from engines.engine import CAPABILITIES, Engine, installed_version, recorded_settings, registry
 from experiments.engine_versions.baseline import read
 
@@ -87,8 +87,8 @@ def _in_words(value: object) -> str:
 
 
 def _crashes(package: str, version: str | None) -> tuple[list[tuple[str, str]], str]:
-    """What `springlab versions` kept of the crash list for this version, or why there is nothing."""
-    known = crash_list(package)
+    """What `springlab versions` kept of the crash cases for this version, or why there is nothing."""
+    known = crash_cases(package)
     if not known:
         return [], "Nobody has entered a way to break it into the crash list."
     if version is None:

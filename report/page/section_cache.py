@@ -14,7 +14,7 @@ from engines.engine import installed_version, registry
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.environment import environment, processor
 from experiments.runs.store import Store
-from experiments.runs.task import Job, digest
+from experiments.runs.task import Task, digest
 from report.page.section import Section
 
 PROJECT = Path(__file__).parents[2]
@@ -64,14 +64,14 @@ def cache_section(section: Section, full: bool, store: Store, seconds: float) ->
     return section if found is None else from_document(section.experiment, found.answer)
 
 
-def task_of(experiment: Experiment, full: bool) -> Job | None:
+def task_of(experiment: Experiment, full: bool) -> Task | None:
     """What the store knows a section by; None where its experiment's function cannot be told from others."""
     run = (experiment.run_in_full if full else None) or experiment.run
     name = name_of(run)
     if name is None:
         return None
     machine = processor() if experiment.timed else ""
-    return Job(report_section, (experiment.name, full, name, sources(), versions(), machine))
+    return Task(report_section, (experiment.name, full, name, sources(), versions(), machine))
 
 
 def report_section(experiment: str, full: bool, run: str, sources: str, versions: str, machine: str) -> None:

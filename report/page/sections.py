@@ -15,8 +15,8 @@ from time import perf_counter
 from engines.process.isolation import isolated
 from experiments.advice.own_scene import experiments_of
 from experiments.experiment import Experiment, find, write_tables
-from experiments.runs.runner import LocalCrew, Runner, current, using
-from experiments.runs.side_by_side import Progress
+from experiments.runs.progress import Progress
+from experiments.runs.runner import LocalExecutor, Runner, current, using
 from experiments.runs.store import Store, StoreError
 from reference.scenes import Setup
 from report.figures import animate, draw
@@ -129,7 +129,7 @@ def _isolated_section(experiment: Experiment, folder: Path, store: Path, fresh: 
 
 def section_by_name(name: str, folder: Path, store: Path, fresh: bool, full: bool) -> Section:
     """As `section`, with what travels between processes: the page needs no more of a result than its words."""
-    with closing(Store(store)) as opened, using(Runner(LocalCrew(), opened, fresh)):
+    with closing(Store(store)) as opened, using(Runner(LocalExecutor(), opened, fresh)):
         experiment = find(name)
         in_full = experiment.run_in_full if full else None
         asked = experiment if in_full is None else replace(experiment, run=in_full)

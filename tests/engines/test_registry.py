@@ -9,8 +9,10 @@ import sys
 
 import pytest
 
+from engines.bullet import softbody
 from engines.engine import Engine, find, registry, version
 from engines.process.isolation import EngineStepper
+from engines.pymunk import springs
 from reference.errors import InputError
 from reference.scenes import find as find_scene
 from tests.engines.process.misbehaving import Misbehaving, Still
@@ -68,3 +70,11 @@ def test_an_engine_that_is_not_installed_is_an_unsupported_run() -> None:
     assert version(missing) is None
     outcome = EngineStepper(missing).run(find_scene("string").system({}), 1e-3, 10)
     assert (outcome.ending, outcome.reason) == ("unsupported", "no-such-engine is not installed")
+
+
+def test_a_name_that_is_taken_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In one line, with the file that has it: the second engine would hide the first."""
+    first, second = softbody.ENGINES[0], springs.ENGINES[0]
+    monkeypatch.setattr(springs, "ENGINES", (dataclasses.replace(second, name=first.name),))
+    with pytest.raises(InputError, match=r"engine 'bullet_softbody' is taken by engines\.bullet\.softbody"):
+        registry.__wrapped__()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from experiments import first_order_instability as instability
-from experiments.first_order_instability import DT, Fate, fastest_mode, fate, mode_sizes, pushed
+from experiments.first_order_instability import DT, Fate, fastest_mode, fate, mode_sizes, perturbed
 from reference.motion import Motion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
@@ -54,7 +54,7 @@ METHODS = [("euler", 1), ("heun", 2), ("rk4", 4)]
 @pytest.mark.parametrize(("name", "order"), METHODS)
 def test_a_push_grows_as_the_stability_function_says(name: str, order: int, drag: float) -> None:
     """Measured, and predicted by the eigenvalues of the step where the fastest mode is the one that grows most."""
-    check_growth(pushed(string(drag), find(name)), order, drag)
+    check_growth(perturbed(string(drag), find(name)), order, drag)
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_a_push_grows_as_the_stability_function_says(name: str, order: int, drag
 def test_the_growth_fails_on_other_integrators(scheme: Scheme, order: int) -> None:
     """Each multiplies the mode by something else, or mixes it with others."""
     with pytest.raises(AssertionError):
-        check_growth(pushed(string(), scheme), order, 0.02)
+        check_growth(perturbed(string(), scheme), order, 0.02)
 
 
 @pytest.mark.parametrize("masses", [1, 2, 3, 10])
@@ -148,7 +148,7 @@ def test_others_at_the_same_step_do_not(fates: dict[str, Fate], name: str) -> No
 
 
 def test_heun_swings_on(fates: dict[str, Fate]) -> None:
-    """Its distance from the truth stays what its order makes it: 1e-3 of the string's length at most."""
+    """Its distance from the true motion stays what its order makes it: 1e-3 of the string's length at most."""
     heun = fates["heun"]
     assert heun.predicted < 1
     assert heun.swinging is None
@@ -165,7 +165,7 @@ def test_findings_and_figure_are_made_from_the_fates(monkeypatch: pytest.MonkeyP
     assert (
         f"rk4 is predicted to multiply the fastest mode by {only.predicted:.5f} in a step, so that it dies away" in said
     )
-    assert f"measured: {only.pushed:.5f}" in said
+    assert f"measured: {only.perturbed:.5f}" in said
     assert "swinging" not in said
     assert "euler" not in said
     assert result.tables[0].rows[0][3:5] == [None, None]

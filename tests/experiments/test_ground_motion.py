@@ -20,7 +20,7 @@ from experiments.ground_motion import (
 )
 from reference.changes import Driven
 from reference.scenes import find as find_scene
-from reference.scenes.ground_motion import GroundMotion, Sweep
+from reference.scenes.ground_motion import FrequencySweep, GroundMotion
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from reference.state import Array
@@ -51,7 +51,7 @@ def sways_as_predicted(bridge: Driven, linear: Array) -> bool:
 
 def test_the_bridge_sways_as_the_linear_bridge() -> None:
     """With a hundredth of the shaking, so that little is not linear; and not one with beams stiffer by a hundredth."""
-    weak = Sweep(**{**vars(SWEEP), "amplitude": SWEEP.amplitude / 100})
+    weak = FrequencySweep(**{**vars(SWEEP), "amplitude": SWEEP.amplitude / 100})
     linear = predicted_sway() / 100
     system = shaken_bridge().system
     assert sways_as_predicted(Driven(system, (GroundMotion(weak),)), linear)

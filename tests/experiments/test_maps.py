@@ -7,8 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from experiments.limits.plane import Axis
+from experiments.limits.stability_map import StabilityMap
 from experiments.maps import agreement, predicted_unstable
-from experiments.stability_map import Axis, StabilityMap
 
 
 def made_up(offset: float) -> StabilityMap:

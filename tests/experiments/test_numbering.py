@@ -12,16 +12,15 @@ from engines.engine import version
 from engines.process.isolation import EngineStepper, run_engine
 from engines.pymunk.springs import PymunkSprings
 from experiments import numbering
-from experiments.numbering import Convergence, Row, gauss_seidel
-from experiments.runs.permutation import CHANGES, Renamed, differences, renamings
+from experiments.numbering import Convergence, Row
+from experiments.runs.permutation import CHANGES, PermutationEffects, permutation_effects, permutations
 from reference.forces import SpringMotion
 from reference.motion import MotionOfSprings
-from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
-from reference.schemes.implicit_damping import effective_masses, sequential_impulses, spring_directions
+from reference.schemes.implicit_damping import spring_directions
 from reference.state import State
 from reference.stepper import SchemeStepper, Stepper, catalogued
-from reference.system import MassSpringSystem
+from reference.theory.gauss_seidel import convergence_factor
 from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored
@@ -52,7 +51,7 @@ def seen(scheme: Scheme) -> frozenset[str]:
     """Whose order shows in 100 steps of a moving, damped string of seven, beyond 1e-12 of its size."""
     system = moving_string(7, damping=1.0)
     run = SchemeStepper(scheme).run
-    return differences(lambda s: run(s, 1e-3, 100), system).sees(1e-12 * system.size)
+    return permutation_effects(lambda s: run(s, 1e-3, 100), system).depends_on(1e-12 * system.size)
 
 
 @pytest.mark.parametrize(
@@ -67,10 +66,12 @@ def seen(scheme: Scheme) -> frozenset[str]:
     ],
     ids=label,
 )
-def test_each_change_of_names_shows_in_who_goes_by_that_order_and_in_nobody_else(
+def test_each_permutation_shows_in_who_goes_by_that_order_and_in_nobody_else(
     scheme: Scheme, orders: frozenset[str]
 ) -> None:
-    """Names are not physics: a right scheme sees none. Each of the doctored ones sees just the order it goes by.
+    """Numbers are labels, not physics: a right scheme depends on none.
+
+    Each of the doctored ones depends on just the order it goes by.
 
     The limit is that of identification, 1e-12 of the size: 100 steps round by some 1e-14 of it.
     """
@@ -78,13 +79,13 @@ def test_each_change_of_names_shows_in_who_goes_by_that_order_and_in_nobody_else
 
 
 @pytest.mark.parametrize("change", CHANGES)
-def test_the_renamed_system_is_the_same_system(change: str) -> None:
+def test_the_permuted_system_is_the_same_system(change: str) -> None:
     """Accelerations of a random mesh with unequal springs are the same, mass for mass, to rounding; mass 0 stays.
 
     A change that forgets a spring's stiffness on the way is seen: with all stiffnesses shuffled it is another system.
     """
     mesh = random_mesh(3, 8, 3)
-    other, order = renamings(mesh)[change]
+    other, order = permutations(mesh)[change]
     expected = SpringMotion(mesh).acceleration(mesh.start)[order]
     assert SpringMotion(other).acceleration(other.start) == pytest.approx(expected, rel=1e-12)
     assert order[0] == 0
@@ -93,50 +94,11 @@ def test_the_renamed_system_is_the_same_system(change: str) -> None:
     assert SpringMotion(doctored).acceleration(other.start) != pytest.approx(expected, rel=1e-3)
 
 
-def straight(springs: int, damping: float) -> MassSpringSystem:
-    """The default string, of so many masses."""
-    return find_scene("string").system({"masses": springs, "damping": damping})
-
-
-@pytest.mark.parametrize("damping", [0.5, 5.0, 20.0])
-def test_a_round_on_two_springs_leaves_half_the_product_of_their_parts(damping: float) -> None:
-    """By hand: p1 = 1 - exp(-dt c/m), p2 = 1 - exp(-2 dt c/m). Each spring passes on p times m'/m, and m'2 = m/2.
-
-    A round takes a spring's impulse to the other and back: p1 p2 / 2. Rounding only; with another dt it is not.
-    """
-    first, second = (-np.expm1(-1e-3 * damping * n / 0.02) for n in (1, 2))
-    assert gauss_seidel(straight(2, damping), 1e-3) == pytest.approx(first * second / 2, rel=1e-12)
-    assert gauss_seidel(straight(2, damping), 2e-3) != pytest.approx(first * second / 2, rel=1e-2)
-
-
-def left_by_a_round(system: MassSpringSystem, dt: float) -> float:
-    """The kernel's own iteration on random velocities: by what the last of 40 rounds multiplies what is missing."""
-    mass = effective_masses(system)
-    part = -np.expm1(-dt * system.damping / mass)
-    inverse = np.where(system.fixed, 0.0, 1 / system.masses)
-
-    def after(rounds: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-        velocities = np.random.default_rng(1).normal(size=system.positions.shape)
-        directions = spring_directions(system, system.start)
-        sequential_impulses(velocities, system.springs, directions, inverse, mass, part, rounds)
-        return velocities
-
-    missing = [float(np.linalg.norm(after(n) - after(1000))) for n in (39, 40)]
-    return missing[1] / missing[0]
-
-
-def test_the_predicted_factor_is_that_of_the_iteration_itself() -> None:
-    """After 40 rounds only the slowest mode is left, to (second / first)^40: within 1e-3. Another damping is off."""
-    system = straight(6, 40.0)
-    assert gauss_seidel(system, 1e-3) == pytest.approx(left_by_a_round(system, 1e-3), rel=1e-3)
-    assert gauss_seidel(straight(6, 30.0), 1e-3) != pytest.approx(left_by_a_round(system, 1e-3), rel=1e-2)
-
-
 @NO_PYMUNK
 def test_pymunk_sees_the_order_of_its_springs_just_as_the_scheme_it_is() -> None:
     """With 10 rounds, the scheme's number too, to what both round; the difference itself is a thousand times more."""
     engine, scheme = (
-        numbering.renamed_by(stepper)[0].distances["springs reversed"]
+        numbering.effects_on(stepper)[0].distances["springs reversed"]
         for stepper in (EngineStepper(PymunkSprings()), catalogued()["drift_kick_sequential_damping"])
     )
     assert engine == pytest.approx(scheme, abs=1e-12)
@@ -148,14 +110,14 @@ def test_the_difference_falls_by_what_a_round_leaves() -> None:
     """From 30 to 50 rounds at 20 N s/m, within a tenth: the string is not quite straight. Other rounds are not it."""
     system = numbering.string(20.0)
     few, many = (numbering.reversal(EngineStepper(PymunkSprings(rounds=n)), 20.0) for n in (30, 50))
-    assert np.log(many / few) / 20 == pytest.approx(np.log(gauss_seidel(system, 1e-3)), rel=0.1)
-    assert np.log(many / few) / 20 != pytest.approx(np.log(gauss_seidel(numbering.string(5.0), 1e-3)), rel=0.1)
+    assert np.log(many / few) / 20 == pytest.approx(np.log(convergence_factor(system, 1e-3)), rel=0.1)
+    assert np.log(many / few) / 20 != pytest.approx(np.log(convergence_factor(numbering.string(5.0), 1e-3)), rel=0.1)
 
 
 def row(stepper: Stepper, predicted: frozenset[str] | None, distances: dict[str, float], reason: str = "") -> Row:
     """A row made up: what could not be run has the reason."""
     missing = {change: reason for change in CHANGES if change not in distances}
-    return Row(stepper, numbering.DAMPINGS[0], predicted, Renamed(distances, missing))
+    return Row(stepper, numbering.DAMPINGS[0], predicted, PermutationEffects(distances, missing))
 
 
 ALL_SMALL = dict.fromkeys(CHANGES, 1e-16)
@@ -183,13 +145,13 @@ def test_findings_are_made_from_the_rows() -> None:
 
 def test_an_engine_that_crashes_or_is_not_there_or_takes_strings_only_says_so() -> None:
     """Whatever happens to an engine happens to it alone, and comes with its reason."""
-    crashed = numbering.renamed_by(EngineStepper(Misbehaving(Segfaults)))
+    crashed = numbering.effects_on(EngineStepper(Misbehaving(Segfaults)))
     assert all("SIGSEGV" in reason for renamed in crashed for reason in renamed.reasons.values())
-    absent = numbering.renamed_by(EngineStepper(replace(PymunkSprings(), package="no-such-engine")))
+    absent = numbering.effects_on(EngineStepper(replace(PymunkSprings(), package="no-such-engine")))
     assert absent[0].reasons["ends swapped"] == "unsupported, no-such-engine is not installed"
     strings_only = Doctored(capabilities=frozenset({"damping"}))
-    renamed = differences(partial(run_engine, strings_only, dt=1e-3, steps=5), numbering.string(0.0))
-    assert renamed.tried == ENDS
+    renamed = permutation_effects(partial(run_engine, strings_only, dt=1e-3, steps=5), numbering.string(0.0))
+    assert renamed.permuted == ENDS
     assert "a string hung at its first mass" in renamed.reasons["springs reversed"]
 
 

@@ -7,9 +7,10 @@ import pytest
 
 from engines.engine import Engine, demands, registry
 from engines.process.isolation import EngineStepper
+from experiments.limits.limit_rows import stability_rows
+from experiments.limits.stability_map import stability_map
 from experiments.runs.map_axes import axes_for, system_maker
-from experiments.stability import CASES, measure_scheme, result_of, stability_rows
-from experiments.stability_map import stability_map
+from experiments.stability import CASES, result_of
 from reference.errors import InputError
 from reference.limit import Limit
 from reference.measured_stability import measured_limit, random_growth
@@ -19,6 +20,7 @@ from reference.schemes.catalogue import Scheme, schemes
 from reference.stepper import SchemeStepper
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
+from reference.theory.measured_mode import measured_mode_limit
 from reference.theory.step_map import step_jacobian
 from tests import wrong
 
@@ -35,7 +37,7 @@ def quiet(_: object) -> None:
 def check_measured_as_predicted(scheme: Scheme, run: Scheme, case: dict[str, float]) -> None:
     """|measured - predicted| < 1e-3 predicted, or neither has a limit: theory's eigenvalues against a run."""
     rest = spring_equilibrium(find("string").system({"masses": 4, **case}))
-    predicted, measured = stability_limit(scheme, rest), measure_scheme(run, rest)
+    predicted, measured = stability_limit(scheme, rest), measured_mode_limit(run, rest)
     assert (predicted.dt is None) == (measured.dt is None)
     if predicted.dt is not None and measured.dt is not None:
         assert abs(measured.dt - predicted.dt) < TOLERANCE * predicted.dt
@@ -56,7 +58,7 @@ def test_a_scheme_that_steps_twice_too_far_is_caught() -> None:
 
 @pytest.mark.parametrize("case", [{}, {"damping": 0.5}], ids=str)
 def test_engines_blow_up_where_their_scheme_is_predicted_to(engine: Engine, case: dict[str, float]) -> None:
-    """From random pushes, measured without any theory, against the limit of the scheme it is identified with.
+    """From random perturbations, measured without any theory, against the limit of the scheme it is identified with.
 
     Where that has none, as Euler without drag, none is measured either.
     """
@@ -83,29 +85,29 @@ def growth_of(map_matrix: np.ndarray, steps: int) -> float:
     return random_growth(np.array(states))
 
 
-def test_random_pushes_find_a_limit_known_in_closed_form() -> None:
+def test_random_perturbations_find_a_limit_known_in_closed_form() -> None:
     """Z -> [[1 - h^2, h], [-h, 1]] z is kick-drift of x'' = -x, stable for h < 2."""
-    limit, reason = measured_limit(lambda h, n: growth_of(np.array([[1 - h * h, h], [-h, 1.0]]), n), 1.0, 1e-4)
-    assert reason == ""
-    assert limit == pytest.approx(2, rel=TOLERANCE)
+    limit = measured_limit(lambda h, n: growth_of(np.array([[1 - h * h, h], [-h, 1.0]]), n), 1.0, 1e-4)
+    assert limit.reason == ""
+    assert limit.dt == pytest.approx(2, rel=TOLERANCE)
 
 
-def test_random_pushes_find_no_limit_where_there_is_none() -> None:
+def test_random_perturbations_find_no_limit_where_there_is_none() -> None:
     """Euler of x'' = -x, z -> [[1, h], [-h, 1]] z, grows by sqrt(1 + h^2) in a step at any h."""
-    limit, reason = measured_limit(lambda h, n: growth_of(np.array([[1, h], [-h, 1.0]]), n), 1.0, 1e-4)
-    assert limit is None
-    assert "unstable" in reason
+    limit = measured_limit(lambda h, n: growth_of(np.array([[1, h], [-h, 1.0]]), n), 1.0, 1e-4)
+    assert limit.dt is None
+    assert "unstable" in limit.reason
 
 
 def test_slow_growth_beside_fast_decay_is_seen_in_longer_runs() -> None:
     """Euler of a string with damped springs: fast modes decay, slow ones grow at any dt (predicted), by 1e-4 in a step.
 
-    In a run that is long enough for the limits of others a random push has not grown yet.
+    In a run that is long enough for the limits of others a random perturbation has not grown yet.
     """
     rest, euler = spring_equilibrium(find("string").system({"damping": 0.1})), catalogue.find("euler")
     assert "unstable at any dt" in stability_limit(euler, rest).reason
-    limit, reason = measured_limit(lambda h, n: growth_of(step_jacobian(euler, rest, h), n), 0.005, 1e-4)
-    assert (limit, reason.partition(":")[0]) == (None, "unstable at any dt that was tried")
+    limit = measured_limit(lambda h, n: growth_of(step_jacobian(euler, rest, h), n), 0.005, 1e-4)
+    assert (limit.dt, limit.reason.partition(":")[0]) == (None, "unstable at any dt that was tried")
 
 
 def test_findings_are_made_from_the_numbers() -> None:

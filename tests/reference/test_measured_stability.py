@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reference.measured_stability import PUSH, SEEN, measured_limit, mode_growth, random_growth
+from reference.measured_stability import PERTURBATION, SEEN, measured_limit, mode_growth, random_growth
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
@@ -41,7 +41,7 @@ def test_what_has_grown_beyond_measure_has_grown_infinitely(offsets: Array) -> N
 
 
 def test_what_has_come_to_rest_has_not_grown() -> None:
-    """Nothing is left of the push."""
+    """Nothing is left of the perturbation."""
     offsets = np.zeros((1200, 2))
     offsets[0] = 1e-6
     assert random_growth(offsets) < 0
@@ -58,11 +58,11 @@ def test_a_modes_growth_is_told_to_parts_of_a_millionth(rate: float) -> None:
 
 
 def growth_of(scheme: Scheme, dt: float, steps: int) -> float:
-    """How a random push of a spring's mass, along the spring only, grows in a run: measured, no theory."""
+    """How a random perturbation of a spring's mass, along the spring only, grows in a run: measured, no theory."""
     system = find_scene("spring").system({"drag": 0.1})
     rest = hanging_string(system).positions
-    pushed = rest + np.array([[0.0, 0.0], [0.0, PUSH * 0.125]])
-    run = simulate(replace(system, positions=pushed), scheme, dt, steps * dt)
+    perturbed = rest + np.array([[0.0, 0.0], [0.0, PERTURBATION * 0.125]])
+    run = simulate(replace(system, positions=perturbed), scheme, dt, steps * dt)
     return random_growth(run.positions[:, 1] - rest[1])
 
 
@@ -71,9 +71,9 @@ def check_measured(scheme: Scheme, limit: float) -> None:
 
     Bisection stops within 1e-3; growth is seen from 8e-4 in a step, which kick-drift has just above its limit.
     """
-    found, reason = measured_limit(lambda dt, steps: growth_of(scheme, dt, min(steps, 2400)), 0.01, 1e-3)
-    assert reason == ""
-    assert found == pytest.approx(limit, rel=1e-2)
+    found = measured_limit(lambda dt, steps: growth_of(scheme, dt, min(steps, 2400)), 0.01, 1e-3)
+    assert found.reason == ""
+    assert found.dt == pytest.approx(limit, rel=1e-2)
 
 
 def test_kick_drifts_limit_is_measured_where_it_is_predicted() -> None:
@@ -90,10 +90,14 @@ def test_measured_limit_fails_on_others(scheme: Scheme) -> None:
 
 def test_no_limit_is_told_with_its_reason() -> None:
     """Stable or unstable at all that was tried."""
-    assert measured_limit(lambda dt, steps: -1.0, 0.01, 1e-3)[0] is None
-    assert measured_limit(lambda dt, steps: 1.0, 0.01, 1e-3)[1].startswith("unstable at any dt that was tried, down to")
-    assert measured_limit(lambda dt, steps: -1.0, 0.01, 1e-3)[1].startswith("stable at any dt that was tried, up to")
+    assert measured_limit(lambda dt, steps: -1.0, 0.01, 1e-3).dt is None
+    assert measured_limit(lambda dt, steps: 1.0, 0.01, 1e-3).reason.startswith(
+        "unstable at any dt that was tried, down to"
+    )
+    assert measured_limit(lambda dt, steps: -1.0, 0.01, 1e-3).reason.startswith(
+        "stable at any dt that was tried, up to"
+    )
     # Growth that goes as dt^2 is seen late, and found out by a longer run below the apparent limit.
-    assert measured_limit(lambda dt, steps: dt**2, 0.01, 1e-3)[1].startswith(
+    assert measured_limit(lambda dt, steps: dt**2, 0.01, 1e-3).reason.startswith(
         "unstable at any dt that was tried: in longer"
     )

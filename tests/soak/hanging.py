@@ -12,7 +12,7 @@ from pathlib import Path
 
 import click
 
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from report.commands.runner_options import chosen_runner
 from tests.engines.process import misbehaving
 
@@ -22,8 +22,8 @@ LONG = 30.0
 
 def main() -> None:
     """Do them, as a command of springlab's would."""
-    hangs = [Job(misbehaving.fine, ())]
-    hangs += [Job(misbehaving.hang, (), {"number": number}, time_limit=LONG + number) for number in range(10)]
+    hangs = [Task(misbehaving.fine, ())]
+    hangs += [Task(misbehaving.hang, (), {"number": number}, time_limit=LONG + number) for number in range(10)]
     try:
         with chosen_runner(True, Path(sys.argv[1]), jobs=2) as runner:
             print("begun", flush=True)

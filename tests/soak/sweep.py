@@ -12,24 +12,24 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
-from experiments.runs.cluster import DaskCrew
-from experiments.runs.runner import LocalCrew, Runner
+from experiments.runs.cluster import DaskExecutor
+from experiments.runs.runner import LocalExecutor, Runner
 from experiments.runs.store import Store
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from tests.soak import faults
 
 
-def sweep_of(count: int) -> Iterator[Job]:
-    """The jobs of the sweep, in order."""
-    return map(job_of, range(count))
+def sweep_of(count: int) -> Iterator[Task]:
+    """The tasks of the sweep, in order."""
+    return map(task_of, range(count))
 
 
-def job_of(number: int) -> Job:
+def task_of(number: int) -> Task:
     """One of them. Only a run that is to hang is given little time: a busy machine must not be taken for a hang."""
     wrong = faults.fault(number)
     hangs = wrong is not None and wrong.ending == "timed out"
     patience = faults.PATIENCE if hangs else 60.0
-    return Job(faults.run, (number,), {"number": number}, time_limit=patience, memory_limit=faults.MEMORY)
+    return Task(faults.run, (number,), {"number": number}, time_limit=patience, memory_limit=faults.MEMORY)
 
 
 def main() -> None:
@@ -42,7 +42,7 @@ def main() -> None:
     parser.add_argument("--die-starting-over", action="store_true", help="be killed in the middle of that")
     wanted = parser.parse_args()
     store = Store(wanted.store)
-    runner = Runner(LocalCrew() if wanted.cluster is None else DaskCrew(wanted.cluster), store)
+    runner = Runner(LocalExecutor() if wanted.cluster is None else DaskExecutor(wanted.cluster), store)
     print("begun", flush=True)
     if wanted.die_starting_over:
         store.retire(deadly(wanted.count))
@@ -52,13 +52,13 @@ def main() -> None:
         for _ in answers:
             pass
     print(f"done {runner.done}", flush=True)
-    runner.crew.stop()
+    runner.executor.stop()
 
 
 def deadly(count: int) -> Iterator[str]:
-    """The jobs' keys, and death half-way."""
-    for job in sweep_of(count // 2):
-        yield job.key
+    """The tasks' keys, and death half-way."""
+    for task in sweep_of(count // 2):
+        yield task.key
     os.kill(os.getpid(), signal.SIGKILL)
 
 

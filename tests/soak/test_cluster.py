@@ -19,8 +19,8 @@ import pytest
 from engines.engine import version
 from engines.process.isolation import EngineStepper
 from experiments.runs import cluster
-from experiments.runs.cluster import DaskCrew, do_there
-from experiments.runs.sweeps import Sweep
+from experiments.runs.cluster import DaskExecutor, do_there
+from experiments.runs.sweeps import ParameterSweep
 from reference.errors import InputError
 from tests.engines.process.misbehaving import Misbehaving, Still
 from tests.soak.children import SOON, check_all_end, family, start, start_sweep
@@ -89,7 +89,7 @@ def test_whatever_a_cluster_loses_nothing_is_lost(tmp_path: Path, size: Size, un
 
 
 def lose_a_worker(made: Cluster, store: Path, runs: int) -> None:
-    """Kill one when the first of a sweep is done: answers come in portions. All of it is done nevertheless."""
+    """Kill one when the first of a sweep is done: answers come in batches. All of it is done nevertheless."""
     begin = time.perf_counter()
     child = start_sweep(store, runs, "--cluster", made.address)
     wait_for_rows(child, store, 1)
@@ -158,14 +158,14 @@ def test_workers_that_may_not_start_processes_are_one_line(tmp_path: Path) -> No
 
 def test_a_worker_with_other_versions_says_which() -> None:
     """It does nothing: its answers would be kept under a key that is not theirs."""
-    job = next(Sweep("string", [EngineStepper(Misbehaving(Still))], {"stiffness": [100.0]}, {}).jobs())
+    task = next(ParameterSweep("string", [EngineStepper(Misbehaving(Still))], {"stiffness": [100.0]}, {}).tasks())
     here = version(Misbehaving(Still))
     with pytest.raises(
         InputError, match=f"^a worker of the cluster has Still in version {here}: expected 0.1, as here$"
     ):
-        do_there([(job, "another", "0.1")])
+        do_there([(task, "another", "0.1")])
     with pytest.raises(InputError, match=r"has another springlab, NumPy, Numba, SciPy or processor than we have$"):
-        do_there([(job, "another", here)])
+        do_there([(task, "another", here)])
 
 
 def test_without_dask_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -174,7 +174,7 @@ def test_without_dask_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPa
     with pytest.raises(
         InputError, match=r"^--cluster: Dask is not installed; expected the extra springlab\[cluster\]$"
     ):
-        DaskCrew("tcp://127.0.0.1:8786")
+        DaskExecutor("tcp://127.0.0.1:8786")
 
 
 @needs_dask
@@ -182,7 +182,7 @@ def test_without_dask_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPa
 def test_an_address_that_is_none_is_refused(address: str) -> None:
     """Before anybody is asked."""
     with pytest.raises(InputError, match="expected tcp://HOST:PORT of a Dask scheduler"):
-        DaskCrew(address)
+        DaskExecutor(address)
 
 
 @needs_dask
@@ -191,4 +191,4 @@ def test_nobody_there_is_one_line(monkeypatch: pytest.MonkeyPatch, host: str) ->
     """After as long as it is ready to wait."""
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)
     with pytest.raises(InputError, match=f"^--cluster tcp://{host}:9: found no scheduler with workers within 1 s$"):
-        DaskCrew(f"tcp://{host}:9")
+        DaskExecutor(f"tcp://{host}:9")

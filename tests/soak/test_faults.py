@@ -11,15 +11,15 @@ from random import Random
 import pytest
 
 from engines.process.supervisor import KILLS, supervisor
-from experiments.runs.runner import LocalCrew, Runner
+from experiments.runs.runner import LocalExecutor, Runner
 from experiments.runs.store import Store, outcome_of_answer
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from reference.outcome import Outcome
 from tests.soak import faults
 from tests.soak.children import Killer
 from tests.soak.conftest import Size
 from tests.soak.stored import check_accounted_for, check_answer, check_rows_due, check_same_rows, rows
-from tests.soak.sweep import job_of
+from tests.soak.sweep import task_of
 
 #: Between two kills [s]: of all runs, and of those that are quick. Were it as short for all, no run that hangs for half
 #: a second would live to be timed out: with two processes to choose from and T = 0.65 s between kills, one is killed
@@ -39,9 +39,9 @@ def processes(random: Random) -> list[int]:
 def sweep(store: Path, numbers: Sequence[int], pause: tuple[float, float]) -> int:
     """Do runs while processes are killed: how many kills there were."""
     kept, random, begin = Store(store), Random(3), time.perf_counter()
-    runner = Runner(LocalCrew(2), kept)
+    runner = Runner(LocalExecutor(2), kept)
     with Killer(lambda: processes(random), pause) as killer:
-        for _ in runner.answers(map(job_of, numbers)):
+        for _ in runner.answers(map(task_of, numbers)):
             pass
     seconds = time.perf_counter() - begin
     kept.close()
@@ -78,11 +78,11 @@ def test_a_run_that_kills_itself_is_given_up(tmp_path: Path) -> None:
     """As often as it may be somebody else's doing it is tried again, and not for ever; the run beside it is well."""
     store = Store(tmp_path / "store.sqlite")
     well = [number for number in range(50) if faults.fault(number) is None]
-    jobs = [Job(faults.end_oneself, ()), *map(job_of, well)]
-    answers = {job.key: outcome_of_answer(answer) for job, answer in Runner(LocalCrew(2), store).answers(jobs)}
+    tasks = [Task(faults.end_oneself, ()), *map(task_of, well)]
+    answers = {task.key: outcome_of_answer(answer) for task, answer in Runner(LocalExecutor(2), store).answers(tasks)}
     store.close()
-    assert answers[jobs[0].key] == Outcome("crashed", f"killed by SIGKILL, {KILLS} times over")
-    assert [(answers[job.key].ending, answers[job.key].reason) for job in jobs[1:]] == list(map(faults.due, well))
+    assert answers[tasks[0].key] == Outcome("crashed", f"killed by SIGKILL, {KILLS} times over")
+    assert [(answers[task.key].ending, answers[task.key].reason) for task in tasks[1:]] == list(map(faults.due, well))
 
 
 def test_a_lost_run_and_a_wrong_blame_are_told(undisturbed: Path, size: Size) -> None:

@@ -15,7 +15,7 @@ from random import Random
 import pytest
 
 from experiments.runs.runner import Done, Runner
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from tests.engines.process import misbehaving
 from tests.soak.children import check_all_end, family, start
 from tests.soak.conftest import Size
@@ -87,20 +87,20 @@ def test_interrupted_with_runs_that_hang_it_ends_at_once(tmp_path: Path, options
 
 
 class SlowToBegin:
-    """A crew that looks whether it has been stopped only a while after it was given a job."""
+    """An executor that looks whether it has been stopped only a while after it was given a task."""
 
-    size, portion = 1, 0.0
+    size, batch_seconds = 1, 0.0
 
     def __init__(self) -> None:
         self.stops = 0
 
-    def do(self, jobs: Sequence[Job]) -> list[Done]:
+    def do(self, tasks: Sequence[Task]) -> list[Done]:
         """Begin late, and end when stopped after that."""
         time.sleep(0.3)
         stops, begin = self.stops, time.monotonic()
         while self.stops == stops and time.monotonic() - begin < 2 * PATIENCE:
             time.sleep(0.01)
-        return [Done(None, 0.0) for _ in jobs]
+        return [Done(None, 0.0) for _ in tasks]
 
     def stop(self) -> None:
         """Once more."""
@@ -110,7 +110,7 @@ class SlowToBegin:
 def interrupted(runner: Runner) -> None:
     """Ctrl-C while a thread is about to begin a run."""
     with runner.threads() as pool:
-        pool.submit(runner.answer, Job(misbehaving.hang, ()))
+        pool.submit(runner.answer, Task(misbehaving.hang, ()))
         time.sleep(0.1)
         raise KeyboardInterrupt
 

@@ -12,7 +12,7 @@ from reference.errors import InputError
 
 
 def environment_or_skip(package: str, version: str) -> Path:
-    """The Python of an environment; the test is skipped where it cannot be had, but never in continuous integration."""
+    """The Python of an environment; the test is skipped where there is none, but never in continuous integration."""
     try:
         return environment(package, version)
     except InputError as error:

@@ -76,7 +76,7 @@ def test_what_fails_leaves_nothing(folder: Path, monkeypatch: pytest.MonkeyPatch
 
     def fail(home: Path, package: str, version: str) -> None:
         pretend(home, package, version)
-        raise InputError("spring==1.0 cannot be had: it broke")
+        raise InputError("spring==1.0 cannot be installed: it broke")
 
     monkeypatch.setattr(environments, "_make", fail)
     with pytest.raises(InputError, match="it broke"):

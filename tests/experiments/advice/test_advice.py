@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from engines.process.isolation import EngineStepper, run_engine
-from experiments.advice.advice import ADVISED, REFUTED, advise, at_rest_and_pushed, rest_of, rounded_down
+from experiments.advice.advice import ADVISED, REFUTED, advise, rest_of, rounded_down
 from experiments.advice.wording import result_of
+from experiments.limits.perturbed import perturbed
 from reference.measured_stability import random_growth
 from reference.scenes import Setup, find
 from reference.system import MassSpringSystem
@@ -50,22 +51,22 @@ def engine_of(name: str) -> EngineStepper:
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def pushes_grow(engine: EngineStepper, system: MassSpringSystem, dt: float) -> bool:
-    """Whether a thousand steps by the engine from a small push about its rest make it ten times as large."""
+def perturbations_grow(engine: EngineStepper, system: MassSpringSystem, dt: float) -> bool:
+    """Whether a thousand steps by the engine make a small perturbation of rest ten times as large."""
     rest = rest_of(system)
-    still, pushed = at_rest_and_pushed(rest.motion.system, rest)  # type: ignore[attr-defined]
-    outcome = run_engine(engine.engine, pushed, dt, 1000)
+    at_rest, start = perturbed(rest.motion.system, rest)  # type: ignore[attr-defined]
+    outcome = run_engine(engine.engine, start, dt, 1000)
     assert outcome.trajectory is not None
-    offsets = outcome.trajectory.positions - still
+    offsets = outcome.trajectory.positions - at_rest
     return bool(random_growth(offsets) == np.inf or np.abs(offsets[-1]).max() > 10 * np.abs(offsets[0]).max())
 
 
 def check_advice(engine: EngineStepper, setup: Setup, limit: float, advised: float) -> None:
-    """The engine comes to the scene's end with the advised dt, and pushes grow at 1.1 of the limit, not at 0.9."""
+    """The engine comes to the scene's end with the advised dt; perturbations grow at 1.1 of the limit, not at 0.9."""
     steps = max(1, round(setup.duration / advised))
     assert run_engine(engine.engine, setup.system, advised, steps).ending == "done"
-    assert not pushes_grow(engine, setup.system, ADVISED * limit)
-    assert pushes_grow(engine, setup.system, REFUTED * limit)
+    assert not perturbations_grow(engine, setup.system, ADVISED * limit)
+    assert perturbations_grow(engine, setup.system, REFUTED * limit)
 
 
 @pytest.mark.parametrize("name", WRITTEN)

@@ -22,7 +22,7 @@ def advised(
 ) -> Advice:
     """An engine with a measured limit [s], and the step [s] that it is advised."""
     limit = NO_SCHEME if predicted is None else Limit(predicted)
-    return Advice(engine, scheme, limit, Limit(measured), own, step, DONE if step else DIVERGED, True)
+    return Advice(engine, scheme, limit, Limit(measured, grows_beyond=True), own, step, DONE if step else DIVERGED)
 
 
 #: Predicted limits are not the measured ones: whoever takes one for the other is seen.

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from experiments import cost
+from experiments.benchmark.timing import Speeds
 from experiments.cost import ANCHOR, DTS, DURATION, MASSES, MORE_MASSES, Cost, Point
 from experiments.experiment import Result
-from experiments.runs.timing import Speeds
 from tests.experiments.canned.steppers import SCHEME_OF, Named
 
 #: The step of the anchor's kernel on ten masses [s]: on more it takes longer in proportion.

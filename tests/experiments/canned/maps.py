@@ -6,7 +6,8 @@ import numpy as np
 
 from experiments import maps
 from experiments.experiment import Result
-from experiments.stability_map import Axis, StabilityMap
+from experiments.limits.plane import Axis
+from experiments.limits.stability_map import StabilityMap
 
 
 def field(stepper: str = "heun", other: str = "drag", limit: float = 0.01, offset: float = 0.0) -> StabilityMap:

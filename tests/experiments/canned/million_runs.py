@@ -13,7 +13,7 @@ HANDS = [
     Hand("making the task", 3e-4),
     Hand("looking it up in the store", 7e-4),
     Hand("a task to a process and back", 2e-3, "on this machine"),
-    Hand("a batch of runs to a worker and back", 2e-1, "on a cluster, a portion"),
+    Hand("a batch of runs to a worker and back", 2e-1, "on a cluster, a batch"),
 ]
 
 #: What a run takes in the store [bytes].

@@ -7,7 +7,7 @@ import numpy as np
 from experiments import numbering
 from experiments.experiment import Result
 from experiments.numbering import DAMPINGS, ROUNDS, Convergence, Row
-from experiments.runs.permutation import CHANGES, Renamed
+from experiments.runs.permutation import CHANGES, PermutationEffects
 from reference.stepper import catalogued
 from tests.experiments.canned.steppers import SCHEME_OF, Named
 
@@ -23,7 +23,9 @@ START = 1e-2
 def row(name: str, predicted: frozenset[str] | None, masses: float, springs: float, damping: float, ends: float) -> Row:
     """Differences of each permutation [m]; a name that is no scheme's is an engine's."""
     stepper = catalogued().get(name) or Named(name)
-    return Row(stepper, damping, predicted, Renamed(dict(zip(CHANGES, (masses, springs, ends), strict=True)), {}))
+    return Row(
+        stepper, damping, predicted, PermutationEffects(dict(zip(CHANGES, (masses, springs, ends), strict=True)), {})
+    )
 
 
 def rows() -> list[Row]:
@@ -39,7 +41,7 @@ def rows() -> list[Row]:
                 Named("mujoco_cable"),
                 damping,
                 NONE,
-                Renamed(
+                PermutationEffects(
                     {"ends swapped": 4e-16}, {"masses renumbered": "strings only", "springs reversed": "strings only"}
                 ),
             ),

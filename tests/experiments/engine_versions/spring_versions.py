@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 
-from experiments.engine_versions.versions import Measured, Rows, Subject
+from experiments.engine_versions.versions import Rows, Subject, VersionMeasurements
 from tests.conformance import doctored
 from tests.conformance.doctored import Doctored
 
@@ -23,7 +23,7 @@ def made_up() -> dict[str, Rows]:
     return {"1.9.0": first, "1.10.0": second, "2.0.0": third}
 
 
-MEASURED = Measured("spring", made_up())
+MEASURED = VersionMeasurements("spring", made_up())
 
 
 def subject() -> Subject:

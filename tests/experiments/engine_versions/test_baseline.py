@@ -11,7 +11,7 @@ import pytest
 from experiments.engine_versions import baseline
 from experiments.engine_versions.baseline import deviations
 from experiments.engine_versions.changes import TOLERANCE
-from experiments.engine_versions.versions import Measured, find_subject
+from experiments.engine_versions.versions import VersionMeasurements, find_subject
 from reference.errors import InputError
 from tests.conformance.doctored import Doctored
 from tests.experiments.engine_versions.spring_versions import LIMIT, MEASURED, made_up, subject
@@ -38,21 +38,21 @@ def test_one_doctored_number_is_named(tmp_path: Path) -> None:
     baseline.write(MEASURED, tmp_path)
     rows = made_up()
     rows["1.9.0"]["springs"][LIMIT] = 0.01 * (1 + TOLERANCE / 2)
-    assert deviations(subject(), Measured("spring", rows), tmp_path) == []
+    assert deviations(subject(), VersionMeasurements("spring", rows), tmp_path) == []
     rows["1.9.0"]["springs"][LIMIT] = 0.01 * (1 + 2 * TOLERANCE)
-    (line,) = deviations(subject(), Measured("spring", rows), tmp_path)
+    (line,) = deviations(subject(), VersionMeasurements("spring", rows), tmp_path)
     assert line == f"spring 1.9.0, springs, {LIMIT}: 0.01 in the baseline, {0.01 * (1 + 2 * TOLERANCE)} now"
 
 
 def test_words_and_what_is_missing_deviate_too(tmp_path: Path) -> None:
-    """Another word; a measure that is gone, or new; a version that cannot be had. What is not asked is not compared."""
+    """Another word; a measure gone, or new; a version that cannot be installed. What is not asked is not compared."""
     baseline.write(MEASURED, tmp_path)
     rows = made_up()
     rows["1.9.0"]["spring"]["crash list: a"] = "hangs"
     del rows["1.9.0"]["springs"]["can: mesh"]
     rows["1.10.0"]["springs"]["can: fly"] = "kept"
     del rows["2.0.0"]
-    assert deviations(subject(), Measured("spring", rows, {"2.0.0": "there is no index"}), tmp_path) == [
+    assert deviations(subject(), VersionMeasurements("spring", rows, {"2.0.0": "there is no index"}), tmp_path) == [
         "spring 2.0.0: there is no index",
         "spring 1.9.0, springs, can: mesh: kept in the baseline, nothing now",
         "spring 1.9.0, spring, crash list: a: SIGABRT in the baseline, hangs now",
@@ -60,7 +60,7 @@ def test_words_and_what_is_missing_deviate_too(tmp_path: Path) -> None:
     ]
     only_springs = replace(subject(), whole=False)
     of_springs = {version: {"springs": rows["springs"]} for version, rows in made_up().items()}
-    assert deviations(only_springs, Measured("spring", of_springs), tmp_path) == []
+    assert deviations(only_springs, VersionMeasurements("spring", of_springs), tmp_path) == []
 
 
 def test_an_engine_that_no_longer_runs_is_one_line(tmp_path: Path) -> None:
@@ -68,7 +68,7 @@ def test_an_engine_that_no_longer_runs_is_one_line(tmp_path: Path) -> None:
     baseline.write(MEASURED, tmp_path)
     rows = made_up()
     rows["1.9.0"]["springs"] = {"runs": "crashed: killed by SIGSEGV"}
-    (line,) = deviations(subject(), Measured("spring", rows), tmp_path)
+    (line,) = deviations(subject(), VersionMeasurements("spring", rows), tmp_path)
     assert line == "spring 1.9.0, springs, runs: yes in the baseline, crashed: killed by SIGSEGV now"
 
 
@@ -78,7 +78,7 @@ def test_an_engine_the_baseline_does_not_know_is_not_compared(tmp_path: Path) ->
     rows = made_up()
     rows["1.9.0"]["KickDrift"] = {"runs": "yes"}
     more = replace(subject(), engines=[*subject().engines, Doctored()])
-    assert deviations(more, Measured("spring", rows), tmp_path) == []
+    assert deviations(more, VersionMeasurements("spring", rows), tmp_path) == []
     assert baseline.unknown_engines(more, tmp_path) == ["KickDrift"]
     assert baseline.unknown_engines(subject(), tmp_path) == []
 
@@ -86,7 +86,7 @@ def test_an_engine_the_baseline_does_not_know_is_not_compared(tmp_path: Path) ->
 def test_writing_keeps_what_was_not_measured(tmp_path: Path) -> None:
     """Other versions, and other engines of the same version."""
     baseline.write(MEASURED, tmp_path)
-    baseline.write(Measured("spring", {"1.9.0": {"springs": {"runs": "no"}}, "1.9.5": {}}), tmp_path)
+    baseline.write(VersionMeasurements("spring", {"1.9.0": {"springs": {"runs": "no"}}, "1.9.5": {}}), tmp_path)
     found = baseline.read("spring", tmp_path)
     assert list(found) == ["1.9.0", "1.9.5", "1.10.0", "2.0.0"]
     assert found["1.9.0"] == {"springs": {"runs": "no"}, "spring": {"crash list: a": "SIGABRT"}}

@@ -14,7 +14,7 @@ from engines.process.isolation import EngineStepper
 from experiments.engine_versions import baseline, conformance, versions
 from experiments.engine_versions.changes import TOLERANCE, changes, result_of, same
 from experiments.engine_versions.conformance import measure
-from experiments.engine_versions.versions import Measured, Subject, in_order
+from experiments.engine_versions.versions import Subject, VersionMeasurements, in_order
 from report.figures import draw
 from report.figures.versions import MARK
 from tests.conformance import doctored
@@ -45,7 +45,7 @@ def test_findings_tables_and_figure_are_made_from_the_rows() -> None:
 def test_without_a_change_it_says_so() -> None:
     """In the sentence and in the figure's words."""
     rows = made_up()
-    result = result_of(Measured("spring", {"1": rows["1.9.0"], "2": rows["1.9.0"]}))
+    result = result_of(VersionMeasurements("spring", {"1": rows["1.9.0"], "2": rows["1.9.0"]}))
     assert result.findings == ["spring 2 changed nothing: 4 measurements are those of 1."]
     assert "No measurement of spring differs" in draw("versions", result).alt
     assert changes(rows["1.9.0"], rows["1.9.0"]) == []
@@ -116,9 +116,9 @@ def test_an_engine_that_refuses_is_told_from_one_that_breaks() -> None:
 def test_the_command_fails_on_a_doctored_baseline_and_names_the_number(monkeypatch: pytest.MonkeyPatch) -> None:
     """Exit code 1 and one line; with the baseline as it is, exit code 0."""
 
-    def as_kept(subject: Subject, wanted: list[str], *_: object, **__: object) -> Measured:
+    def as_kept(subject: Subject, wanted: list[str], *_: object, **__: object) -> VersionMeasurements:
         kept = baseline.read(subject.package)
-        return Measured(subject.package, {version: kept[version] for version in wanted})
+        return VersionMeasurements(subject.package, {version: kept[version] for version in wanted})
 
     monkeypatch.setattr(versions, "measure_versions", as_kept)
     done = springlab("versions", "--check")
@@ -126,7 +126,7 @@ def test_the_command_fails_on_a_doctored_baseline_and_names_the_number(monkeypat
     assert "measurements are as in the baseline" in done.out
     doctored_rows = copy.deepcopy(baseline.read("pymunk"))
     doctored_rows["7.3.1"]["pymunk_springs"][LIMIT] = 0.0102
-    measured = Measured("pymunk", {"7.3.1": doctored_rows["7.3.1"]})
+    measured = VersionMeasurements("pymunk", {"7.3.1": doctored_rows["7.3.1"]})
     monkeypatch.setattr(versions, "measure_versions", lambda *_, **__: measured)
     done = springlab("versions", "pymunk", "7.3.1", "--check")
     assert done.code == 1
@@ -173,7 +173,7 @@ def test_a_version_that_never_was_is_one_line_and_leaves_nothing(
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     done = springlab("versions", "pymunk", "99.9")
     assert done.code == 2
-    assert done.err.startswith("springlab: pymunk==99.9 cannot be had: ")
+    assert done.err.startswith("springlab: pymunk==99.9 cannot be installed: ")
     assert done.err.count("\n") == 1
     assert not [found for found in (tmp_path / "springlab" / "environments").iterdir() if found.is_dir()]
 

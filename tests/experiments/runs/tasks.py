@@ -1,4 +1,4 @@
-"""Tasks at once done, and jobs of them, for tests of what does jobs and keeps answers."""
+"""Functions that return at once, and tasks of them, for tests of what does tasks and keeps answers."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from engines.engine import Engine
 from experiments.runs.results import rows
 from experiments.runs.runner import Done
 from experiments.runs.store import Store
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from reference.changes import Change
 from reference.outcome import Ending, Outcome
 from reference.scenes import find
@@ -25,18 +25,18 @@ STRING = find("string").system({"masses": 3})
 
 
 def stepped(engine: Engine, system: MassSpringSystem, dt: float, steps: int, changes: tuple[Change, ...]) -> Outcome:
-    """A task with all that labels are made of."""
+    """A function with all that labels are made of."""
     return ended("done")
 
 
 def numbered(number: int) -> int:
-    """A task whose jobs differ in one number."""
+    """A function whose tasks differ in one number."""
     return number
 
 
-def job(number: int = 0, **limits: float) -> Job:
-    """A job of `numbered`."""
-    return replace(Job(numbered, (number,), {"number": number}), **limits)  # type: ignore[arg-type]
+def task(number: int = 0, **limits: float) -> Task:
+    """A task of `numbered`."""
+    return replace(Task(numbered, (number,), {"number": number}), **limits)  # type: ignore[arg-type]
 
 
 def ended(ending: Ending, reason: str = "", frames: int = 4) -> Outcome:
@@ -70,34 +70,34 @@ def arrays_of(file: Path) -> list[Path]:
 
 
 def endings(file: Path, retired: bool = False) -> list[tuple[int, str]]:
-    """Number and outcome of every row of a store of `job`s, in order."""
+    """Number and outcome of every row of a store of `task`s, in order."""
     return sorted((row["number"], row["outcome"]) for row in rows(file, {}, retired))
 
 
 def kept(store: Store, number: int) -> Any:
-    """The answer that a store has of a `job`."""
-    found = store.find(job(number))
+    """The answer that a store has of a `task`."""
+    found = store.find(task(number))
     assert found is not None
     return found.answer
 
 
-class FakeCrew:
-    """Those who do jobs in this very process, and remember which; a task may be done otherwise."""
+class FakeExecutor:
+    """Those who do tasks in this very process, and remember which; an answer may be another than the function's."""
 
-    def __init__(self, size: int = 1, answers: Mapping[int, Any] | None = None, portion: float = 0.0) -> None:
-        self.size, self.portion, self.stopped = size, portion, False
-        self.portions: list[int] = []
+    def __init__(self, size: int = 1, answers: Mapping[int, Any] | None = None, batch_seconds: float = 0.0) -> None:
+        self.size, self.batch_seconds, self.stopped = size, batch_seconds, False
+        self.batches: list[int] = []
         self.asked: list[int] = []
         self._answers, self._lock = answers or {}, threading.Lock()
 
-    def do(self, jobs: Sequence[Job]) -> list[Done]:
-        """See Crew. Every job takes 1/64 s, as it says."""
-        self.portions.append(len(jobs))
-        return [Done(self.do_one(job), 1 / 64) for job in jobs]
+    def do(self, tasks: Sequence[Task]) -> list[Done]:
+        """See Executor. Every task takes 1/64 s, as it says."""
+        self.batches.append(len(tasks))
+        return [Done(self.do_one(task), 1 / 64) for task in tasks]
 
-    def do_one(self, job: Job) -> Any:
-        """What a job answers."""
-        (number,) = job.arguments
+    def do_one(self, task: Task) -> Any:
+        """What a task answers."""
+        (number,) = task.arguments
         with self._lock:
             self.asked.append(number)
         answer = self._answers.get(number, number)
@@ -106,5 +106,5 @@ class FakeCrew:
         return answer
 
     def stop(self) -> None:
-        """See Crew."""
+        """See Executor."""
         self.stopped = True

@@ -13,7 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
-from experiments.runs.result_codec import ARRAY, NUMBER, OUTCOME, decode, encode
+from experiments.runs.result_codec import ARRAY, LIMIT, NUMBER, OUTCOME, decode, encode
+from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.state import Trajectory
 from tests.experiments.runs.tasks import alike, ended
@@ -91,6 +92,23 @@ def test_an_outcome_comes_back_with_all_it_had(ending: Any) -> None:
         assert alike(there_and_back(answer), answer)
 
 
+@pytest.mark.parametrize(
+    "limit",
+    [
+        Limit(0.1 + 0.2, factors=(0.999, 1.001), grows_beyond=True),
+        Limit(None, "unstable at any dt", growth=math.inf),
+        Limit(1e-3, grows_beyond=False),
+    ],
+)
+def test_a_limit_comes_back_with_all_it_had(limit: Limit) -> None:
+    """Every field by value, its tuples as tuples; on its own and within a list. One bit less is another limit."""
+    assert there_and_back(limit) == limit
+    assert there_and_back([limit, None]) == [limit, None]
+    assert there_and_back(Limit(0.3, factors=(0.999, 1.001), grows_beyond=True)) != Limit(
+        0.1 + 0.2, factors=(0.999, 1.001), grows_beyond=True
+    )
+
+
 def test_numpys_numbers_come_back_as_pythons() -> None:
     """With the same value."""
     found = there_and_back([np.float64(0.1), np.float32(0.1), np.int64(-3), np.bool_(True), np.float64("inf")])
@@ -103,7 +121,7 @@ def test_arrays_in_different_places_have_different_names() -> None:
     assert [*found] == ["answer.a.b", "answer.a.npy", "answer.a_b.0", "answer.a_b.1.0"]
 
 
-@pytest.mark.parametrize("key", [ARRAY, OUTCOME, NUMBER, "a.b", "", "0", "a b", "a\0b", 1, None, ("a",)])
+@pytest.mark.parametrize("key", [ARRAY, OUTCOME, LIMIT, NUMBER, "a.b", "", "0", "a b", "a\0b", 1, None, ("a",)])
 def test_a_key_that_is_no_name_is_refused(key: Any) -> None:
     """It might be taken for the place of an array or a number, its arrays for another key's, or come back as text."""
     with pytest.raises(TypeError, match=r"an answer with the key .* cannot be kept: expected a name"):

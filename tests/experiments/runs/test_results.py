@@ -14,11 +14,11 @@ import pytest
 
 from experiments.runs.results import MORE_COLUMNS, parse_filters, rows
 from experiments.runs.store import Store
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from reference.errors import InputError
 from reference.outcome import Outcome
 from report.commands.results import SHOWN
-from tests.experiments.runs.tasks import STRING, job, stepped
+from tests.experiments.runs.tasks import STRING, stepped, task
 from tests.report.commands.terminal import Said, springlab
 
 #: What no three figures can say.
@@ -27,21 +27,21 @@ ERROR, DT = 0.1 + 2**-54, 1e-3 / 3
 LONG = "spring 2 is over 100 times its length at t = 0.015 s, and so are all others of the string"
 
 
-def stepped_job(stiffness: float, dt: float = DT) -> Job:
-    """A job with all that labels are made of, but an engine."""
+def stepped_task(stiffness: float, dt: float = DT) -> Task:
+    """A task with all that labels are made of, but an engine."""
     arguments = (None, STRING.with_parameter("stiffness", stiffness), dt, 10, ())
-    return Job(stepped, arguments, {"scene": "string", "stiffness": stiffness})
+    return Task(stepped, arguments, {"scene": "string", "stiffness": stiffness})
 
 
 @pytest.fixture
 def filled(store: Store) -> Path:
     """The file of a store with runs of several kinds, one of them started over."""
-    store.keep(stepped_job(100.0), {"outcome": Outcome("done"), "error_m": ERROR, "identified_as": "heun"}, 0.5)
-    store.keep(stepped_job(200.0), {"outcome": Outcome("diverged", LONG), "error_m": None, "identified_as": None}, 0.5)
-    store.keep(job(1), Outcome("crashed", 'killed, "by" SIGSEGV'), 0.1)
-    store.keep(job(2), {"dt": 0.25, "reason": "found", "number": 7, "sound": True}, 0.1)
-    store.retire([job(1).key])
-    store.keep(job(1), Outcome("done"), 0.1)
+    store.keep(stepped_task(100.0), {"outcome": Outcome("done"), "error_m": ERROR, "identified_as": "heun"}, 0.5)
+    store.keep(stepped_task(200.0), {"outcome": Outcome("diverged", LONG), "error_m": None, "identified_as": None}, 0.5)
+    store.keep(task(1), Outcome("crashed", 'killed, "by" SIGSEGV'), 0.1)
+    store.keep(task(2), {"dt": 0.25, "reason": "found", "number": 7, "sound": True}, 0.1)
+    store.retire([task(1).key])
+    store.keep(task(1), Outcome("done"), 0.1)
     return store.file
 
 
@@ -198,7 +198,7 @@ def test_what_is_the_same_in_every_row_is_said_once(filled: Path) -> None:
 def test_the_last_runs_are_shown_where_there_are_many(store: Store) -> None:
     """With how to see the others."""
     for number in range(SHOWN + 5):
-        store.keep(job(number), {"value": f"answer {number}."}, 0.0)
+        store.keep(task(number), {"value": f"answer {number}."}, 0.0)
     out = results(store.file).out
     assert "answer 4." not in out
     assert all(f"answer {number}." in out for number in range(5, SHOWN + 5))

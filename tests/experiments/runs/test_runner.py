@@ -1,4 +1,4 @@
-"""Jobs are done once, one does not stop another, and where something stops them all, nothing goes on."""
+"""Tasks are done once, one does not stop another, and where something stops them all, nothing goes on."""
 
 from __future__ import annotations
 
@@ -17,70 +17,70 @@ import click
 import pytest
 
 from experiments.runs.results import rows
-from experiments.runs.runner import LocalCrew, Runner, answer, current, using
+from experiments.runs.runner import LocalExecutor, Runner, answer, current, using
 from experiments.runs.store import Store, StoreError
-from experiments.runs.task import Job
+from experiments.runs.task import Task
 from reference.outcome import Outcome
 from report.commands.runner_options import chosen_runner
 from tests.engines.process import misbehaving
-from tests.experiments.runs.tasks import FakeCrew, alike, ended, endings, job
+from tests.experiments.runs.tasks import FakeExecutor, alike, ended, endings, task
 from tests.report.commands.terminal import ROOT
 
 
-def jobs(*numbers: int) -> list[Job]:
-    """Jobs of these numbers."""
-    return [job(number) for number in numbers]
+def tasks(*numbers: int) -> list[Task]:
+    """Tasks of these numbers."""
+    return [task(number) for number in numbers]
 
 
 def answered(runner: Runner, *numbers: int) -> dict[int, Any]:
-    """The answers of jobs by number."""
-    return {done.arguments[0]: found for done, found in runner.answers(jobs(*numbers))}
+    """The answers of tasks by number."""
+    return {done.arguments[0]: found for done, found in runner.answers(tasks(*numbers))}
 
 
 # --- Once ---
 
 
-def test_a_job_is_done_once(store: Store) -> None:
+def test_a_task_is_done_once(store: Store) -> None:
     """Its answer comes from the store the second time, and for another runner too."""
-    crew = FakeCrew(answers={1: ended("done")})
-    runner = Runner(crew, store)
-    assert alike(runner.answer(job(1)), ended("done"))
-    assert alike(runner.answer(job(1)), ended("done"))
-    assert alike(Runner(crew, store).answer(job(1)), ended("done"))
-    assert (crew.asked, runner.done) == ([1], 1)
+    executor = FakeExecutor(answers={1: ended("done")})
+    runner = Runner(executor, store)
+    assert alike(runner.answer(task(1)), ended("done"))
+    assert alike(runner.answer(task(1)), ended("done"))
+    assert alike(Runner(executor, store).answer(task(1)), ended("done"))
+    assert (executor.asked, runner.done) == ([1], 1)
 
 
-def test_without_a_store_a_job_is_done_whenever_it_is_asked_for() -> None:
+def test_without_a_store_a_task_is_done_whenever_it_is_asked_for() -> None:
     """Nothing is kept, nothing is counted as kept."""
-    crew = FakeCrew()
-    runner = Runner(crew)
-    assert [runner.answer(job(1)), runner.answer(job(1))] == [1, 1]
-    assert crew.asked == [1, 1]
+    executor = FakeExecutor()
+    runner = Runner(executor)
+    assert [runner.answer(task(1)), runner.answer(task(1))] == [1, 1]
+    assert executor.asked == [1, 1]
 
 
-def test_many_jobs_are_done_once_each_by_many_threads(store: Store) -> None:
+def test_many_tasks_are_done_once_each_by_many_threads(store: Store) -> None:
     """And counted exactly."""
-    crew = FakeCrew(size=8)
-    runner = Runner(crew, store)
+    executor = FakeExecutor(size=8)
+    runner = Runner(executor, store)
     assert answered(runner, *range(100)) == {number: number for number in range(100)}
     assert answered(runner, *range(150)) == {number: number for number in range(150)}
-    assert (sorted(crew.asked), runner.done) == ([*range(150)], 150)
+    assert (sorted(executor.asked), runner.done) == ([*range(150)], 150)
 
 
 def test_the_seconds_it_took_are_kept(store: Store) -> None:
-    """Those that the crew tells."""
-    Runner(FakeCrew(), store).answer(job(1))
+    """Those that the executor tells."""
+    Runner(FakeExecutor(), store).answer(task(1))
     assert rows(store.file, {})[0]["seconds"] == 1 / 64
 
 
-def test_a_crew_far_away_is_given_portions_that_keep_it_busy(store: Store) -> None:
-    """A first job each, as nobody knows how long one takes; then as many as fill 1/4 s. Kept ones are no work."""
-    crew = FakeCrew(portion=0.25)
-    assert answered(Runner(crew, store), *range(100)) == {number: number for number in range(100)}
-    assert sorted(crew.asked) == [*range(100)]
-    assert crew.portions[0] == 1
-    assert set(crew.portions[2:-1]) == {16}, "the second may have been handed out before the first was done"
-    again = FakeCrew(portion=0.25)
+def test_an_executor_far_away_is_given_batches_that_keep_it_busy(store: Store) -> None:
+    """A first task each, as nobody knows how long one takes; then as many as fill 1/4 s. Kept ones are no work."""
+    executor = FakeExecutor(batch_seconds=0.25)
+    assert answered(Runner(executor, store), *range(100)) == {number: number for number in range(100)}
+    assert sorted(executor.asked) == [*range(100)]
+    assert executor.batches[0] == 1
+    assert set(executor.batches[2:-1]) == {16}, "the second may have been handed out before the first was done"
+    again = FakeExecutor(batch_seconds=0.25)
     assert answered(Runner(again, store), *range(101)) == {number: number for number in range(101)}
     assert again.asked == [100]
 
@@ -90,25 +90,25 @@ def test_a_crew_far_away_is_given_portions_that_keep_it_busy(store: Store) -> No
 
 def test_a_fresh_runner_does_again_what_was_kept_earlier_and_that_once(store: Store) -> None:
     """What it has done itself it does not do again; the older answers stay."""
-    answered(Runner(FakeCrew(), store), 1, 2)
-    crew = FakeCrew(answers={1: Outcome("done", "anew")})
-    fresh = Runner(crew, store, fresh=True)
-    assert [fresh.answer(job(1)).reason for _ in range(3)] == ["anew"] * 3
-    assert crew.asked == [1]
+    answered(Runner(FakeExecutor(), store), 1, 2)
+    executor = FakeExecutor(answers={1: Outcome("done", "anew")})
+    fresh = Runner(executor, store, fresh=True)
+    assert [fresh.answer(task(1)).reason for _ in range(3)] == ["anew"] * 3
+    assert executor.asked == [1]
     assert len(rows(store.file, {}, retired=True)) == 3
 
 
 def test_starting_over_goes_on_after_it_was_interrupted(store: Store) -> None:
-    """All jobs are retired before the first is done again, so that a later runner, not fresh, does the rest."""
-    answered(Runner(FakeCrew(), store), *range(6))
-    crew = FakeCrew(answers={3: InterruptedError("stopped")})
-    fresh = Runner(crew, store, fresh=True)
-    fresh.start_over(jobs(*range(6)))
+    """All tasks are retired before the first is done again, so that a later runner, not fresh, does the rest."""
+    answered(Runner(FakeExecutor(), store), *range(6))
+    executor = FakeExecutor(answers={3: InterruptedError("stopped")})
+    fresh = Runner(executor, store, fresh=True)
+    fresh.start_over(tasks(*range(6)))
     with pytest.raises(InterruptedError):
         answered(fresh, *range(6))
     again = len(endings(store.file))
     assert 3 <= again < 6
-    later = FakeCrew()
+    later = FakeExecutor()
     answered(Runner(later, store), *range(6))
     assert len(later.asked) == 6 - again
     assert len(rows(store.file, {}, retired=True)) == 12
@@ -117,41 +117,41 @@ def test_starting_over_goes_on_after_it_was_interrupted(store: Store) -> None:
 # --- Many ---
 
 
-def test_jobs_are_taken_as_they_are_needed(store: Store) -> None:
+def test_tasks_are_taken_as_they_are_needed(store: Store) -> None:
     """There may be millions: no more than two for each place are under way."""
     taken = []
 
-    def many() -> Iterator[Job]:
+    def many() -> Iterator[Task]:
         for number in range(1000):
             taken.append(number)
-            yield job(number)
+            yield task(number)
 
-    answers = Runner(FakeCrew(size=3), store).answers(many())
+    answers = Runner(FakeExecutor(size=3), store).answers(many())
     for so_far, _ in enumerate(islice(answers, 20), 1):
         assert len(taken) < so_far + 2 * 3
     answers.close()
     assert len(taken) < 20 + 2 * 3
 
 
-def test_no_jobs_have_no_answers(store: Store) -> None:
+def test_no_tasks_have_no_answers(store: Store) -> None:
     """At once."""
-    assert [*Runner(FakeCrew(), store).answers([])] == []
+    assert [*Runner(FakeExecutor(), store).answers([])] == []
 
 
-def test_a_job_that_fails_does_not_stop_the_others(store: Store) -> None:
+def test_a_task_that_fails_does_not_stop_the_others(store: Store) -> None:
     """Its outcome is its answer, and kept like any other."""
-    crew = FakeCrew(size=2, answers={2: Outcome("crashed", "killed by SIGSEGV")})
-    found = answered(Runner(crew, store), *range(5))
+    executor = FakeExecutor(size=2, answers={2: Outcome("crashed", "killed by SIGSEGV")})
+    found = answered(Runner(executor, store), *range(5))
     assert found == {0: 0, 1: 1, 2: Outcome("crashed", "killed by SIGSEGV"), 3: 3, 4: 4}
     assert endings(store.file) == [(0, "done"), (1, "done"), (2, "crashed"), (3, "done"), (4, "done")]
 
 
 def test_on_this_machines_cores_a_crash_is_an_outcome_and_the_others_are_done(store: Store) -> None:
     """In processes of their own: neither is this one."""
-    tasks = [misbehaving.segfault, misbehaving.fine, misbehaving.divide, misbehaving.fine]
-    found = [*Runner(LocalCrew(2), store).answers(Job(task, ()) for task in tasks)]
-    assert len(found) == len(tasks)
-    assert {done.task.__name__: outcome.ending for done, outcome in found} == {
+    functions = [misbehaving.segfault, misbehaving.fine, misbehaving.divide, misbehaving.fine]
+    found = [*Runner(LocalExecutor(2), store).answers(Task(function, ()) for function in functions)]
+    assert len(found) == len(functions)
+    assert {done.function.__name__: outcome.ending for done, outcome in found} == {
         "segfault": "crashed",
         "fine": "done",
         "divide": "crashed",
@@ -162,10 +162,10 @@ def test_on_this_machines_cores_a_crash_is_an_outcome_and_the_others_are_done(st
 
 
 def fails_at(number: int, monkeypatch: pytest.MonkeyPatch, store: Store) -> None:
-    """Let a store fail when one job is to be kept."""
+    """Let a store fail when one task is to be kept."""
     keep = store.keep
 
-    def failing(of: Job, *words: Any) -> None:
+    def failing(of: Task, *words: Any) -> None:
         if of.arguments == (number,):
             raise StoreError("store: the disk is full")
         keep(of, *words)
@@ -176,29 +176,29 @@ def fails_at(number: int, monkeypatch: pytest.MonkeyPatch, store: Store) -> None
 def test_a_store_that_fails_stops_everything_and_says_so(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing more is asked for, no thread is left, and what was kept before is kept."""
     fails_at(5, monkeypatch, store)
-    crew, threads = FakeCrew(size=2), threading.active_count()
+    executor, threads = FakeExecutor(size=2), threading.active_count()
     with pytest.raises(StoreError, match="the disk is full"):
-        answered(Runner(crew, store), *range(1000))
-    assert crew.stopped
-    assert len(crew.asked) <= 5 + 1 + 2 * crew.size
+        answered(Runner(executor, store), *range(1000))
+    assert executor.stopped
+    assert len(executor.asked) <= 5 + 1 + 2 * executor.size
     assert threading.active_count() == threads
     assert {(number, "done") for number in range(4)} <= {*endings(store.file)}
 
 
 def test_who_stops_listening_stops_everything(store: Store) -> None:
-    """No job goes on behind their back."""
-    crew = FakeCrew(size=2)
-    answers = Runner(crew, store).answers(jobs(*range(1000)))
+    """No task goes on behind their back."""
+    executor = FakeExecutor(size=2)
+    answers = Runner(executor, store).answers(tasks(*range(1000)))
     next(answers)
     answers.close()
-    assert crew.stopped
-    assert len(crew.asked) <= 1 + 2 * crew.size
+    assert executor.stopped
+    assert len(executor.asked) <= 1 + 2 * executor.size
 
 
 ABANDONED = """
 from experiments.runs.runner import Runner
-from tests.experiments.runs.tasks import FakeCrew, job
-answers = Runner(FakeCrew(size=2)).answers(job(number) for number in range(1000))
+from tests.experiments.runs.tasks import FakeExecutor, task
+answers = Runner(FakeExecutor(size=2)).answers(task(number) for number in range(1000))
 next(answers)
 """
 
@@ -211,13 +211,13 @@ def test_answers_that_nobody_closes_do_not_keep_a_program_from_its_end() -> None
     assert said.returncode == 0
 
 
-def test_a_job_given_to_the_crew_after_it_was_stopped_is_stopped_too(store: Store) -> None:
+def test_a_task_given_to_the_executor_after_it_was_stopped_is_stopped_too(store: Store) -> None:
     """A thread may have been looking into the store meanwhile."""
     looking, stops, late = threading.Event(), [], []
 
-    class Crew(FakeCrew):
-        def do_one(self, job: Job) -> Any:
-            if job.arguments == (0,):
+    class Executor(FakeExecutor):
+        def do_one(self, task: Task) -> Any:
+            if task.arguments == (0,):
                 looking.wait(10)
                 raise StoreError("store: the disk is full")
             looking.set()
@@ -226,40 +226,40 @@ def test_a_job_given_to_the_crew_after_it_was_stopped_is_stopped_too(store: Stor
                 if len(stops) >= before + 2:
                     raise InterruptedError("stopped")
                 time.sleep(0.01)
-            late.append(job)
+            late.append(task)
 
         def stop(self) -> None:
             stops.append(len(stops))
 
     with pytest.raises(StoreError):
-        answered(Runner(Crew(size=2), store), 0, 1)
+        answered(Runner(Executor(size=2), store), 0, 1)
     assert not late
 
 
-def test_jobs_that_come_to_their_end_stop_nobody(store: Store) -> None:
-    """The crew's processes are used again."""
-    crew = FakeCrew(size=2)
-    answered(Runner(crew, store), *range(10))
-    assert not crew.stopped
+def test_tasks_that_come_to_their_end_stop_nobody(store: Store) -> None:
+    """The executor's processes are used again."""
+    executor = FakeExecutor(size=2)
+    answered(Runner(executor, store), *range(10))
+    assert not executor.stopped
 
 
-def test_a_job_that_makes_no_sense_stops_everything(store: Store) -> None:
+def test_a_task_that_makes_no_sense_stops_everything(store: Store) -> None:
     """As with a point of a sweep's grid that is refused."""
 
-    def senseless() -> Iterator[Job]:
-        yield from jobs(1, 2)
+    def senseless() -> Iterator[Task]:
+        yield from tasks(1, 2)
         raise ValueError("mass = -1")
 
-    crew = FakeCrew()
+    executor = FakeExecutor()
     with pytest.raises(ValueError, match="mass = -1"):
-        [*Runner(crew, store).answers(senseless())]
-    assert crew.stopped
+        [*Runner(executor, store).answers(senseless())]
+    assert executor.stopped
 
 
-def test_an_interrupted_job_is_not_kept(store: Store) -> None:
+def test_an_interrupted_task_is_not_kept(store: Store) -> None:
     """It has no answer."""
     with pytest.raises(InterruptedError):
-        Runner(FakeCrew(answers={1: InterruptedError("stopped")}), store).answer(job(1))
+        Runner(FakeExecutor(answers={1: InterruptedError("stopped")}), store).answer(task(1))
     assert endings(store.file) == []
 
 
@@ -274,9 +274,9 @@ def fail(chosen: AbstractContextManager[Any], error: BaseException) -> None:
 
 def test_the_runner_at_work_is_the_one_chosen_last() -> None:
     """Until it is no more, however that comes; where none was chosen, one without a store."""
-    one, two = Runner(FakeCrew()), Runner(FakeCrew())
+    one, two = Runner(FakeExecutor()), Runner(FakeExecutor())
     assert current().store is None
-    assert isinstance(current().crew, LocalCrew)
+    assert isinstance(current().executor, LocalExecutor)
     with using(one):
         with using(two):
             assert current() is two
@@ -284,29 +284,29 @@ def test_the_runner_at_work_is_the_one_chosen_last() -> None:
         with pytest.raises(KeyError):
             fail(using(two), KeyError())
         assert current() is one
-    assert isinstance(current().crew, LocalCrew)
+    assert isinstance(current().executor, LocalExecutor)
 
 
 def test_what_experiments_ask_for_the_runner_at_work_does(store: Store) -> None:
     """Within the limits they say."""
-    asked: list[Job] = []
+    asked: list[Task] = []
 
-    class Crew(FakeCrew):
-        def do_one(self, job: Job) -> Any:
-            asked.append(job)
+    class Executor(FakeExecutor):
+        def do_one(self, task: Task) -> Any:
+            asked.append(task)
             return "an answer"
 
-    with using(Runner(Crew(), store)):
+    with using(Runner(Executor(), store)):
         for _ in range(2):
             assert answer(misbehaving.leave, 3, time_limit=1.0, memory_limit=2.0) == "an answer"
     (only,) = asked
-    assert (only.task, only.arguments) == (misbehaving.leave, (3,))
+    assert (only.function, only.arguments) == (misbehaving.leave, (3,))
     assert (only.time_limit, only.memory_limit) == (1.0, 2.0)
 
 
-def test_a_crew_of_no_said_size_has_a_place_for_every_core() -> None:
+def test_an_executor_of_no_said_size_has_a_place_for_every_core() -> None:
     """And of one said, so many."""
-    assert (LocalCrew().size, LocalCrew(3).size) == (os.cpu_count(), 3)
+    assert (LocalExecutor().size, LocalExecutor(3).size) == (os.cpu_count(), 3)
 
 
 @pytest.mark.parametrize(
@@ -321,16 +321,16 @@ def test_an_interrupted_command_says_how_to_go_on(
     assert ending.value.exit_code == 130
     line = f"springlab: interrupted; what is done is kept in {store_file}: {command} goes on\n"
     assert capsys.readouterr().err == line
-    assert isinstance(current().crew, LocalCrew)
+    assert isinstance(current().executor, LocalExecutor)
 
 
 def test_a_chosen_runner_is_at_work_with_its_store_which_is_closed_afterwards(store_file: Path) -> None:
     """With as many places as were asked for."""
     with chosen_runner(True, store_file, jobs=3) as runner:
         assert current() is runner
-        assert runner.crew.size == 3
+        assert runner.executor.size == 3
         assert isinstance(runner.store, Store)
-        assert runner.store.find(job(1)) is None
+        assert runner.store.find(task(1)) is None
     assert current() is not runner
     with pytest.raises(StoreError, match="closed"):
-        runner.store.find(job(1))
+        runner.store.find(task(1))

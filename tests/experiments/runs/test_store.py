@@ -12,49 +12,49 @@ import numpy as np
 import pytest
 
 from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT
-from experiments.runs import task as job_module
+from experiments.runs import task as task_module
 from experiments.runs.results import rows
 from experiments.runs.store import FORMAT, Store, StoreError, read_arrays
 from reference.outcome import Outcome
-from tests.experiments.runs.tasks import alike, arrays_of, ended, endings, job, kept
+from tests.experiments.runs.tasks import alike, arrays_of, ended, endings, kept, task
 
 # --- Keeping and finding ---
 
 
 def test_what_is_kept_is_found(store: Store, store_file: Path) -> None:
-    """Bit for bit, here and by whoever opens the store next; another job is not."""
-    store.keep(job(1), ended("done"), 0.5)
+    """Bit for bit, here and by whoever opens the store next; another task is not."""
+    store.keep(task(1), ended("done"), 0.5)
     with closing(Store(store_file)) as again:
         for opened in (store, again):
             assert alike(kept(opened, 1), ended("done"))
-            assert opened.find(job(2)) is None
+            assert opened.find(task(2)) is None
 
 
 def test_an_answer_of_none_is_an_answer(store: Store) -> None:
     """It is not taken for no answer."""
-    store.keep(job(1), None, 0.0)
+    store.keep(task(1), None, 0.0)
     assert kept(store, 1) is None
-    assert store.find(job(1)) is not None
+    assert store.find(task(1)) is not None
 
 
 def test_a_row_has_everything_in_columns(store: Store, store_file: Path) -> None:
     """Outcome, reason, limits, environment; arrays in a file by key."""
-    store.keep(job(1), {"outcome": ended("diverged", "too fast"), "error_m": 0.1}, 0.25)
+    store.keep(task(1), {"outcome": ended("diverged", "too fast"), "error_m": 0.1}, 0.25)
     (row,) = rows(store_file, {})
     assert (row["task"], row["outcome"], row["reason"], row["error_m"]) == ("numbered", "diverged", "too fast", 0.1)
-    assert (row["key"], row["seconds"]) == (job(1).key, 0.25)
+    assert (row["key"], row["seconds"]) == (task(1).key, 0.25)
     assert arrays_of(store_file) == [store_file.parent / "arrays" / row["arrays"]]
-    assert job(1).key in row["arrays"]
+    assert task(1).key in row["arrays"]
     with closing(sqlite3.connect(store_file)) as sql:
         ((document,),) = sql.execute("SELECT document FROM environments WHERE digest = ?", [row["environment"]])
         assert sql.execute("SELECT time_limit, memory_limit FROM runs").fetchall() == [(TIME_LIMIT, MEMORY_LIMIT)]
     assert json.loads(document)["numpy"] == np.__version__
 
 
-def test_a_job_is_kept_once(store: Store, store_file: Path) -> None:
+def test_a_task_is_kept_once(store: Store, store_file: Path) -> None:
     """Where two have done the same at the same time, the first is kept."""
-    store.keep(job(1), Outcome("done", "first"), 0.0)
-    store.keep(job(1), Outcome("done", "second"), 0.0)
+    store.keep(task(1), Outcome("done", "first"), 0.0)
+    store.keep(task(1), Outcome("done", "second"), 0.0)
     assert kept(store, 1).reason == "first"
     assert len(rows(store_file, {}, retired=True)) == 1
 
@@ -76,18 +76,18 @@ def test_the_log_is_written_ahead(store: Store, store_file: Path) -> None:
 )
 def test_only_what_was_stopped_is_run_again_at_other_limits(store: Store, ending: Any, again: bool, limit: str) -> None:
     """At the same limits it is not; at others a run that came to its end is not either."""
-    store.keep(job(1), Outcome(ending, "why"), 0.0)
+    store.keep(task(1), Outcome(ending, "why"), 0.0)
     assert kept(store, 1).ending == ending
-    assert (store.find(job(1, **{limit: 7.0})) is None) == again
+    assert (store.find(task(1, **{limit: 7.0})) is None) == again
 
 
 def test_what_was_stopped_gives_way_to_what_it_was_at_other_limits(store: Store, store_file: Path) -> None:
     """In the results too; the older row stays."""
-    store.keep(job(1, time_limit=1.0), Outcome("timed out", "no answer within 1 s"), 1.0)
-    store.keep(job(1, time_limit=9.0), Outcome("done"), 2.0)
+    store.keep(task(1, time_limit=1.0), Outcome("timed out", "no answer within 1 s"), 1.0)
+    store.keep(task(1, time_limit=9.0), Outcome("done"), 2.0)
     assert endings(store_file) == [(1, "done")]
     assert endings(store_file, retired=True) == [(1, "done"), (1, "timed out")]
-    assert store.find(job(1, time_limit=1.0)) is not None
+    assert store.find(task(1, time_limit=1.0)) is not None
 
 
 # --- Starting over ---
@@ -96,32 +96,32 @@ def test_what_was_stopped_gives_way_to_what_it_was_at_other_limits(store: Store,
 def test_what_is_retired_is_run_again_and_stays(store: Store, store_file: Path) -> None:
     """Rows and arrays of every generation, each as it was."""
     for generation in range(3):
-        store.keep(job(1), ended("done", frames=generation + 1), 0.0)
+        store.keep(task(1), ended("done", frames=generation + 1), 0.0)
         assert len(kept(store, 1).trajectory) == generation + 1
-        store.retire([job(1).key])
-        assert store.find(job(1)) is None
+        store.retire([task(1).key])
+        assert store.find(task(1)) is None
     assert endings(store_file) == []
     found = [read_arrays(store_file.parent / "arrays", row["arrays"]) for row in rows(store_file, {}, retired=True)]
     assert sorted(len(arrays["answer.trajectory.times"]) for arrays in found if arrays) == [1, 2, 3]
 
 
 def test_only_what_is_named_is_retired(store: Store) -> None:
-    """Other jobs stay done."""
+    """Other tasks stay done."""
     for number in range(3):
-        store.keep(job(number), number, 0.0)
-    store.retire([job(0).key, job(2).key, job(7).key])
-    assert [store.find(job(number)) is None for number in range(3)] == [True, False, True]
+        store.keep(task(number), number, 0.0)
+    store.retire([task(0).key, task(2).key, task(7).key])
+    assert [store.find(task(number)) is None for number in range(3)] == [True, False, True]
 
 
 def test_a_newer_answer_to_the_same_question_takes_the_place_of_an_older_one(
     store: Store, store_file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """As after a change of springlab's sources: the key is another one, the question is not."""
-    store.keep(job(1), Outcome("done", "by older sources"), 0.0)
-    store.keep(job(2), Outcome("done", "by older sources"), 0.0)
-    monkeypatch.setattr(job_module, "_sources", lambda task: "newer")
-    assert store.find(job(1)) is None
-    store.keep(job(1), Outcome("diverged", "by newer sources"), 0.0)
+    store.keep(task(1), Outcome("done", "by older sources"), 0.0)
+    store.keep(task(2), Outcome("done", "by older sources"), 0.0)
+    monkeypatch.setattr(task_module, "_sources", lambda task: "newer")
+    assert store.find(task(1)) is None
+    store.keep(task(1), Outcome("diverged", "by newer sources"), 0.0)
     assert [(row["number"], row["reason"]) for row in rows(store_file, {})] == [
         (2, "by older sources"),
         (1, "by newer sources"),

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from experiments.runs import store as store_module
 from experiments.runs.results import rows
 from experiments.runs.store import Store, StoreError, read_arrays
-from tests.experiments.runs.tasks import alike, arrays_of, ended, endings, job, kept
+from tests.experiments.runs.tasks import alike, arrays_of, ended, endings, kept, task
 from tests.reference.systems import property_test
 from tests.report.commands.terminal import ROOT, python
 
@@ -27,10 +27,10 @@ from tests.report.commands.terminal import ROOT, python
 def test_a_run_whose_arrays_are_gone_or_broken_is_run_again_and_then_kept(store: Store, store_file: Path) -> None:
     """As after a power failure."""
     for number, damage in enumerate((Path.unlink, empty, cut, overwrite)):
-        store.keep(job(number), ended("done"), 0.0)
+        store.keep(task(number), ended("done"), 0.0)
         damage(store_file.parent / "arrays" / rows(store_file, {"number": str(number)})[0]["arrays"])
-        assert store.find(job(number)) is None
-        store.keep(job(number), ended("done"), 0.0)
+        assert store.find(task(number)) is None
+        store.keep(task(number), ended("done"), 0.0)
         assert alike(kept(store, number), ended("done"))
 
 
@@ -66,13 +66,13 @@ def test_no_broken_file_is_taken_for_whole(tmp_path_factory: pytest.TempPathFact
     assert found is None or alike(found, arrays)
 
 
-#: Keeps one job, and is killed while it keeps another.
+#: Keeps one task, and is killed while it keeps another.
 KILLED = """
 import os, signal, sys
 from pathlib import Path
 import numpy as np
 from experiments.runs.store import Store
-from tests.experiments.runs.tasks import ended, job
+from tests.experiments.runs.tasks import ended, task
 
 def die(*_):
     os.kill(os.getpid(), signal.SIGKILL)
@@ -83,7 +83,7 @@ def half(file, **arrays):
     die()
 
 store = Store(Path(sys.argv[1]))
-store.keep(job(1), ended("done"), 0.0)
+store.keep(task(1), ended("done"), 0.0)
 moment = sys.argv[2]
 if moment == "arrays are written":
     np.savez = half
@@ -91,7 +91,7 @@ elif moment == "arrays are put in place":
     Path.replace = die
 else:
     store._sql.set_trace_callback(lambda statement: statement.startswith(moment) and die())
-store.keep(job(2), ended("done"), 0.0)
+store.keep(task(2), ended("done"), 0.0)
 """
 
 
@@ -107,8 +107,8 @@ def test_a_kill_at_any_moment_leaves_a_store_that_opens_and_resumes(store_file: 
     with closing(Store(store_file)) as store:
         assert not [*store_file.parent.rglob("*.half")]
         assert alike(kept(store, 1), ended("done"))
-        assert store.find(job(2)) is None
-        store.keep(job(2), ended("done"), 0.0)
+        assert store.find(task(2)) is None
+        store.keep(task(2), ended("done"), 0.0)
         assert alike(kept(store, 2), ended("done"))
     assert len(arrays_of(store_file)) == 2
 
@@ -145,23 +145,23 @@ def test_a_kill_while_the_store_is_made_leaves_one_that_opens(store_file: Path, 
     assert said.code == -9, said.err
     assert rows(store_file, {}) == []
     with closing(Store(store_file)) as store:
-        store.keep(job(1), 1, 0.0)
+        store.keep(task(1), 1, 0.0)
         assert kept(store, 1) == 1
 
 
 # --- Others at the same store ---
 
 
-#: Keeps jobs from a number to another, every third with arrays.
+#: Keeps tasks from a number to another, every third with arrays.
 WRITER = """
 import sys
 from pathlib import Path
 from experiments.runs.store import Store
-from tests.experiments.runs.tasks import ended, job
+from tests.experiments.runs.tasks import ended, task
 first, last = map(int, sys.argv[2:])
 store = Store(Path(sys.argv[1]))
 for number in range(first, last):
-    store.keep(job(number), number if number % 3 else ended("done"), 0.0)
+    store.keep(task(number), number if number % 3 else ended("done"), 0.0)
 """
 
 
@@ -183,8 +183,8 @@ def test_many_threads_may_use_a_store(store: Store, store_file: Path) -> None:
     from concurrent.futures import ThreadPoolExecutor
 
     with ThreadPoolExecutor(8) as pool:
-        assert all(future is None for future in pool.map(lambda n: store.keep(job(n), ended("done"), 0.0), range(50)))
-        assert all(found is not None for found in pool.map(lambda n: store.find(job(n)), range(50)))
+        assert all(future is None for future in pool.map(lambda n: store.keep(task(n), ended("done"), 0.0), range(50)))
+        assert all(found is not None for found in pool.map(lambda n: store.find(task(n)), range(50)))
     assert len(rows(store_file, {})) == 50
 
 
@@ -194,17 +194,17 @@ def test_a_store_that_somebody_else_does_not_let_go_of_is_said_in_a_line(
     """After some patience; reading goes on, and so does writing once it is let go of."""
     monkeypatch.setattr(store_module, "PATIENCE", 0.1)
     with closing(Store(store_file)) as store, closing(sqlite3.connect(store_file, isolation_level=None)) as other:
-        store.keep(job(1), 1, 0.0)
+        store.keep(task(1), 1, 0.0)
         other.execute("BEGIN IMMEDIATE")
         line = (
             f"store {store_file}: another springlab has been writing to it for 0.1 s; run the same command again later"
         )
-        for attempt in (lambda: store.keep(job(2), 2, 0.0), lambda: store.retire(["key"]), lambda: Store(store_file)):
+        for attempt in (lambda: store.keep(task(2), 2, 0.0), lambda: store.retire(["key"]), lambda: Store(store_file)):
             with pytest.raises(StoreError) as refused:
                 attempt()
             assert str(refused.value) == line
         assert kept(store, 1) == 1
         assert endings(store_file) == [(1, "done")]
         other.execute("ROLLBACK")
-        store.keep(job(2), 2, 0.0)
+        store.keep(task(2), 2, 0.0)
         assert endings(store_file) == [(1, "done"), (2, "done")]

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 from experiments.runs.store import Store, StoreError
-from tests.experiments.runs.tasks import alike, arrays_of, ended, endings, job, kept
+from tests.experiments.runs.tasks import alike, arrays_of, ended, endings, kept, task
 from tests.report.commands.terminal import ROOT, python
 
 # --- No room ---
@@ -26,32 +26,32 @@ FULL = "the disk is full; what was kept is safe: make room, and run the same com
 
 def test_a_full_disk_under_the_table_is_said_in_a_line(store: Store, store_file: Path) -> None:
     """SQLite's own "database or disk is full": with arrays or without, what was kept is there, and it goes on."""
-    store.keep(job(1), ended("done"), 0.0)
+    store.keep(task(1), ended("done"), 0.0)
     (pages,) = store._sql.execute("PRAGMA page_count").fetchone()
     store._sql.execute(f"PRAGMA max_page_count = {pages}")
     for answer in ("word " * 10_000, [ended("done"), "word " * 10_000]):
         with pytest.raises(StoreError) as refused:
-            store.keep(job(2), answer, 0.0)
+            store.keep(task(2), answer, 0.0)
         assert str(refused.value) == f"store {store_file}: {FULL}"
         assert endings(store_file) == [(1, "done")]
         assert alike(kept(store, 1), ended("done"))
-        assert store.find(job(2)) is None
+        assert store.find(task(2)) is None
     store._sql.execute("PRAGMA max_page_count = 1000000")
-    store.keep(job(2), answer, 0.0)
+    store.keep(task(2), answer, 0.0)
     assert alike(kept(store, 2), answer)
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 def test_a_full_disk_under_the_arrays_is_said_in_a_line(store: Store, store_file: Path) -> None:
     """The system's own ENOSPC: no row without its arrays, nothing half left over, and it goes on."""
-    store.keep(job(1), ended("done"), 0.0)
-    (store_file.parent / "arrays" / f"{job(2).key}-0.half").symlink_to("/dev/full")
+    store.keep(task(1), ended("done"), 0.0)
+    (store_file.parent / "arrays" / f"{task(2).key}-0.half").symlink_to("/dev/full")
     with pytest.raises(StoreError) as refused:
-        store.keep(job(2), ended("done"), 0.0)
+        store.keep(task(2), ended("done"), 0.0)
     assert str(refused.value) == f"store {store_file}: {FULL}"
     assert endings(store_file) == [(1, "done")]
     assert len(arrays_of(store_file)) == 1
-    store.keep(job(2), ended("done"), 0.0)
+    store.keep(task(2), ended("done"), 0.0)
     assert alike(kept(store, 2), ended("done"))
 
 
@@ -99,7 +99,7 @@ from report.commands import results_table
 from experiments.runs import store
 from report.commands import sweep as sweep_commands
 from experiments.runs import sweeps
-from experiments.runs.runner import LocalCrew
+from experiments.runs.runner import LocalExecutor
 from experiments.runs.steppers import all_steppers
 from tests.report.commands.terminal import springlab
 all_steppers()
@@ -121,7 +121,7 @@ def read_only() -> Iterator[Path]:
     """A folder with a store that has one run; all may look into it, none but the superuser may write."""
     folder = Path(tempfile.mkdtemp(prefix="springlab-test-"))
     with closing(Store(folder / "store.sqlite")) as store:
-        store.keep(job(1), ended("done"), 0.0)
+        store.keep(task(1), ended("done"), 0.0)
     folder.chmod(0o555)
     (folder / "store.sqlite").chmod(0o444)
     yield folder

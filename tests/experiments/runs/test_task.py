@@ -1,4 +1,4 @@
-"""A job's key says everything that decides its result, and nothing else."""
+"""A task's key says everything that decides its result, and nothing else."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from hypothesis import strategies as st
 from engines.engine import registry
 from engines.process.isolation import run_engine
 from engines.pymunk.springs import PymunkSprings
-from experiments.runs import task as job_module
-from experiments.runs.task import Job, digest
+from experiments.runs import task as task_module
+from experiments.runs.task import Task, digest
 from reference.changes import Change
 from reference.obstacles import Circle
-from tests.experiments.runs import tasks as jobs
+from tests.experiments.runs import tasks
 from tests.experiments.runs.tasks import STRING, numbered, stepped
 from tests.reference.systems import property_test
 from tests.report.commands.terminal import python
@@ -55,10 +55,10 @@ class Twin:
     b: Any
 
 
-def run_job(**changed: Any) -> Job:
-    """A job of an engine; with something changed."""
+def run_task(**changed: Any) -> Task:
+    """A task of an engine; with something changed."""
     arguments = {"engine": PymunkSprings(), "system": STRING, "dt": 1e-3, "steps": 10, "changes": CHANGES} | changed
-    return Job(stepped, tuple(arguments.values()))
+    return Task(stepped, tuple(arguments.values()))
 
 
 def other(value: Any) -> Any:
@@ -203,14 +203,14 @@ def test_a_function_made_inside_another_is_refused() -> None:
 
 
 CHILD = """
-from tests.experiments.runs.test_task import run_job
-print(run_job().key, run_job().question)
+from tests.experiments.runs.test_task import run_task
+print(run_task().key, run_task().question)
 """
 
 
-def test_equal_jobs_have_equal_keys_in_every_process(tmp_path: Path) -> None:
+def test_equal_tasks_have_equal_keys_in_every_process(tmp_path: Path) -> None:
     """Though every Python shuffles its sets anew: a set within the engine's capabilities is among what is digested."""
-    asked = run_job()
+    asked = run_task()
     for _ in range(2):
         said = python("-c", CHILD, folder=tmp_path)
         assert said.out.split() == [asked.key, asked.question], said.err
@@ -237,49 +237,49 @@ CHANGED = {
 @pytest.mark.parametrize("what", CHANGED)
 def test_whatever_decides_the_result_changes_the_key(what: str) -> None:
     """Every field of the system by its last bit; dt by its last bit; and the question with it."""
-    changed = run_job(**CHANGED[what])
-    assert changed.key != run_job().key
-    assert changed.question != run_job().question
+    changed = run_task(**CHANGED[what])
+    assert changed.key != run_task().key
+    assert changed.question != run_task().question
 
 
-def test_the_task_changes_the_key() -> None:
-    """The same arguments for another task are another question."""
-    assert Job(run_engine, run_job().arguments).question != run_job().question
+def test_the_function_changes_the_key() -> None:
+    """The same arguments for another function are another question."""
+    assert Task(run_engine, run_task().arguments).question != run_task().question
 
 
 def test_the_engines_version_changes_the_key(monkeypatch: pytest.MonkeyPatch) -> None:
     """And the question: another version is another subject."""
-    before = run_job()
+    before = run_task()
     keys = before.key, before.question
-    monkeypatch.setattr(job_module, "version", lambda engine: "999.0")
-    assert run_job().key != keys[0]
-    assert run_job().question != keys[1]
-    assert run_job().labels["version"] == "999.0"
+    monkeypatch.setattr(task_module, "version", lambda engine: "999.0")
+    assert run_task().key != keys[0]
+    assert run_task().question != keys[1]
+    assert run_task().labels["version"] == "999.0"
 
 
-@pytest.mark.parametrize("package", job_module.COMPUTES_WITH)
+@pytest.mark.parametrize("package", task_module.COMPUTES_WITH)
 def test_the_version_of_what_the_reference_computes_with_changes_the_key(
     monkeypatch: pytest.MonkeyPatch, package: str
 ) -> None:
     """But not the question: a newer answer to it takes the older one's place."""
-    before = run_job()
+    before = run_task()
     keys = before.key, before.question
     told = metadata.version
-    monkeypatch.setattr(job_module.metadata, "version", lambda name: "999.0" if name == package else told(name))
-    job_module._computer.cache_clear()
+    monkeypatch.setattr(task_module.metadata, "version", lambda name: "999.0" if name == package else told(name))
+    task_module._computer.cache_clear()
     try:
-        assert run_job().key != keys[0]
-        assert run_job().question == keys[1]
+        assert run_task().key != keys[0]
+        assert run_task().question == keys[1]
     finally:
-        job_module._computer.cache_clear()
+        task_module._computer.cache_clear()
 
 
 @pytest.fixture
 def afresh() -> Iterator[Callable[[], None]]:
     """Forgets the digests of sources, which are otherwise read once."""
-    job_module._sources.cache_clear()
-    yield job_module._sources.cache_clear
-    job_module._sources.cache_clear()
+    task_module._sources.cache_clear()
+    yield task_module._sources.cache_clear
+    task_module._sources.cache_clear()
 
 
 @pytest.mark.parametrize("room", ["reference", "engines"])
@@ -287,52 +287,52 @@ def test_the_sources_change_the_key(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, afresh: Callable[[], None], room: str
 ) -> None:
     """One character in any file of the rooms that compute; not the question."""
-    folder = Path(getattr(job_module, room).__path__[0])
+    folder = Path(getattr(task_module, room).__path__[0])
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True, ignore=shutil.ignore_patterns("__pycache__"))
-    before = run_job().key
-    monkeypatch.setattr(job_module, room, SimpleNamespace(__path__=[str(tmp_path)]))
+    before = run_task().key
+    monkeypatch.setattr(task_module, room, SimpleNamespace(__path__=[str(tmp_path)]))
     afresh()
-    assert run_job().key == before
+    assert run_task().key == before
     with max(tmp_path.rglob("*.py")).open("a") as file:
         file.write("#")
     afresh()
-    assert run_job().key != before
+    assert run_task().key != before
 
 
-def test_the_source_of_the_task_changes_the_key(tmp_path: Path, afresh: Callable[[], None]) -> None:
+def test_the_source_of_the_function_changes_the_key(tmp_path: Path, afresh: Callable[[], None]) -> None:
     """Wherever it is written."""
     file = tmp_path / "student.py"
-    file.write_text("def task(number):\n    return number\n")
+    file.write_text("def function(number):\n    return number\n")
     specification = importlib.util.spec_from_file_location("student", file)
     assert specification is not None
     assert specification.loader is not None
     module = importlib.util.module_from_spec(specification)
     specification.loader.exec_module(module)
-    before = Job(module.task, (1,))
+    before = Task(module.function, (1,))
     keys = before.key, before.question
-    file.write_text("def task(number):\n    return 2 * number\n")
+    file.write_text("def function(number):\n    return 2 * number\n")
     afresh()
-    after = Job(module.task, (1,))
+    after = Task(module.function, (1,))
     assert (after.key != keys[0], after.question == keys[1]) == (True, True)
 
 
 def test_limits_and_names_for_people_do_not_change_the_key() -> None:
     """They do not decide what a run that comes to its end leaves."""
-    before = run_job()
-    after = Job(stepped, before.arguments, {"scene": "string"}, time_limit=1.0, memory_limit=2.0)
+    before = run_task()
+    after = Task(stepped, before.arguments, {"scene": "string"}, time_limit=1.0, memory_limit=2.0)
     assert (after.key, after.question) == (before.key, before.question)
 
 
 # --- Labels ---
 
 
-def test_labels_say_what_a_job_is_about() -> None:
+def test_labels_say_what_a_task_is_about() -> None:
     """Engine, version, settings, system, dt and steps come from the arguments, by their names."""
-    labels = replace(run_job(), parameters={"masses": 3.0}).labels
+    labels = replace(run_task(), parameters={"masses": 3.0}).labels
     assert labels == {
         "task": "stepped",
         "stepper": "pymunk_springs",
-        "version": run_job().labels["version"],
+        "version": run_task().labels["version"],
         "settings": {**PymunkSprings().settings, "precision": "double"},
         "system": digest(STRING)[:12],
         "parameters": {"masses": 3.0},
@@ -341,17 +341,17 @@ def test_labels_say_what_a_job_is_about() -> None:
     }
 
 
-def test_labels_of_a_job_about_something_else_are_none() -> None:
-    """But its task has a name."""
-    assert {name for name, value in jobs.job().labels.items() if value is not None} == {"task", "parameters"}
+def test_labels_of_a_task_about_something_else_are_none() -> None:
+    """But its function has a name."""
+    assert {name for name, value in tasks.task().labels.items() if value is not None} == {"task", "parameters"}
 
 
 def test_labels_are_of_one_run() -> None:
-    """A task that makes many runs, each with its own steps, has no number of them."""
-    assert run_job(steps=[10, 20]).labels["steps"] is None
+    """A function that makes many runs, each with its own steps, has no number of them."""
+    assert run_task(steps=[10, 20]).labels["steps"] is None
 
 
 def test_labels_are_numbers_that_a_store_can_hold() -> None:
     """NumPy's numbers become Python's, with every bit."""
-    labels = run_job(dt=np.float64(0.1), steps=np.int64(7)).labels
+    labels = run_task(dt=np.float64(0.1), steps=np.int64(7)).labels
     assert (type(labels["dt"]), labels["dt"], type(labels["steps"]), labels["steps"]) == (float, 0.1, int, 7)

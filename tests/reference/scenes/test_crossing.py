@@ -15,7 +15,7 @@ from reference.errors import InputError
 from reference.forces import SpringMotion
 from reference.scenes import find as find_scene
 from reference.scenes.crossing import Crossing, cambered
-from reference.scenes.ground_motion import GroundMotion, Sweep
+from reference.scenes.ground_motion import FrequencySweep, GroundMotion
 from reference.scenes.trusses import truss
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
@@ -200,7 +200,7 @@ def test_too_many_steps_for_a_drive_are_refused() -> None:
 
 def test_one_parameter_is_driven_once() -> None:
     """Else the one would undo what the other does."""
-    shaking = GroundMotion(Sweep(1.0, 2.0, 1.0, 1.0))
+    shaking = GroundMotion(FrequencySweep(1.0, 2.0, 1.0, 1.0))
     with pytest.raises(InputError, match=r"^gravity is driven 2 times: expected once$"):
         Driven(find_scene("string").system({}), (shaking, shaking))
 

@@ -13,7 +13,7 @@ from scipy.integrate import quad, solve_ivp
 from reference.changes import Change
 from reference.errors import InputError
 from reference.scenes import find as find_scene
-from reference.scenes.ground_motion import GroundMotion, Sweep, read_record
+from reference.scenes.ground_motion import FrequencySweep, GroundMotion, read_record
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from reference.state import Array
@@ -22,7 +22,7 @@ from reference.theory.equilibrium import equilibrium
 from reference.theory.modes import squared_frequencies
 
 #: A plain sine along both axes.
-SHAKING = Sweep(3.0, 3.0, 2.0, 10.0, direction=(0.6, 0.8))
+SHAKING = FrequencySweep(3.0, 3.0, 2.0, 10.0, direction=(0.6, 0.8))
 
 
 # --- Wrong ones, which every check must be seen to refuse ---
@@ -48,7 +48,7 @@ class Early(GroundMotion):
 
 
 @dataclass(frozen=True)
-class SweptTwiceAsFast(Sweep):
+class SweptTwiceAsFast(FrequencySweep):
     """Its phase is 2 pi f(t) t in place of the integral: the frequency rises twice as fast."""
 
     def acceleration(self, times: Array) -> Array:
@@ -60,7 +60,7 @@ class SweptTwiceAsFast(Sweep):
 # --- (a) The frame of the ground ---
 
 
-def really_moved(system: MassSpringSystem, sine: Sweep, duration: float) -> Array:
+def really_moved(system: MassSpringSystem, sine: FrequencySweep, duration: float) -> Array:
     """Where the masses are relative to the ground in the end, (n, d) [m]: supports moved, forces by NumPy, DOP853.
 
     For a = A sin(w t) from rest the ground is at A/w (t - sin(w t)/w), at the speed A/w (1 - cos(w t)).
@@ -91,7 +91,7 @@ def really_moved(system: MassSpringSystem, sine: Sweep, duration: float) -> Arra
     return np.asarray(np.where(system.fixed[:, None], system.positions, moved))
 
 
-def check_frame(drive: type[GroundMotion], sine: Sweep = SHAKING) -> None:
+def check_frame(drive: type[GroundMotion], sine: FrequencySweep = SHAKING) -> None:
     """Three damped masses on a string, in air, for T = 0.5 s: the errors at dt and dt/2 are as 4 to 1, and small.
 
     Held in the middle of steps the acceleration is off by A w^2 dt^2/24 at most on the average over a step, which moves
@@ -131,7 +131,7 @@ def test_the_frame_fails_on_another_shaking() -> None:
 # --- (b) One mass on a spring ---
 
 
-def duhamel(mass: float, k: float, c: float, ground: Sweep, times: Array) -> Array:
+def duhamel(mass: float, k: float, c: float, ground: FrequencySweep, times: Array) -> Array:
     """How far m x'' + c x' + k x = -m a(t) goes from rest, shape (m,) [m].
 
     x(t) = -1/w_d times the integral of a(s) exp(-z (t - s)) sin(w_d (t - s)) (Chopra, ch. 4), in closed form for a
@@ -194,7 +194,7 @@ def test_the_oscillator_fails_on(wrong: type[GroundMotion]) -> None:
 # --- (c) Resonance ---
 
 
-def check_resonance(sweep: type[Sweep], truck: float = 5000.0) -> None:
+def check_resonance(sweep: type[FrequencySweep], truck: float = 5000.0) -> None:
     """A bridge on rock shaken up and down sways most when the sweep is 2.157 sqrt(beta) past its lowest frequency.
 
     Without damping the envelope is a Fresnel integral, with its maximum 1.217 of its units (pi/beta)^(1/2) after the
@@ -217,7 +217,7 @@ def check_resonance(sweep: type[Sweep], truck: float = 5000.0) -> None:
 
 def test_a_swept_bridge_resonates_at_its_lowest_frequency() -> None:
     """As theory says, after the delay that theory says."""
-    check_resonance(Sweep)
+    check_resonance(FrequencySweep)
 
 
 def test_resonance_fails_on_another_sweep_and_another_bridge() -> None:
@@ -225,7 +225,7 @@ def test_resonance_fails_on_another_sweep_and_another_bridge() -> None:
     with pytest.raises(AssertionError):
         check_resonance(SweptTwiceAsFast)
     with pytest.raises(AssertionError):
-        check_resonance(Sweep, truck=10000.0)
+        check_resonance(FrequencySweep, truck=10000.0)
 
 
 # --- Sweeps ---
@@ -235,12 +235,12 @@ def test_resonance_fails_on_another_sweep_and_another_bridge() -> None:
 def test_the_phase_of_a_sweep_is_the_integral_of_its_frequency(law: Any) -> None:
     """By quadrature; and not for the one swept twice as fast."""
     times = np.linspace(0.05, 1.95, 7)
-    for kind, right in ((Sweep, True), (SweptTwiceAsFast, False)):
+    for kind, right in ((FrequencySweep, True), (SweptTwiceAsFast, False)):
         sweep = kind(1.0, 8.0, 3.0, 2.0, law)
         turns = [quad(lambda t, s=sweep: s.frequency(np.array(t)), 0, end)[0] for end in times]  # type: ignore[misc]
         expected = 3.0 * np.sin(2 * np.pi * np.array(turns))
         assert np.allclose(sweep.acceleration(times)[:, 0], expected, atol=1e-10) == right
-    assert Sweep(1.0, 8.0, 3.0, 2.0, law).frequency(np.array([0.0, 2.0])) == pytest.approx([1.0, 8.0])
+    assert FrequencySweep(1.0, 8.0, 3.0, 2.0, law).frequency(np.array([0.0, 2.0])) == pytest.approx([1.0, 8.0])
 
 
 def test_a_sweep_of_one_frequency_is_a_sine_by_either_law() -> None:
@@ -248,13 +248,13 @@ def test_a_sweep_of_one_frequency_is_a_sine_by_either_law() -> None:
     times = np.array([-0.1, 0.1, 0.2, 1.9, 2.1])
     expected = np.array([0.0, *np.sin(2 * np.pi * 1.5 * times[1:4]), 0.0])
     for law in ("linear", "exponential"):
-        assert Sweep(1.5, 1.5, 1.0, 2.0, law).acceleration(times)[:, 0] == pytest.approx(expected)  # type: ignore[arg-type]
+        assert FrequencySweep(1.5, 1.5, 1.0, 2.0, law).acceleration(times)[:, 0] == pytest.approx(expected)  # type: ignore[arg-type]
 
 
 def test_after_the_motion_gravity_is_the_systems_own() -> None:
     """To the bit, from the first step after it; and the ground moves relative to whatever gravity there is."""
     system = find_scene("string").system({"gravity": 1.6})
-    changes = GroundMotion(Sweep(2.0, 2.0, 1.0, 0.1)).changes(system, 0.01, 0.2)
+    changes = GroundMotion(FrequencySweep(2.0, 2.0, 1.0, 0.1)).changes(system, 0.01, 0.2)
     assert changes[-1] == Change(0.1, "gravity", (0.0, -1.6))
     assert len(changes) == 11
     assert {change.value[1] for change in changes} == {-1.6}  # type: ignore[index]

@@ -15,7 +15,7 @@ import pytest
 from experiments.runs.results import rows
 from experiments.runs.steppers import find_steppers
 from experiments.runs.store import read_arrays
-from experiments.runs.sweeps import Sweep, parse_axes
+from experiments.runs.sweeps import ParameterSweep, parse_axes
 from reference.errors import InputError
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
@@ -201,8 +201,8 @@ def test_a_dt_that_is_not_varied_is_the_one_given_or_the_scenes(
     dt: float | None, duration: float | None, dt_and_steps: tuple[float, int]
 ) -> None:
     """And so is the duration."""
-    (job,) = Sweep("string", find_steppers(["heun"]), {"masses": [2.0]}, {}, dt, duration).jobs()
-    assert (job.labels["dt"], job.labels["steps"]) == dt_and_steps
+    (task,) = ParameterSweep("string", find_steppers(["heun"]), {"masses": [2.0]}, {}, dt, duration).tasks()
+    assert (task.labels["dt"], task.labels["steps"]) == dt_and_steps
 
 
 def test_a_run_is_judged_as_compare_judges_it(tmp_path: Path) -> None:
@@ -247,13 +247,17 @@ def test_the_tally_says_how_runs_ended_and_the_most_frequent_reason(tmp_path: Pa
 
 def test_a_sweep_knows_how_many_runs_it_is() -> None:
     """Without making them."""
-    sweep = Sweep("string", find_steppers(["heun", "rk4"]), parse_axes(["masses=2:11:10", "mass=1:2:100"]), {})
+    sweep = ParameterSweep("string", find_steppers(["heun", "rk4"]), parse_axes(["masses=2:11:10", "mass=1:2:100"]), {})
     assert len(sweep) == 2000
-    assert sum(1 for _ in Sweep("string", find_steppers(["heun"]), parse_axes(["masses=2,3"]), {}).jobs()) == 2
+    assert (
+        sum(1 for _ in ParameterSweep("string", find_steppers(["heun"]), parse_axes(["masses=2,3"]), {}).tasks()) == 2
+    )
 
 
 def test_what_is_varied_and_set_is_told_with_every_run() -> None:
     """As numbers, where it is numbers."""
-    sweep = Sweep("string", find_steppers(["heun"]), {"stiffness": [150.0]}, {"masses": "2", "mass": "0.01,0.02"})
-    (job,) = sweep.jobs()
-    assert job.parameters == {"scene": "string", "masses": 2.0, "mass": "0.01,0.02", "stiffness": 150.0}
+    sweep = ParameterSweep(
+        "string", find_steppers(["heun"]), {"stiffness": [150.0]}, {"masses": "2", "mass": "0.01,0.02"}
+    )
+    (task,) = sweep.tasks()
+    assert task.parameters == {"scene": "string", "masses": 2.0, "mass": "0.01,0.02", "stiffness": 150.0}

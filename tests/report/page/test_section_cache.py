@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from experiments.experiment import NAMES, Result, find
+from experiments.runs.progress import Progress
 from experiments.runs.results import rows
-from experiments.runs.side_by_side import Progress
 from report.page import section_cache
 from tests.import_graph import import_graph, modules
 from tests.report.commands.terminal import springlab

@@ -16,7 +16,7 @@ from reference.scenes import find
 from reference.schemes import catalogue
 from reference.system import MassSpringSystem
 
-#: From so many masses on, a process's memory is that of the system.
+#: From this many masses on, a process's memory is that of the system.
 LARGE = 100_000
 
 #: Neighbours a mass of a mesh is joined to: along the axes, across, and (cloth) two along, for bending.
@@ -67,7 +67,7 @@ def cloth_on_a_sphere(n: int) -> MassSpringSystem:
 
 
 def string(masses: int) -> MassSpringSystem:
-    """The default string with so many masses, damped in both ways."""
+    """The default string with a number of masses, damped in both ways."""
     return find("string").system({"masses": masses, "damping": 0.05, "drag": 0.02})
 
 

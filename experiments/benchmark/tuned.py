@@ -51,8 +51,8 @@ class TunedHeun:
         self._x, self._v, gx, gv = (
             [q[:, i].copy() for i in range(d)] for q in 2 * (system.positions, system.velocities)
         )
-        first, pull = ([np.zeros(rows) for _ in range(d)] for rows in (n, len(system.springs)))
-        self._axes = [self._x, self._v, gx, gv, first, pull]
+        first, force = ([np.zeros(rows) for _ in range(d)] for rows in (n, len(system.springs)))
+        self._axes = [self._x, self._v, gx, gv, first, force]
         self._numbers = [system.masses, system.rest_lengths, system.stiffness, system.damping, system.gravity]
         begin, spring, sign = springs_of_masses(system)
         lists = [np.ascontiguousarray(a, dtype=np.uint32) for a in (*system.springs.T, begin, spring)]
@@ -60,7 +60,7 @@ class TunedHeun:
         self._drag, self._n, self._springs = system.drag, n, len(system.springs)
 
     def advance(self, dt: float, steps: int) -> float:
-        """So many steps of dt [s]; how long they took [s]."""
+        """A number of steps of dt [s]; how long they took [s]."""
         pointers = [(ctypes.c_void_p * len(a))(*(one.ctypes.data for one in a)) for a in self._axes]
         numbers = [ctypes.c_void_p(a.ctypes.data) for a in self._numbers]
         counts = [ctypes.c_double(self._drag), ctypes.c_double(dt), ctypes.c_int64(self._n), ctypes.c_int64(steps)]

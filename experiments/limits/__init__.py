@@ -1,0 +1,1 @@
+"""Stability limits of steppers: predicted and measured on one system, and growth over planes of parameters."""
