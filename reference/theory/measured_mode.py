@@ -16,10 +16,10 @@ from reference.errors import SolverError
 from reference.limit import Limit
 from reference.measured_stability import GROWN, PERTURBATION, mode_growth
 from reference.schemes.catalogue import Scheme
-from reference.state import Array, State
+from reference.state import Array
 from reference.theory.equilibria import Equilibrium
 from reference.theory.limits import fastest_rate, find_limit
-from reference.theory.step_map import step_jacobian
+from reference.theory.step_map import layout_of, step_jacobian
 
 #: How many steps a mode is watched.
 STEPS = 200
@@ -33,7 +33,7 @@ PRECISION = 1e-5
 
 @dataclass(frozen=True)
 class FastestMode:
-    """The mode of a scheme's step that grows fastest, as vectors over the free positions and dt x velocities.
+    """The mode of a scheme's step that grows fastest, as vectors (`step_map.Layout`).
 
     Attributes:
         shape: the real part of the eigenvector.
@@ -75,14 +75,12 @@ def offsets(scheme: Scheme, rest: Equilibrium, dt: float, shape: Array) -> Itera
     It ends after STEPS, or once the perturbation is GROWN times as large: what comes then says no more.
     """
     size = PERTURBATION * rest.scale
-    x, v = rest.state.positions.copy(), rest.state.velocities.copy()
-    moved, moving = (shape * (size / np.abs(shape).max())).reshape(2, *x[rest.free].shape)
-    x[rest.free] += moved
-    v[rest.free] += moving / dt
-    state, step = State(0.0, x, v), scheme.on(rest.motion)
+    layout, settled = layout_of(scheme, rest, dt)
+    at_rest, step = layout.vector(settled), scheme.on(rest.motion)
+    state = layout.state(shape * (size / np.abs(shape).max()), settled)
     for _ in range(STEPS + 1):
-        moved = (state.positions - rest.state.positions)[rest.free]
-        yield np.concatenate([moved, dt * state.velocities[rest.free]], axis=None)
-        if not np.abs(moved).max() <= GROWN * PERTURBATION * rest.scale:
+        offset = (layout.vector(state) - at_rest)[:, 0]
+        yield offset
+        if not np.abs(offset[: layout.block]).max() <= GROWN * size:
             return
         state = step(state, dt)
