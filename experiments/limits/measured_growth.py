@@ -12,13 +12,15 @@ from experiments.limits.perturbed import perturbed, rest_of_engine
 from experiments.limits.plane import Plane, Point
 from experiments.runs.progress import Progress
 from reference.compiled.sweep import CHUNK, sweep
-from reference.errors import InputError
-from reference.measured_stability import GROWN, PERTURBATION
+from reference.errors import InputError, SolverError
+from reference.measured_stability import GROWN, PERTURBATION, random_growth
 from reference.outcome import Outcome
 from reference.schemes.catalogue import Scheme
+from reference.simulate import simulate
 from reference.state import Array
+from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
-from reference.theory.equilibria import spring_equilibrium
+from reference.theory.equilibria import Equilibrium, equilibrium_of, spring_equilibrium
 
 #: Steps of every point's run, for a scheme and for an engine.
 SWEPT_STEPS, ENGINE_STEPS = 2000, 400
@@ -60,6 +62,26 @@ def engine_growth(stepper: EngineStepper, plane: Plane, points: Sequence[Point])
     if isinstance(answer, Outcome):
         raise InputError(f"{stepper.name} {answer.ending}: {answer.reason}")
     return answer["growth"]
+
+
+def stepped_growth(stepper: SchemeStepper, plane: Plane, points: Sequence[Point], progress: Progress) -> Array:
+    """The growth per step at every point of a scheme that is not compiled: each from a run of its own function."""
+    growth = np.full(len(points), np.inf)
+    for i, point in enumerate(points):
+        progress(f"{i} of {len(points)} runs")
+        rest, start = perturbed(*_system_and_rest(stepper, plane, point))
+        dt = plane.step(point)
+        try:
+            run = simulate(start, stepper.scheme, dt, ENGINE_STEPS * dt, equations=stepper.equations)
+        except SolverError:
+            continue
+        growth[i] = random_growth(run.positions - rest)
+    return growth
+
+
+def _system_and_rest(stepper: SchemeStepper, plane: Plane, point: Point) -> tuple[MassSpringSystem, Equilibrium]:
+    system = plane.system(point)
+    return system, equilibrium_of(stepper.equations, system)
 
 
 def _stripes(points: Sequence[Point]) -> Iterator[list[int]]:

@@ -10,7 +10,7 @@ import numpy as np
 
 from engines.process.isolation import EngineStepper
 from experiments.limits.limit_rows import IDENTIFYING_STEPS
-from experiments.limits.measured_growth import engine_growth, swept_growth
+from experiments.limits.measured_growth import engine_growth, stepped_growth, swept_growth
 from experiments.limits.plane import Axis, Plane, SystemAt
 from experiments.limits.predicted_limits import predicted_boundary, predicted_field
 from experiments.runs.progress import Progress
@@ -23,7 +23,7 @@ from reference.system import MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import fastest_rate
 
-#: Points along each axis where growth is measured: of a scheme that can be swept, and of an engine.
+#: Points along each axis where growth is measured: of a scheme that can be swept, and of what runs one by one.
 SWEPT, ENGINE = 256, 16
 
 
@@ -68,7 +68,7 @@ def stability_map(
         resolution: points along each axis; left out, as many as the stepper's speed allows.
 
     Raises:
-        InputError: for axes that make no sense, or a stepper that is neither an engine nor a scheme that can be swept.
+        InputError: for axes that make no sense, or a stepper that is neither a scheme nor an engine.
     """
     plane = Plane(x, y, system_at, dt)
     scheme = _scheme_of(stepper, plane.system(plane.middle))
@@ -115,6 +115,8 @@ def _measured(stepper: Stepper, plane: Plane, progress: Progress, resolution: in
     elif isinstance(stepper, EngineStepper):
         progress(f"{len(points)} runs")
         growth = engine_growth(stepper, plane, points)
+    elif isinstance(stepper, SchemeStepper):
+        growth = stepped_growth(stepper, plane, points, progress)
     else:
-        raise InputError(f"stepper {stepper.name!r}: expected an explicit scheme of the whole state, or an engine")
+        raise InputError(f"stepper {stepper.name!r}: expected a scheme or an engine")
     return x_values, y_values, growth.reshape(len(y_values), len(x_values))
