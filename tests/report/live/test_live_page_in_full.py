@@ -162,7 +162,9 @@ def test_a_scheme_with_parameters_is_a_lane_by_name(visitor: Visitor) -> None:
     visitor.page.get_by_text("unknown stepper 'huen': did you mean 'heun'?").wait_for()
     visitor.command(f"--stepper=kick_drift '--stepper={scheme}' ")
     visitor.choose("lane 1", scheme)
-    visitor.command(f"compare string-live.toml '--stepper={scheme}' ")
+    # each lane goes on from where it was: a command for each
+    for i in (1, 2):
+        visitor.command(f"compare string-live-{i}.toml '--stepper={scheme}' ")
 
 
 def test_what_makes_no_sense_is_one_line_and_put_back(visitor: Visitor) -> None:
