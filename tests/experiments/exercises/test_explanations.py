@@ -88,8 +88,23 @@ def test_a_motion_that_blows_up_is_compared_by_its_own_size_and_not_beyond() -> 
     """The scale is 1. 20 is compared with 20, by whose rounding it is 1e-8 off; 400 is beyond LARGEST: not compared."""
     known = catalogue(EXPLODES)
     assert LARGEST == 100.0
-    assert explained(known, answers(20 * (1 + 0.5 * TOLERANCE), 401, -7, np.inf)) == ["explodes"]
+    explanation = identify(known, answers(20 * (1 + 0.5 * TOLERANCE), 401, -7, np.inf))
+    assert explanation is not None
+    assert explanation.mistakes == (EXPLODES,)
+    assert explanation.distance == pytest.approx(0.5 * TOLERANCE, rel=1e-5)
     assert explained(known, answers(20 * (1 + 2 * SINGLE), 400, 8000, 160000)) is None
+
+
+def test_functions_are_explained_one_by_one_and_each_mistake_once() -> None:
+    """Three functions, of which two have the same mistake; the distance is the largest. None where one has no name."""
+    solutions = dict.fromkeys(("a", "b", "c"), step)
+    exercise = Exercise("Standstill", 1, "", solutions, lambda *_: [], (ADDS, EXPLODES), tolerance=TOLERANCE)
+    known = AnswerCatalogue(exercise, [Question(name, (1.0,), ("x",), "") for name in solutions])
+    explanation = identify(known, [*answers(1.5 + 0.5 * TOLERANCE), *answers(20.0), *answers(1.5)])
+    assert explanation is not None
+    assert explanation.mistakes == (ADDS, EXPLODES)
+    assert explanation.distance == pytest.approx(0.5 * TOLERANCE / 1.5, rel=1e-5)
+    assert identify(known, [*answers(1.5), *answers(20.0), *answers(7.0)]) is None
 
 
 @pytest.mark.parametrize(
