@@ -17,7 +17,7 @@ from reference.scenes import Scene, Setup, scenes
 from reference.schemes.catalogue import find as find_scheme
 from reference.simulate import simulate
 from reference.state import Trajectory
-from reference.stepper import Stepper, catalogued
+from reference.stepper import Stepper, catalogued, stepper_named
 from reference.system import MassSpringSystem
 
 #: How many steps every engine takes of a scene, and how near a scheme must be for it to be identified [m].
@@ -77,9 +77,10 @@ def _runs(scene: Scene, progress: Progress) -> Iterator[Run]:
     system, changes = setup.system, setup.changes
     engines = installed_engines()
     outcomes = list(side_by_side(engines, lambda s: s.run(system, scene.dt, STEPS, changes), progress))
-    claimed = {name for stepper in engines for name in stepper.engine.identified_as.values()}
+    claimed = {name: stepper_named(name) for stepper in engines for name in stepper.claims}
     large = len(system.masses) > LARGE
-    tried = [c for name, c in catalogued().items() if name in claimed and not (large and c.on_rods)]
+    in_order = {**catalogued(), **claimed}
+    tried = [c for name, c in in_order.items() if name in claimed and not (large and c.on_rods)]
     moved = [outcome for _, outcome in outcomes if outcome.trajectory is not None]
     known = _known(tried, moved, setup)
     found = {s.name: identify_run(s.name, outcome, system, known) for s, outcome in outcomes}

@@ -72,9 +72,9 @@ def _two(name: str) -> Case:
 
 
 def _at_every_step(name: str) -> Case:
-    """The string with a parameter that is another for each, and at every step."""
-    changes = [Change(DT * step, name, of_each(name, step)) for step in range(200)]
-    return Case(f"{name} of each", find("string").system({}), DT, 200, changes)
+    """The string with a parameter that is another for each, and at every one of a hundred steps."""
+    changes = [Change(DT * step, name, of_each(name, step)) for step in range(100)]
+    return Case(f"{name} of each", find("string").system({}), DT, 100, changes)
 
 
 def _driven(scene: str) -> Case:

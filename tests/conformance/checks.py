@@ -13,7 +13,7 @@ from reference.outcome import Outcome
 from reference.stepper import catalogued, stepper_named
 from reference.system import MassSpringSystem
 from tests.conformance.case import Case
-from tests.conformance.children import Look, answer_of, look_on
+from tests.conformance.children import Look, look_on, result_of
 from tests.conformance.refusals import refused_as_expected
 from tests.conformance.runs import expected, rounding, trajectories
 
@@ -111,17 +111,17 @@ def check_change(engine: Engine, case: Case, outcome: Outcome) -> None:
 
 def looks(engine: Engine, systems: Sequence[MassSpringSystem]) -> list[Look]:
     """What the engine's simulations of systems say of their states."""
-    return answer_of(look_on, engine, systems)
+    return result_of(look_on, engine, systems)
 
 
 def check_state(system: MassSpringSystem, seen: Look) -> None:
-    """The state at the start is the system's, to rounding; every answer is an array of its own.
+    """The state at the start is the system's, to rounding; every state handed out is arrays of its own.
 
     Rounding: 1e-14 of the largest position or velocity. An engine with coordinates of its own (nested bodies,
     rotations) adds up one number per link.
     """
-    for answer in (seen.first, seen.second):
-        for found, meant in zip(answer, (system.positions, system.velocities), strict=True):
+    for state in (seen.first, seen.second):
+        for found, meant in zip(state, (system.positions, system.velocities), strict=True):
             assert found.shape == meant.shape
             assert np.abs(found - meant).max() <= 1e-14 * np.abs(meant).max()
     changed = [not np.array_equal(after, before) for after, before in zip(seen.stepped, seen.second, strict=True)]

@@ -1,4 +1,4 @@
-"""What an engine does in a process of its own, and how the answer gets back.
+"""What an engine does in a process of its own, and how the result gets back.
 
 One process runs many cases, which saves starting the engine anew for each. This file is imported in every such process:
 it imports nothing heavy.
@@ -29,10 +29,10 @@ def run_all(engine: Engine, cases: Sequence[Case]) -> list[Outcome]:
 
 @dataclass(frozen=True, eq=False)
 class Look:
-    """What a simulation says of its state: at the start, again after the first answer was overwritten, after a step.
+    """The states a simulation hands out: at the start, again after the first was overwritten, after a step.
 
     Attributes:
-        kept: the second answer, as it is after the step.
+        kept: the arrays of the second, as they are after the step.
     """
 
     first: tuple[Array, Array]
@@ -42,15 +42,15 @@ class Look:
 
 
 def look_on(engine: Engine, systems: Sequence[MassSpringSystem]) -> list[Look]:
-    """Look at the states of systems, write into what the engine answers, and look again."""
+    """Look at the states of systems, write into what the engine hands out, and look again."""
     return [_look(engine, system) for system in systems]
 
 
 def _look(engine: Engine, system: MassSpringSystem) -> Look:
     simulation = engine.start(system, 1e-3)
-    answer = simulation.state()
-    first = (answer[0].copy(), answer[1].copy())
-    for array in answer:
+    handed_out = simulation.state()
+    first = (handed_out[0].copy(), handed_out[1].copy())
+    for array in handed_out:
         array[:] = np.nan
     kept = simulation.state()
     second = (kept[0].copy(), kept[1].copy())
@@ -58,8 +58,8 @@ def _look(engine: Engine, system: MassSpringSystem) -> Look:
     return Look(first, second, kept, simulation.state())
 
 
-def answer_of(task: Callable[..., T], *arguments: object) -> T:
+def result_of(task: Callable[..., T], *arguments: object) -> T:
     """What a task returns from a process of its own."""
-    answer = isolated(task, *arguments)
-    assert not isinstance(answer, Outcome), f"{answer.ending}: {answer.reason}"
-    return answer
+    result = isolated(task, *arguments)
+    assert not isinstance(result, Outcome), f"{result.ending}: {result.reason}"
+    return result

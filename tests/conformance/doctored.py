@@ -179,7 +179,7 @@ class RefusesChanges(KickDrift):
 
 
 class HandsOutItsMemory(KickDrift):
-    """Answers with the very arrays it works on."""
+    """Hands out the very arrays it works on."""
 
     def state(self) -> tuple[Array, Array]:
         """Views."""

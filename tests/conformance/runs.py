@@ -12,7 +12,7 @@ from reference.outcome import Outcome
 from reference.state import Trajectory
 from reference.stepper import stepper_named
 from tests.conformance.case import Case
-from tests.conformance.children import answer_of, run_all
+from tests.conformance.children import result_of, run_all
 
 #: How runs of engines ended, by the digest of engine, system, dt, steps and changes.
 _ENDED: dict[str, Outcome] = {}
@@ -23,7 +23,7 @@ def outcomes(engine: Engine, cases: Sequence[Case]) -> list[Outcome]:
     keys = [digest(engine, _digest_of(case)) for case in cases]
     new = {key: case for key, case in zip(keys, cases, strict=True) if key not in _ENDED}
     if new:
-        _ENDED.update(zip(new, answer_of(run_all, engine, [*new.values()]), strict=True))
+        _ENDED.update(zip(new, result_of(run_all, engine, [*new.values()]), strict=True))
     return [_ENDED[key] for key in keys]
 
 

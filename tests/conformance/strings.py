@@ -14,11 +14,11 @@ from engines.capability_cases import chain, swinging
 from reference.system import MassSpringSystem
 from tests.conformance.case import Case
 
-#: A random string is run for so many steps. With rods for links, for so many at most, and no longer than so many times
-#: (l/g)^(1/2), in which a link falls by about its length.
-STEPS, ROD_STEPS, ROD_FALLS = 100, 40, 2.0
+#: The steps of a random string. With distance constraints for links, how many there are at most, and the longest time
+#: in (l/g)^(1/2), in which a link falls by about its length.
+STEPS, CONSTRAINED_STEPS, CONSTRAINED_FALLS = 100, 40, 2.0
 
-#: A random string hangs, at rest, longer than its springs' rest lengths by at most so many times their length.
+#: By how many times its springs' rest lengths a random string is longer than they are, at most, where it hangs at rest.
 LONGEST = 2.0
 
 
@@ -37,41 +37,43 @@ class Range:
 STIFFNESS, MASS, LENGTH = Range(10, 1e4), Range(1e-3, 1), Range(0.02, 0.5)
 
 
-def limit(system: MassSpringSystem, rods: bool = False) -> float:
+def limit(system: MassSpringSystem, on_rods: bool = False) -> float:
     """A dt [s] up to which semi-implicit Euler is stable on a string, everything that acts on it taken explicitly.
 
     For a mode of frequency w, its velocity decaying at the rate r, the step v' = (1 - r h) v - h w^2 x, x' = x + h v'
     has determinant 1 - r h and trace 2 - r h - h^2 w^2: it is stable while |trace| < 1 + determinant, which is
-    h^2 w^2 + 2 r h < 4. On a string of springs w^2 < 4 k/m and r < 4 c/m + Cd/m; as a pendulum of n rods that hangs,
+    h^2 w^2 + 2 r h < 4. On a string of springs w^2 < 4 k/m and r < 4 c/m + Cd/m; as a pendulum of n links that hangs,
     w^2 < 4 n g/l (a bound on the zeros of the Laguerre polynomial L_n) and r = Cd/m.
     """
     lightest, shortest = system.masses.min(), system.rest_lengths.min()
-    rate = system.drag / lightest + (0 if rods else 4 * system.damping.max() / lightest)
+    rate = system.drag / lightest + (0 if on_rods else 4 * system.damping.max() / lightest)
     pendulum = np.linalg.norm(system.gravity) * len(system.springs) / shortest
-    square = 4 * (pendulum if rods else system.stiffness.max() / lightest)
+    square = 4 * (pendulum if on_rods else system.stiffness.max() / lightest)
     return float((np.sqrt(rate**2 + 4 * square) - rate) / square)
 
 
 @cache
-def random_strings(rods: bool, seed: int = 20261121) -> Sequence[Case]:
+def random_strings(on_rods: bool, seed: int = 20261121) -> Sequence[Case]:
     """40 strings from a fixed seed; tests/conformance/test_random_strings.py says what is drawn, and why.
 
     Args:
-        rods: whether dt and the number of steps are to suit a stepper for which links are rods.
+        on_rods: whether dt and the number of steps are to suit a stepper for which links are distance constraints.
     """
     rng = np.random.default_rng(seed)
     kinds = {"straight": (_straight, 25), "swinging": (_swinging, 5), "moving": (_moving, 6), "uneven": (_uneven, 4)}
     systems = {f"{name} {i}": make(rng) for name, (make, count) in kinds.items() for i in range(count)}
     fractions = rng.uniform(0.05, 0.5, len(systems))
     return [
-        _case(name, system, fraction, rods) for (name, system), fraction in zip(systems.items(), fractions, strict=True)
+        _case(name, system, fraction, on_rods)
+        for (name, system), fraction in zip(systems.items(), fractions, strict=True)
     ]
 
 
-def _case(name: str, system: MassSpringSystem, fraction: float, rods: bool) -> Case:
-    dt = fraction * limit(system, rods)
+def _case(name: str, system: MassSpringSystem, fraction: float, on_rods: bool) -> Case:
+    dt = fraction * limit(system, on_rods)
     fall = np.sqrt(system.rest_lengths.min() / np.linalg.norm(system.gravity))
-    return Case(name, system, dt, min(ROD_STEPS, int(np.ceil(ROD_FALLS * fall / dt))) if rods else STEPS)
+    constrained = min(CONSTRAINED_STEPS, int(np.ceil(CONSTRAINED_FALLS * fall / dt)))
+    return Case(name, system, dt, constrained if on_rods else STEPS)
 
 
 def _straight(rng: np.random.Generator) -> MassSpringSystem:

@@ -84,7 +84,7 @@ def test_a_quiet_string_is_stepped_to_the_end(engine: Engine) -> None:
 
 
 def test_the_quiet_string_is_quiet_and_moves() -> None:
-    """As springs and as rods, its fastest mass stays below 0.04 m/s, yet in the last 0.5 s it still moves 0.1 mm."""
+    """Its fastest mass stays below 0.04 m/s, yet in the last 0.5 s it still moves 0.1 mm."""
     for scheme in ("kick_drift", "pendulum_kick_drift"):
         trajectory = expected(scheme, QUIET).trajectory
         assert trajectory is not None

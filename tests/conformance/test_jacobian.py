@@ -1,4 +1,4 @@
-"""The Jacobian of an engine's own step has the spectral radius that theory gives the scheme it is identified with."""
+"""The Jacobian of an engine's own step has the growth factor that theory gives the scheme it claims to be."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from engines.step_jacobian import own_jacobian, step_jacobian
 from reference.growth_factor import growth_factor
 from reference.outcome import Outcome
 from reference.scenes import find
-from reference.stepper import catalogued
+from reference.stepper import stepper_named
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, equilibrium_of
 from reference.theory.limits import growth
 
-#: Differences by pushes of 8e-7 m are themselves good to 1e-9. But an engine may solve to 1e-8 m/s only, which is 3e-4
-#: of a push in 0.02 s; so much of the radius is allowed, and schemes differ by far more.
+#: Differences by perturbations of 8e-7 m are themselves good to 1e-9. But an engine may solve to 1e-8 m/s only, which
+#: is 3e-4 of a perturbation in 0.02 s: that part of the factor is allowed, and schemes differ by far more.
 TOLERANCE = 3e-4
 
 #: Damped and at a dt [s] where the fastest mode turns by about half a radian a step.
@@ -27,41 +27,41 @@ DT, CASE = 2.5e-3, {"masses": 4, "damping": 0.05}
 
 
 def resting(scheme: str) -> tuple[Equilibrium, float]:
-    """The string at rest, on springs or rods; and a dt [s] beyond the limit of most, as rods swing more slowly."""
-    stepper = catalogued()[scheme]
+    """The string at rest, on springs or distance constraints, which swing more slowly; a dt [s] beyond most limits."""
+    stepper = stepper_named(scheme)
     return equilibrium_of(stepper.equations, find("string").system(CASE)), (40 if stepper.on_rods else 8) * DT
 
 
-def radii(engine: Engine, system: MassSpringSystem, dt: float) -> tuple[float, float | None]:
+def factors(engine: Engine, system: MassSpringSystem, dt: float) -> tuple[float, float | None]:
     """By differences, and by the engine's own derivatives where it has them. Runs in the engine's process."""
     own = own_jacobian(engine, system, dt)
     return growth_factor(step_jacobian(engine, system, dt)), None if own is None else growth_factor(own)
 
 
-def check_radius(measured: float, scheme: str) -> None:
+def check_factor(measured: float, scheme: str) -> None:
     """Max |eigenvalue of J| of engine and scheme agree; without damping both are 1 and nothing would be shown."""
-    predicted = growth(catalogued()[scheme].scheme, *resting(scheme))
+    predicted = growth(stepper_named(scheme).scheme, *resting(scheme))
     assert measured == pytest.approx(predicted, rel=TOLERANCE)
 
 
-def test_an_engines_step_has_the_radius_of_its_scheme(engine: Engine) -> None:
-    """At a dt up to twice beyond the limit of most, where the radius is far from 1, and another for each scheme."""
+def test_an_engines_step_has_the_growth_factor_of_its_scheme(engine: Engine) -> None:
+    """At a dt up to twice beyond the limit of most, where the factor is far from 1, and another for each scheme."""
     if not {"stretched", "velocities", "damping"} <= engine.capabilities:
         pytest.skip(f"{engine.name} cannot start stretched, in motion and damped")
     scheme = engine.identified_as["damping"]
     rest, dt = resting(scheme)
     system = replace(find("string").system(CASE), positions=rest.state.positions)
-    found = isolated(radii, engine, system, dt)
+    found = isolated(factors, engine, system, dt)
     assert not isinstance(found, Outcome), found
     by_differences, own = found
-    check_radius(by_differences, scheme)
+    check_factor(by_differences, scheme)
     if own is not None:
-        check_radius(own, scheme)
+        check_factor(own, scheme)
 
 
 def test_the_check_tells_schemes_apart() -> None:
-    """The radius of drift-kick with implicit damping is not that of explicit damping."""
-    implicit = growth(catalogued()["drift_kick_implicit_damping"].scheme, *resting("drift_kick_implicit_damping"))
+    """The growth factor of drift-kick with implicit damping is not that of explicit damping."""
+    implicit = growth(stepper_named("drift_kick_implicit_damping").scheme, *resting("drift_kick_implicit_damping"))
     assert np.isfinite(implicit)
     with pytest.raises(AssertionError):
-        check_radius(implicit, "kick_drift")
+        check_factor(implicit, "kick_drift")

@@ -29,7 +29,7 @@ def follows(engine: Doctored, cases: list[Case]) -> None:
 
 def test_the_honest_engine_follows_its_scheme_everywhere() -> None:
     """On the default string with and without damping and drag, at too large a step, and on all random strings."""
-    follows(HONEST, [*DEFAULT.values(), TOO_LARGE_A_STEP, test_default_string.QUIET, *random_strings(rods=False)])
+    follows(HONEST, [*DEFAULT.values(), TOO_LARGE_A_STEP, test_default_string.QUIET, *random_strings(on_rods=False)])
 
 
 @pytest.mark.parametrize(
@@ -53,7 +53,7 @@ def test_identification_fails_on(liar: type[KickDrift], case: Case) -> None:
 @pytest.mark.parametrize("liar", [doctored.Euler, doctored.StifferByAMillionth, doctored.ForgetsDrag])
 def test_the_random_strings_fail_on(liar: type[KickDrift]) -> None:
     """Not one string with drag is passed for an engine that lies about it, nor any at all for the other two."""
-    cases = [case for case in random_strings(rods=False) if case.system.drag]
+    cases = [case for case in random_strings(on_rods=False) if case.system.drag]
     for case, outcome in zip(cases, outcomes(Doctored(liar), cases), strict=True):
         with pytest.raises(AssertionError):
             check_follows(Doctored(liar), case, outcome)

@@ -33,7 +33,7 @@ STEPS = 400
 
 
 def falling(obstacle: Obstacle, along: float) -> Case:
-    """A mass falls from HEIGHT on an obstacle, with a velocity along it [m/s], on springs without pull from above.
+    """A mass falls from HEIGHT on an obstacle, with a velocity along it [m/s], on springs without force from above.
 
     In the plane it is a string of one spring. In space it is a triangle, as some engines take no other mesh there.
     """
@@ -60,21 +60,21 @@ def falling(obstacle: Obstacle, along: float) -> Case:
 def check_stopped(case: Case, outcome: Outcome) -> None:
     """A mass that falls straight down on an obstacle stays on top of it.
 
-    It comes with v = sqrt(2 g H), at most v dt inside, as a step sees it there only once it is. An engine may push it
-    out at some speed, which is no rebound as long as it is far below v: a tenth of it.
+    It comes with v = sqrt(2 g H), at most v dt inside, as a step sees it there only once it is. An engine may move it
+    out at some speed, which does not count as a rebound as long as it is far below v: a tenth of it.
     """
     assert outcome.trajectory is not None, outcome.reason
     (obstacle,) = case.system.obstacles
     speed = np.sqrt(2 * GRAVITY * HEIGHT)
-    gaps = obstacle.signed_distances(outcome.trajectory.positions[:, -1])[0][:, 0]
-    assert gaps.min() >= -1.01 * (speed + GRAVITY * DT) * DT
+    distances = obstacle.signed_distances(outcome.trajectory.positions[:, -1])[0][:, 0]
+    assert distances.min() >= -1.01 * (speed + GRAVITY * DT) * DT
     after = outcome.trajectory.velocities[STEPS // 2 + 5 :, -1]
     assert np.linalg.norm(after, axis=1).max() <= 0.1 * speed
-    assert abs(gaps[-1]) <= 1e-3
+    assert abs(distances[-1]) <= 1e-3
 
 
 def check_slides(case: Case, outcome: Outcome) -> None:
-    """On a plane, a box, and along a cylinder, it keeps the velocity along: to 1e-6, as the weak spring pulls too.
+    """On a plane, a box, and along a cylinder, it keeps the velocity along: to 1e-6, as the weak spring acts too.
 
     At 0.5 m/s along, 1e-9 N/m of stiffness and some cm of stretch change it by less than 1e-8 m/s. Bullet's plane is a
     sphere, on which it gets faster by (g/R) x t, R being 1e6 sizes.

@@ -10,12 +10,12 @@ Two choices keep rounding, which every motion amplifies, below the tolerance of 
 
 - A string that would hang at more than three times its length is drawn again. Left alone it falls freely, hundreds of
   its lengths within the run, and rounding goes with the distance while the tolerance goes with the length.
-- A chain of rods swings chaotically: rounding grows e-fold in about (l/g)^(1/2), and MuJoCo's own, on tens of joints,
-  begins a hundred times above the reference's (against 80-bit arithmetic: 2e-14 after 5 steps, the reference 4e-16).
-  So rods run for two such times, and at most 40 steps.
+- A chain of distance constraints swings chaotically: rounding grows e-fold in about (l/g)^(1/2), and MuJoCo's own, on
+  tens of joints, begins a hundred times above the reference's (against 80-bit arithmetic: 2e-14 after 5 steps, the
+  reference 4e-16). So they run for two such times, and at most 40 steps.
 
 Measured with eight other seeds, 320 strings: the largest deviation is 1.5e-13 of the size with springs,
-6.7e-13 with rods.
+6.7e-13 with distance constraints.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What an engine answers about its state is the system's at the start, and belongs to whoever asked."""
+"""What an engine says of its state is the system's at the start, and belongs to whoever asked."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from engines.engine import Engine, demands
 from tests.conformance.checks import check_state, looks
 
 
-def test_the_state_at_the_start_is_the_systems_and_every_answer_an_array_of_its_own(engine: Engine) -> None:
-    """To 1e-14 of its largest number; overwriting an answer, or a step, changes no other answer.
+def test_the_state_at_the_start_is_the_systems_and_every_state_is_arrays_of_its_own(engine: Engine) -> None:
+    """To 1e-14 of its largest number; overwriting one state that was handed out, or a step, changes no other.
 
     On every system that the engine's capabilities allow: in motion, stretched, in three dimensions, a mesh, free.
     """

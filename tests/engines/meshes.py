@@ -127,8 +127,8 @@ def shaken(system: MassSpringSystem, part: float = 0.03) -> MassSpringSystem:
     """The same in motion, and begun with its springs off their rest lengths by parts of 0.1 m."""
     rng = np.random.default_rng(7)
     free = ~system.fixed[:, None]
-    push = np.where(free, rng.uniform(-1, 1, system.positions.shape), 0.0)
-    return replace(system, positions=system.positions + 0.1 * part * push, velocities=push[::-1] * free)
+    shift = np.where(free, rng.uniform(-1, 1, system.positions.shape), 0.0)
+    return replace(system, positions=system.positions + 0.1 * part * shift, velocities=shift[::-1] * free)
 
 
 def random_cases(count: int) -> list[Case]:

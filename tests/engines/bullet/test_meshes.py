@@ -163,7 +163,7 @@ def test_the_triangles_have_the_springs_for_sides(name: str) -> None:
 
 
 def test_the_check_of_sides_sees_a_spring_too_many_and_triangles_apart() -> None:
-    """Shown to fail: a side that is no spring, a spring that is no side, and triangles that touch at a corner."""
+    """Shown to fail: a side without a spring, a spring that is not a side, and triangles that touch at a corner."""
     triangle = [(0, 1), (0, 2), (1, 2)]
     check_sides(triangle, [(0, 1, 2)], 3)
     for pairs in (triangle[:2], [*triangle, (2, 3)]):

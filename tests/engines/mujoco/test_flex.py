@@ -17,7 +17,7 @@ from reference.scenes import find as find_scene
 from reference.system import MassSpringSystem
 from tests.conformance.case import Case
 from tests.conformance.checks import check_follows
-from tests.conformance.children import answer_of
+from tests.conformance.children import result_of
 from tests.conformance.runs import outcomes
 
 NAMES = ("mujoco_flex", "mujoco_flex_rk4", "mujoco_rope")
@@ -135,4 +135,4 @@ def test_a_blow_up_is_told_and_leaves_no_file(name: str, tmp_path: Path) -> None
     """MuJoCo, unless told otherwise, starts anew and writes MUJOCO_LOG.TXT."""
     case = Case("far too large a step", find_scene("string").system({}), 1e80, 20)
     assert [outcome.ending for outcome in outcomes(find(name), [case])] == ["diverged"]
-    assert answer_of(files_left, find(name), str(tmp_path)) == []
+    assert result_of(files_left, find(name), str(tmp_path)) == []

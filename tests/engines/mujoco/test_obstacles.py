@@ -26,7 +26,7 @@ def rebound(damping: float) -> float:
 
 
 def test_a_mass_is_thrown_back_less_the_more_it_is_damped() -> None:
-    """A mass comes at most v dt deep and is pushed out at r/(4 z^2 dt): at most v/(4 z^2), z the damping ratio."""
+    """A mass comes at most v dt deep and is moved out at r/(4 z^2 dt): at most v/(4 z^2), z the damping ratio."""
     found = [float(isolated(rebound, z)) for z in (1.0, 2.0, 4.0)]  # type: ignore[arg-type]
     for back, z in zip(found, (1.0, 2.0, 4.0), strict=True):
         assert 0.1 / (4 * z**2) <= back <= 1.02 / (4 * z**2)
