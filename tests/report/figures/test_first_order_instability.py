@@ -8,8 +8,9 @@ import pytest
 from experiments.first_order_instability import DT, GROWING, TIMES
 from report.figures import look
 from tests.experiments.canned.first_order_instability import GROWTH
-from tests.report.figures.artists import data, marks, numbers, text
-from tests.report.figures.shown import records, result, shown
+from tests.experiments.canned.reading import numbers, records
+from tests.report.figures.artists import data, marks, text
+from tests.report.figures.shown import result, shown
 
 
 def test_lines_are_the_table() -> None:
