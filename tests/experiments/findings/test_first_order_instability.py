@@ -21,7 +21,7 @@ def test_the_table_has_each_growth_in_its_column() -> None:
         assert [row[column] for column in columns] == expected
     assert euler["predicted: tenfold in [s]"] == pytest.approx(DT * math.log(10) / math.log(GROWTH["euler"][0]))
     assert heun["predicted: tenfold in [s]"] is None
-    distance = f"distance from the truth at {DURATION:g} s [m]"
+    distance = f"distance from the true motion at {DURATION:g} s [m]"
     assert (euler[distance], heun[distance]) == pytest.approx((2.0, 3e-4))
 
 

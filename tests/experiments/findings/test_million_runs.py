@@ -6,13 +6,14 @@ import os
 
 import pytest
 
-from experiments.million_runs import CORES, PORTION, RUNS, in_words, predicted
+from experiments.million_runs import CORES, RUNS, in_words, predicted
+from experiments.runs.cluster import BATCH_SECONDS
 from tests.experiments.canned import million_runs
 from tests.experiments.canned.million_runs import HANDS, KINDS, SIZE
 from tests.experiments.canned.reading import finding, in_order, numbers, records
 
 #: Beyond this machine's cores a run of 0.1 s and of 1 s take the process at the top this long [s].
-AT_THE_TOP = [1e-3 + 0.2 * min(1.0, seconds / PORTION) for seconds in (0.1, 1.0)]
+AT_THE_TOP = [1e-3 + 0.2 * min(1.0, seconds / BATCH_SECONDS) for seconds in (0.1, 1.0)]
 
 
 def test_what_is_done_one_after_another_is_a_floor() -> None:
