@@ -8,6 +8,7 @@ from experiments.runs.progress import Progress
 from experiments.runs.steppers import default_steppers
 from reference.scenes import Setup, find
 from reference.state import Array
+from reference.stepper import catalogued
 
 
 def setup() -> Setup:
@@ -32,7 +33,8 @@ def _findings(comparison: Comparison) -> list[str]:
     named = [r for r in engines if r.identification.identified_as]
     if not named:
         return ["No engine ran that could be identified."]
-    on_springs = [r for r in named if not str(r.identification.identified_as).startswith("pendulum_")] or named
+    schemes = catalogued()
+    on_springs = [r for r in named if not schemes[str(r.identification.identified_as)].on_rods] or named
     furthest = max(on_springs, key=_error)
     worst = max(named, key=lambda r: r.identification.error)
     sentences = [

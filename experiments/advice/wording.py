@@ -64,7 +64,8 @@ def sentence(setup: Setup, advice: Advice) -> str:
         return f"{name} at dt = {dt:g} s {ended}; no limit was measured ({advice.measured.reason}){theory}."
     use = f"use dt = {advice.advised:g} s or less" if advice.advised else "no step is known to be safe"
     if dt > limit:
-        return f"{name} at dt = {dt:g} s blows up: it is {dt / limit:.2f} times the limit, {limit:.3g} s; {use}."
+        ended = "comes to the scene's end, though" if advice.own.ending == "done" else f"{_bad(advice)}:"
+        return f"{name} at dt = {dt:g} s {ended} it is {dt / limit:.2f} times the limit, {limit:.3g} s; {use}."
     if advice.own.ending != "done":
         said = f"{name} at dt = {dt:g} s {_bad(advice)}, though the limit at rest is {limit:.3g} s"
         return f"{said} ({advice.own.reason}): {use}."

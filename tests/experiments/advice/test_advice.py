@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from engines.measured_limit import limit_of_engine_near
 from engines.process.isolation import EngineStepper, run_engine
 from experiments.advice.advice import ADVISED, REFUTED, advise, rest_of, rounded_down
 from experiments.advice.wording import result_of
 from experiments.limits.perturbed import perturbed
+from reference.limit import Limit
 from reference.measured_stability import random_growth
 from reference.scenes import Setup, find
 from reference.system import MassSpringSystem
@@ -105,6 +107,27 @@ def test_an_engine_with_another_limit_is_seen() -> None:
     assert liar.predicted.dt is None
     assert liar.limit == pytest.approx(honest.limit / 2, rel=5e-3)
     check_advice(engines[1], setup, liar.limit, rounded_down(ADVISED * liar.limit))
+
+
+def measuring(limit: float) -> EngineStepper:
+    """The honest engine, done in this process, whose limit is measured as it is told [s]."""
+
+    def here(task: Callable[..., Any], *arguments: Any, time_limit: float = 0.0) -> Any:
+        return Limit(limit, grows_beyond=True) if task is limit_of_engine_near else task(*arguments)
+
+    return EngineStepper(Doctored(), isolate=here)
+
+
+@pytest.mark.parametrize("times", [1.08, 0.5])
+def test_the_advised_step_is_below_the_shorter_of_both_limits(times: float) -> None:
+    """Predicted and measured, whichever that is: where perturbations grow slowly, the measured one is too long."""
+    setup = setup_of("stiff rope")
+    (honest,) = advise(setup, [measuring(1e-3)], lambda _: None)
+    assert honest.predicted.dt is not None
+    measured = times * honest.predicted.dt
+    (advice,) = advise(setup, [measuring(measured)], lambda _: None)
+    assert (advice.predicted.dt, advice.measured.dt) == (honest.predicted.dt, measured)
+    assert advice.advised == rounded_down(ADVISED * min(honest.predicted.dt, measured))
 
 
 def test_a_step_beyond_the_limit_is_said_to_blow_up() -> None:

@@ -47,11 +47,6 @@ def text(axes: Axes, part: str) -> Text:
     return found
 
 
-def numbers(words: str) -> list[float]:
-    """The numbers in a sentence, in their order."""
-    return [float(found) for found in re.findall(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e[-+]?\d+)?", words)]
-
-
 def tick_labels(axis: Axis) -> dict[float, str]:
     """Those that can be seen, by their places."""
     low, high = sorted(axis.get_view_interval())

@@ -9,8 +9,9 @@ import pytest
 from report.figures import COLOURS, draw
 from tests.experiments.canned import advice
 from tests.experiments.canned.advice import DONE, FOUND, SETUP
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, laid_out, marks, text, tick_labels, verticals, words
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def test_bars_are_predicted_and_dots_measured() -> None:

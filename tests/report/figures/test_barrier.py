@@ -8,8 +8,9 @@ import pytest
 from experiments.barrier import STEPS, predicted
 from report.figures.barrier import FLOOR, RULES, TIMES
 from tests.experiments.canned.barrier import ENGINES
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, horizontals, legend, line, lines, looks, text, tick_labels
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def column(stepper: str, rule: str, name: str) -> list[float]:

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from experiments.cost import DURATION, MASSES
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, legend, line, lines, looks
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 #: What is in the legend, and the stepper that is the cheapest of those.
 LABELS = {

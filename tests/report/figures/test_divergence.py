@@ -7,8 +7,9 @@ import pytest
 from report.figures import COLOURS, draw
 from report.figures.divergence import FLOOR
 from tests.experiments.canned import divergence
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, marks, text, tick_labels, words
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def test_lines_are_the_tables_and_full_is_measured() -> None:

@@ -12,8 +12,9 @@ from reference.scenes.drape import disc
 from report.figures import look
 from report.figures.drape import SHOWN, _cloth
 from tests.experiments.canned.drape import AMPLITUDE, coefficient
-from tests.report.figures.artists import data, legend, marks, numbers
-from tests.report.figures.shown import records, result, shown
+from tests.experiments.canned.reading import numbers, records
+from tests.report.figures.artists import data, legend, marks
+from tests.report.figures.shown import result, shown
 
 
 def test_points_are_the_table_in_millimetres_full_for_the_reference() -> None:

@@ -10,8 +10,9 @@ from experiments.energy import DURATION
 from report.figures import COLOURS
 from report.figures.energy import FLOOR, HIGHEST, LOOKS, LOWEST, SPANS
 from tests.experiments.canned import energy
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, marks, text, tick_labels, verticals, words
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def above() -> Axes:

@@ -112,10 +112,11 @@ def fingerprint(figure: Figure) -> list[object]:
 @pytest.mark.parametrize("name", RESULTS)
 def test_the_same_result_is_drawn_in_the_same_way_and_another_in_another(name: str) -> None:
     """To the last number."""
-    drawn = repr(fingerprint(shown(name).figure))
-    assert repr(fingerprint(draw(name, RESULTS[name]["usual"]()).figure)) == drawn
-    others = [case for case in RESULTS[name] if case != "usual"]
-    assert all(repr(fingerprint(shown(name, case).figure)) != drawn for case in others)
+    once, again, *others = (
+        repr(fingerprint(draw(name, RESULTS[name][case]()).figure)) for case in ("usual", *RESULTS[name])
+    )
+    assert once == again
+    assert once not in others
 
 
 def test_the_same_figure_is_the_same_bytes() -> None:

@@ -8,8 +8,9 @@ import pytest
 from experiments.first_order_instability import DT, GROWING, TIMES
 from report.figures import look
 from tests.experiments.canned.first_order_instability import GROWTH
-from tests.report.figures.artists import data, marks, numbers, text
-from tests.report.figures.shown import records, result, shown
+from tests.experiments.canned.reading import numbers, records
+from tests.report.figures.artists import data, marks, text
+from tests.report.figures.shown import result, shown
 
 
 def test_lines_are_the_table() -> None:
@@ -21,7 +22,7 @@ def test_lines_are_the_table() -> None:
         thick, thin = marks(axes, color=look(i)["color"])
         assert thick.get_linewidth() > thin.get_linewidth()
         assert (thick.get_marker(), thin.get_marker()) == (look(i)["marker"], "None")
-        for line, what in ((thick, "distance from the truth"), (thin, "its fastest mode")):
+        for line, what in ((thick, "distance from the true motion"), (thin, "its fastest mode")):
             assert data(line)[0] == pytest.approx(times)
             column = np.array([row[f"{name}: {what} [m]"] for row in table])
             assert data(line)[1] == pytest.approx(np.where(column > 0, column, np.nan), nan_ok=True)

@@ -11,8 +11,9 @@ from experiments.ground_motion import DT, SPEEDS, SWEEP, peak
 from report.figures import COLOURS, MARKERS, look
 from report.figures.ground_motion import crests
 from tests.experiments.canned.ground_motion import HIGH, LINE, NATURAL, SWING, sway
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, legend, line, lines, looks, text, verticals
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def shaken() -> Axes:

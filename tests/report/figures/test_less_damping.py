@@ -8,8 +8,9 @@ import pytest
 from experiments.less_damping import DRAGS, DURATION, TIMES
 from report.figures import look
 from tests.experiments.canned.less_damping import MASS, START
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, marks, text, tick_labels
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def test_solid_lines_are_the_energies_of_the_table_and_dotted_the_predicted_decay() -> None:

@@ -10,8 +10,9 @@ from experiments.numbering import DAMPINGS, ROUNDS, ROUNDS_DAMPINGS
 from experiments.runs.permutation import CHANGES
 from report.figures.numbering import FLOOR
 from tests.experiments.canned.numbering import LEFT
-from tests.report.figures.artists import data, horizontals, legend, line, marks, numbers, text, tick_labels, verticals
-from tests.report.figures.shown import records, result, shown
+from tests.experiments.canned.reading import numbers, records
+from tests.report.figures.artists import data, horizontals, legend, line, marks, text, tick_labels, verticals
+from tests.report.figures.shown import result, shown
 
 
 def left() -> Axes:

@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from experiments.order import DTS, DURATION
 from report.figures.order import SLOPES
 from tests.experiments.canned.order import rows
-from tests.report.figures.artists import data, marks, numbers, words
-from tests.report.figures.shown import records, result, shown
+from tests.experiments.canned.reading import numbers, records
+from tests.report.figures.artists import data, marks, words
+from tests.report.figures.shown import result, shown
 
 
 def panels() -> list[Axes]:

@@ -12,8 +12,9 @@ from matplotlib.colors import to_hex
 from report.figures import draw
 from report.film.drawing import STRAIN_COLOURS
 from tests.experiments.canned import own_scene
+from tests.experiments.canned.reading import numbers
 from tests.experiments.canned.scenes import DURATION, STRETCHED
-from tests.report.figures.artists import data, marks, numbers, segments
+from tests.report.figures.artists import data, marks, segments
 from tests.report.figures.shown import result, shown
 
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, legend, line, tick_labels, verticals, words
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def test_marks_are_the_ratios_of_the_table() -> None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from matplotlib.axes import Axes
 
 from report.figures import COLOURS
+from tests.experiments.canned.reading import records
 from tests.experiments.canned.stability import rows
 from tests.report.figures.artists import data, marks, text, tick_labels, words
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def panels() -> list[Axes]:

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from report.figures import COLOURS
+from tests.experiments.canned.reading import records
 from tests.experiments.canned.stiff_limit import STIFFNESSES
 from tests.report.figures.artists import data, marks, text
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def test_markers_are_the_table() -> None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import pytest
 
 from report.figures.versions import COLUMN, MARK, NAMES
+from tests.experiments.canned.reading import records
 from tests.report.figures.artists import words
-from tests.report.figures.shown import records, result, shown
+from tests.report.figures.shown import result, shown
 
 
 def test_cells_are_the_table_in_the_columns_of_their_versions() -> None:

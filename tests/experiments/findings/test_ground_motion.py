@@ -1,0 +1,69 @@
+"""Ground motion: peaks and sags, predicted and measured, each in its column, and the ranges in the sentences."""
+
+from __future__ import annotations
+
+import pytest
+
+from experiments.ground_motion import SPEEDS, peak
+from tests.experiments.canned import ground_motion
+from tests.experiments.canned.ground_motion import HIGH, PEAK, sway
+from tests.experiments.canned.reading import finding, in_order, numbers, records
+
+
+def test_the_table_has_frequencies_and_sways_measured_and_predicted() -> None:
+    """Hertz are not metres, and predicted is not measured."""
+    at, by = peak(sway(PEAK, HIGH))
+    for row, frequency, high in zip(records(ground_motion.usual()), (1.29, 1.33), (0.011, 0.012), strict=True):
+        assert row["sways most at [Hz]"] == pytest.approx(frequency, abs=0.02)
+        assert row["by [m]"] == pytest.approx(high, rel=0.02)
+        columns = [value for name, value in row.items() if name in ("predicted [Hz]", "predicted [m]")]
+        assert columns == [at, by]
+    scheme, engine = records(ground_motion.usual())
+    assert (scheme["distance from its scheme [m]"], engine["distance from its scheme [m]"]) == (None, 2e-13)
+
+
+def test_the_table_of_trucks_has_the_largest_sags() -> None:
+    """Measured and of the influence line; how far off, as a part of that."""
+    rows = [row for row in records(ground_motion.usual(), "ground_motion_truck") if row["stepper"] == "kick_drift"]
+    for row, speed in zip(rows, SPEEDS, strict=True):
+        off = 0.05 * speed / 10
+        assert row["speed [m/s]"] == speed
+        assert row["largest sag [m]"] == pytest.approx(0.08 * (1 + off), rel=0.02)
+        assert row["largest sag of the influence line, predicted [m]"] == 0.08
+        assert row["off the line, part of its largest sag"] == pytest.approx(off, rel=0.02)
+
+
+def test_the_table_of_sways_has_each_stepper_s_in_its_column() -> None:
+    """At their times and frequencies."""
+    rows = records(ground_motion.usual(), "ground_motion_sway")
+    motions = {"predicted [m]": sway(PEAK, HIGH), "kick_drift [m]": sway(1.29, 0.011)}
+    for row in rows[::50]:
+        step = round(row["time [s]"] / 4e-3)
+        for column, motion in motions.items():
+            assert row[column] == pytest.approx(motion[step])
+        assert row["frequency [Hz]"] == pytest.approx(0.8 + 1.2 * row["time [s]"] / 20)
+
+
+def test_sentences_have_the_range_that_was_measured_then_what_is_predicted() -> None:
+    """Of two runs."""
+    low, high = sorted(row["sways most at [Hz]"] for row in records(ground_motion.usual()))
+    least, most = sorted(1e3 * row["by [m]"] for row in records(ground_motion.usual()))
+    at, by = peak(sway(PEAK, HIGH))
+    said = finding(ground_motion.usual(), "sways most")
+    assert numbers(said) == pytest.approx([low, high, least, most, 2, at, 1e3 * by], abs=0.05)
+    assert in_order(said, "measured", "Predicted")
+
+
+def test_the_truck_s_sentence_has_the_most_of_each_speed() -> None:
+    """In percent of the largest sag, mujoco_tendons' here."""
+    said = numbers(finding(ground_motion.usual(), "A truck"))
+    expected = [80]
+    for speed in SPEEDS:
+        expected += [100 * 0.06 * speed / 10, speed]
+    assert said == pytest.approx(expected, abs=0.5)
+
+
+def test_the_engine_that_goes_farthest_from_its_scheme_is_named() -> None:
+    """Of one."""
+    said = finding(ground_motion.usual(), "with the schemes that they are")
+    assert (numbers(said), "mujoco_tendons" in said) == ([1, pytest.approx(2e-13)], True)

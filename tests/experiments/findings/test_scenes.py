@@ -1,0 +1,63 @@
+"""Scenes: engine by engine what it was there, counted by whether it is a scheme and whether it met an obstacle."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from experiments.scenes import FIRST, NEAR, STEPS, result_of
+from reference.outcome import Outcome
+from reference.scenes import find
+from reference.state import Trajectory
+from tests.experiments.canned import scenes
+from tests.experiments.canned.reading import finding, in_order, numbers, records
+
+
+def test_the_table_has_each_number_in_its_column() -> None:
+    """Masses are not springs; a scheme is named where it is near enough, with its distance in any case."""
+    rows = {row["stepper"]: row for row in records(scenes.usual("cloth"))}
+    system = find("cloth").system({})
+    near, brief, far, crashed = (
+        rows[name] for name in ("pymunk_springs", "mujoco_flex", "bullet_softbody", "Segfaults")
+    )
+    assert (near["scene"], near["masses"], near["springs"]) == ("cloth", len(system.masses), len(system.springs))
+    assert (near["identified as"], near["deviation [m]"], near["over [steps]"]) == ("drift_kick", 1e-15, STEPS)
+    assert (brief["identified as"], brief["over [steps]"]) == ("kick_drift", FIRST)
+    assert (far["identified as"], far["deviation [m]"]) == (None, 5e-4)
+    assert (crashed["outcome"], crashed["deviation [m]"], crashed["over [steps]"]) == ("crashed", None, None)
+
+
+def test_the_first_sentence_counts_and_names_the_worst_that_is_a_scheme() -> None:
+    """Four of six, two of them seen briefly."""
+    said = finding(scenes.usual("string", "cloth"), "meet no obstacle")
+    assert numbers(said) == pytest.approx([6, STEPS, 4, NEAR, 3e-14, 2, FIRST])
+    assert in_order(said, "mujoco_flex on string", "3.0e-14 m from kick_drift")
+
+
+def test_who_meets_an_obstacle_is_counted_apart() -> None:
+    """Two of three on the barrier are near to a scheme, one of them to the end."""
+    scene = find("barrier")
+    inside = np.broadcast_to(scene.system({}).obstacles[0].centre, (2, 11, 2)).copy()  # type: ignore[attr-defined]
+    met = Outcome("done", "", Trajectory(np.array([0.0, 1e-3]), inside, np.zeros_like(inside)))
+    runs = [scenes.run(scene, *ran) for ran in (("a", "heun", 1e-15), ("b", "heun", 1e-15, FIRST), ("c", "heun", 1e-3))]
+    free = scenes.run(find("string"), "d", "heun", 1e-15)
+    result = result_of([free, *(replace(run, outcome=met) for run in runs)], {})
+    assert numbers(finding(result, "that meet an obstacle")) == [3, 1]
+    assert numbers(finding(result, "that meet no obstacle"))[:3] == [1, STEPS, 1]
+
+
+def test_strangers_are_named_with_their_nearest_scheme() -> None:
+    """And their distance from it."""
+    said = finding(scenes.usual("string"), "Not identified")
+    assert in_order(said, "bullet_softbody on string", "5.0e-04 m from rk4")
+
+
+def test_what_is_unsupported_is_counted_by_its_reason_and_no_failure() -> None:
+    """A crash is one."""
+    said = finding(scenes.usual(), "unsupported")
+    assert numbers(said) == [3, 15, 3]
+    assert "for mesh (3)" in said
+    assert len(scenes.usual().failures) == 3
+    assert all(failure.startswith("Segfaults on ") for failure in scenes.usual().failures)

@@ -1,0 +1,61 @@
+"""Speed: our time over tuned C's, the worst on one thread, memory for each mass."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.experiments.canned import speed
+from tests.experiments.canned.reading import finding, in_order, numbers, records
+from tests.experiments.canned.speed import MESHES, TUNED
+
+
+def test_the_table_has_each_number_in_its_column() -> None:
+    """The ratio is of times: over one is slower than C."""
+    table = {(row["what"], row["threads"]): row for row in records(speed.usual())}
+    for name, (masses, springs, ratio, arrays, peak) in MESHES.items():
+        row = table[name, 1]
+        assert (row["masses"], row["springs"]) == (masses, springs)
+        assert (row["node-steps/s"], row["tuned C, node-steps/s"]) == (pytest.approx(TUNED / ratio), TUNED)
+        assert row["time / tuned C"] == pytest.approx(ratio)
+        assert table[name, 2]["time / tuned C"] == pytest.approx(ratio / 2)
+        assert (row["bytes/mass"], row["peak bytes/mass"]) == (arrays, peak)
+
+
+def test_the_table_of_adapters_is_there() -> None:
+    """With the reason of who could not be timed."""
+    rows = records(speed.usual(), "adapters")
+    assert (rows[1]["engine"], rows[1]["masses"], rows[1]["ratio"]) == ("pymunk_springs", 100, 1.2)
+    assert rows[1]["step [s]"] > rows[1]["engine's own step [s]"]
+    assert rows[-1]["reason"] == "exudyn is not installed"
+
+
+def test_the_first_sentence_has_the_worst_mesh_on_one_thread() -> None:
+    """Not NumPy's, which has no kernel."""
+    said = finding(speed.usual(), "one thread of ours")
+    assert numbers(said)[-2:] != []
+    assert in_order(said, "at most 1.25 times", "cloth 300 x 300")
+
+
+def test_memory_is_the_most_of_large_systems() -> None:
+    """Of the arrays, then of the process."""
+    said = finding(speed.usual(), "bytes a mass")
+    assert numbers(said)[:2] == [80, 160]
+    assert "jello 50^3" in said
+
+
+def test_the_sweep_is_as_many_times_as_fast() -> None:
+    """Four times on one thread, eight on two."""
+    sweeps = [numbers(said) for said in speed.usual().findings if said.startswith("The sweep")]
+    assert sweeps == [pytest.approx([4, 1]), pytest.approx([8, 2])]
+
+
+def test_the_adapter_that_adds_most_is_named() -> None:
+    """On 100 masses: a fifth, not the four times on ten."""
+    said = finding(speed.usual(), "an adapter adds at most")
+    assert (numbers(said), "pymunk_springs" in said) == (pytest.approx([100, 20]), True)
+
+
+def test_without_a_compiler_there_are_no_ratios() -> None:
+    """And that is said; nobody is the worst."""
+    assert "no C compiler" in speed.no_compiler().findings[0]
+    assert records(speed.no_compiler())[0]["time / tuned C"] is None
