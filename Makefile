@@ -4,7 +4,7 @@ BIN := .venv/bin
 READY := .venv/ready
 
 .DEFAULT_GOAL := help
-.PHONY: help report test soak check lock clean
+.PHONY: help report test soak mutants check lock clean
 
 help:  ## What there is to make
 	@awk -F ':.*## ' '/^[a-z]+:.*## /{printf "make %-8s %s\n", $$1, $$2}' Makefile
@@ -19,6 +19,9 @@ soak: $(READY)  ## What `make test` does in small, in full: thousands of runs an
 	$(BIN)/python -m pytest tests/soak tests/reference/files/test_fuzzed_files.py tests/report/live tests/experiments/exercises \
 		--full -s -p no:xdist
 	$(BIN)/springlab versions --check
+
+mutants: $(READY)  ## A hundred small mistakes in the sources, and which of them the tests near them miss; SEED=N for others
+	$(BIN)/python -m tests.mutants --count $(or $(COUNT),100) --seed $(or $(SEED),0)
 
 check: $(READY)  ## Formatting and types only
 	$(BIN)/ruff format --check .

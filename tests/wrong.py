@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from reference.assembly import solve_velocities
 from reference.forces import SpringMotion
 from reference.motion import Motion, MotionByMass, MotionOfSprings
 from reference.schemes.catalogue import Kind, Scheme, Step
@@ -26,6 +27,19 @@ def wrong(order: int, kind: Kind = "scheme") -> Callable[[Step], Scheme]:
 
 
 # Mistakes in the scheme.
+
+
+@wrong(order=1)
+def backward_euler_stopped_early(motion: MotionOfSprings, state: State, dt: float) -> State:
+    """Backward Euler's Newton stops once velocities change by a millionth, in place of a billionth."""
+    end, change = state.drift(dt), np.inf
+    while change > 1e-6 * np.abs(end.velocities).max():
+        by_position, by_velocity = motion.jacobians(end)
+        missing = state.velocities + dt * motion.acceleration(end) - end.velocities
+        more = solve_velocities(motion.system, dt * by_velocity + dt**2 * by_position, missing)
+        velocities, change = end.velocities + more, np.abs(more).max()
+        end = State(end.time, state.positions + dt * velocities, velocities)
+    return end
 
 
 @wrong(order=2)

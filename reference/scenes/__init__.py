@@ -15,7 +15,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 import numpy as np
 
 from reference.changes import Change, Driven, changes_by_step, whole_steps
-from reference.errors import unknown_name
+from reference.errors import InputError, unknown_name
 from reference.registry import Registry
 from reference.scenes.parameters import PerItem, chosen, converted
 from reference.system import MassSpringSystem
@@ -79,9 +79,9 @@ class Scene:
         They are given as words, numbers, lists of numbers, or text of either.
 
         Raises:
-            InputError: for an unknown parameter or a value of the wrong type or range.
+            InputError: for an unknown parameter or a value of the wrong type or range, or beyond what floats hold.
         """
-        values = {}
+        values: dict[str, Any] = {}
         for name, value in settings.items():
             if name not in self.parameters:
                 raise unknown_name(f"parameter of scene {self.name!r}", name, self.parameters)
@@ -90,9 +90,13 @@ class Scene:
                 continue
             several = self.build.__annotations__[name] in (PerItem, "PerItem")
             values[name] = converted(name, value, self.parameters[name], several)
-        # of numbers that are too large the system itself says so
-        with np.errstate(all="ignore"):
-            built = self.build(**values)
+        try:
+            # where NumPy gives infinity the system itself says so; Python's own numbers raise
+            with np.errstate(all="ignore"):
+                built = self.build(**values)
+        except (OverflowError, ZeroDivisionError):
+            given = ", ".join(f"{name} = {value:g}" for name, value in values.items() if isinstance(value, int | float))
+            raise InputError(f"{given}: expected numbers that are not too large or too small for {self.name}") from None
         return built if isinstance(built, Driven) else Driven(built)
 
 

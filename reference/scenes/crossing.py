@@ -7,6 +7,7 @@ with the velocity it has itself: what the truck's own motion up and down adds is
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -56,6 +57,7 @@ class Crossing:
         carried = [np.interp(positions, self.places, share, left=0.0, right=0.0) for share in shares]
         return self.truck * np.stack(carried, axis=1)
 
+    @np.errstate(over="ignore", divide="ignore")
     def changes(self, system: MassSpringSystem, dt: float, duration: float) -> list[Change]:
         """The masses [kg] whenever it has gone on, for where it is half-way to the next time."""
         steps = whole_steps(dt, duration)
@@ -80,7 +82,7 @@ def cambered(system: MassSpringSystem) -> MassSpringSystem:
         InputError: where no tensions can carry it; where a spring would have to have no rest length.
     """
     from scipy.sparse import coo_array, diags_array
-    from scipy.sparse.linalg import spsolve
+    from scipy.sparse.linalg import MatrixRankWarning, spsolve
 
     a, b = system.springs.T
     separation = system.positions[b] - system.positions[a]
@@ -97,10 +99,16 @@ def cambered(system: MassSpringSystem) -> MassSpringSystem:
     tensions = np.zeros(len(length))
     matrix = (along @ diags_array(system.stiffness) @ along.T).tocsc()
     if matrix.diagonal().all():
-        for _ in range(2):  # once more, for what the first time has rounded
-            missing = -weight - along @ tensions
-            tensions = tensions + system.stiffness * (along.T @ spsolve(matrix, missing))
+        with warnings.catch_warnings():
+            # of a matrix that is singular to rounding nothing comes that is in balance, which is seen below
+            warnings.simplefilter("ignore", MatrixRankWarning)
+            for _ in range(2):  # once more, for what the first time has rounded
+                missing = -weight - along @ tensions
+                tensions = tensions + system.stiffness * (along.T @ spsolve(matrix, missing))
     if not np.abs(along @ tensions + weight).max(initial=0.0) <= 1e-9 * np.abs(weight).max(initial=0.0):
-        raise InputError("the springs cannot carry the weight where they are: expected a structure that is rigid")
+        raise InputError(
+            "the springs cannot carry the weight where they are: expected a structure that is rigid, with lengths and "
+            "stiffnesses that do not differ by more than rounding allows"
+        )
     slack = np.divide(tensions, system.stiffness, out=np.zeros_like(tensions), where=system.stiffness > 0)
     return replace(system, rest_lengths=length - slack)

@@ -28,7 +28,7 @@ import numpy as np
 from reference.errors import InputError
 from reference.scenes import scene
 from reference.scenes.lattices import MOST_MASSES, Offset, springs_between
-from reference.scenes.parameters import counted
+from reference.scenes.parameters import counted, not_below_zero
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 
@@ -106,6 +106,7 @@ def drape(
     masses on the disc, and those within half a spacing of it: a mass stands for the cloth around it. Folds may pass
     through one another.
     """
+    not_below_zero(bending_length=bending_length, sample=sample)
     cut = disc(radius, spacing, sample)
     rigidity = density * STANDARD_GRAVITY * bending_length**3
     springs, lengths, stiffnesses = pushed_flat(cut.numbers, DIRECTIONS, spacing, stiffness, _push(rigidity, spacing))
@@ -140,6 +141,7 @@ def strip(
     in the scene `drape`, here the third root of rigidity [N m^2] over weight per length.
     """
     counted("masses", masses, 2)
+    not_below_zero(bending_length=bending_length)
     spacing = length / (masses + 1)
     push = 2 * density * STANDARD_GRAVITY * bending_length**3 / spacing**2
     springs, lengths, stiffnesses = pushed_flat(np.arange(masses + 2), [(1,)], spacing, stiffness, push)

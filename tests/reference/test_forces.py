@@ -310,6 +310,17 @@ def test_springs_of_masses_in_their_order_with_their_sign() -> None:
     assert of_each == [[(0, -1.0)], [(0, 1.0), (1, -1.0), (2, 1.0)], [(1, 1.0)], [(2, -1.0)], []]
 
 
+@pytest.mark.parametrize("scene", ["cloth", "jello", "bridge", "string"])
+def test_every_mass_adds_its_springs_in_their_order(scene: str) -> None:
+    """Whatever the masses are numbered by: sums of floats depend on it. A sort that is not stable loses it here."""
+    plain = find_scene(scene).system({})
+    system = plain.renumbered(np.random.default_rng(3).permutation(len(plain.masses)))
+    first, spring, sign = springs_of_masses(system)
+    for i, (a, b) in enumerate(pairwise(first.tolist())):
+        joined = [(j, 1.0 if s[0] == i else -1.0) for j, s in enumerate(system.springs.tolist()) if i in s]
+        assert list(zip(spring[a:b].tolist(), sign[a:b].tolist(), strict=True)) == joined
+
+
 def test_a_system_without_springs_falls() -> None:
     """With the acceleration g."""
     system = MassSpringSystem(

@@ -281,3 +281,22 @@ def test_steppers_of_rods_do_not_enter_where_there_are_none() -> None:
     """On a stretched string the catalogue has no pendulum candidates; a rope's rods are brought to their lengths."""
     _, trajectories = known("plain")
     assert set(trajectories) == {*schemes(), ROPE_KICK_DRIFT.name}
+
+
+def stretched_by(ratios: list[float], off: dict[int, float]) -> Trajectory:
+    """A spring of 1 m, so many times as long in each frame; in some frames its mass is off sideways [m]."""
+    positions = np.zeros((len(ratios), 2, 2))
+    positions[:, 1, 0] = ratios
+    positions[list(off), 1, 1] = list(off.values())
+    return Trajectory(np.arange(len(ratios)) * DT, positions, np.zeros_like(positions))
+
+
+@pytest.mark.parametrize(("frame", "seen"), [(1, True), (4, True), (5, False), (6, False)])
+def test_a_blow_up_is_compared_while_springs_are_up_to_three_times_as_long(frame: int, seen: bool) -> None:
+    """A micrometre off in a frame before counts, and in one after that counts for nothing."""
+    system = find_scene("spring").system({"rest_length": 1.0, "stretch": 0.0})
+    ratios = [1.0, 1.0, 2.0, 2.5, 2.99, 3.01, 200.0]
+    outcome = Outcome("diverged", "gone", stretched_by(ratios, {frame: 1e-6}))
+    found = identify_run("it", outcome, system, {"simple": stretched_by(ratios, {})})
+    assert found.error == pytest.approx(1e-6 if seen else 0.0)
+    assert found.identified_as == (None if seen else "simple")

@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reference.errors import InputError
 from reference.lecture.slide_17 import CircleAsMeant, CircleAsPrinted
-from reference.obstacles import Circle
+from reference.obstacles import Circle, Plane
+from reference.obstacles.validation import ROUNDING, checked_obstacles
 from reference.state import Array
 from tests.reference.systems import property_test
 
@@ -122,3 +124,20 @@ def test_a_mass_at_the_very_centre_gives_numbers() -> None:
     x, v = CIRCLE.projected(np.array([[0.3, -0.2]]), np.array([[1.0, -2.0]]))
     assert np.isfinite(x).all()
     assert np.isfinite(v).all()
+
+
+@pytest.mark.parametrize("size", [1.0, 40.0])
+def test_a_start_inside_is_refused_but_for_rounding(size: float) -> None:
+    """A billionth of the system's size [m] is rounding of a state that was projected out; twice as much is not.
+
+    A fixed mass may be as deep as it likes.
+    """
+    assert ROUNDING == 1e-9
+    floor, fixed = Plane((0.0, 0.0), (0.0, 1.0)), np.array([True, False])
+    for depth in (0.5e-9, 2e-9):
+        positions = np.array([[0.0, -1.0], [0.5, -depth * size]])
+        if depth < ROUNDING:
+            assert checked_obstacles([floor], positions, fixed, size) == (floor,)
+        else:
+            with pytest.raises(InputError, match=r"^positions\[1\] = .* inside$"):
+                checked_obstacles([floor], positions, fixed, size)

@@ -63,6 +63,8 @@ MESHES = {
     "tetrahedra at a side": many_sided([(0, 1, 2), (0, 1, 3), (0, 2, 3), (0, 1, 4), (0, 1, 5), (0, 4, 5)]),
     "every two of six": many_sided([(a, b, c) for a in range(6) for b in range(a) for c in range(b)]),
     "a cloth let go": replace(cloth(5), fixed=np.zeros(25, dtype=bool)),
+    # a fixed mass may have any: it is not asked for, and what is free is not as heavy
+    "heavy corners": replace(cloth(5, drag=0.01), masses=np.where(cloth(5).fixed, 3.0, 0.01)),
 }
 
 #: Far above all of them: the triangles to an apex would reach it.

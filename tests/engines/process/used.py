@@ -38,6 +38,12 @@ def pid(seconds: float = 0.0) -> int:
     return os.getpid()
 
 
+def say(words: str) -> int:
+    """Print some words on standard error, and say which process this is."""
+    os.write(2, f"{words}\n".encode())
+    return os.getpid()
+
+
 def note(file: Path) -> int:
     """Write one more line with the process's number into a file, and say how many there are."""
     with file.open("a") as opened:

@@ -29,7 +29,7 @@ assert isinstance(CIRCLE, Circle)
 CLOTH = find("cloth").system({"rows": 5, "columns": 4})
 BELOW = CLOTH.positions.mean(axis=0) - [0.0, 0.6, 0.0]
 
-#: Every kind, each met within STEPS, two of them in one system, and slide 17's two circles.
+#: Every kind, each met within STEPS, two of them in one system, slide 17's two circles, and a fixed mass inside one.
 SYSTEMS: dict[str, MassSpringSystem] = {
     "circle": BARRIER,
     "circle, on a mesh": BARRIER.renumbered(np.roll(np.arange(len(BARRIER.masses)), 3)),
@@ -42,6 +42,7 @@ SYSTEMS: dict[str, MassSpringSystem] = {
     "rectangle": replace(BARRIER, obstacles=(Box((0.5, -0.5), (0.3, 0.2)),)),
     "box": replace(CLOTH, obstacles=(Box(tuple(BELOW), (0.1, 0.4, 0.1)),)),
     "cylinder": replace(CLOTH, obstacles=(Cylinder(tuple(BELOW), (1.0, 0.2, 2.0), 0.5),)),
+    "fixed inside": replace(BARRIER, obstacles=(Circle(tuple(BARRIER.positions[0]), 0.01), CIRCLE)),
 }
 
 
@@ -56,8 +57,12 @@ def check_same_bits(system: MassSpringSystem, state: State, scheme: str = "heun"
 
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_loops_do_what_the_function_does_to_the_bit(name: str) -> None:
-    """Under Heun."""
-    check_same_bits(SYSTEMS[name], advance(SYSTEMS[name], catalogue.find("heun"), DT, STEPS, threads=1))
+    """Under Heun; and fixed masses stay where they are, inside an obstacle too."""
+    system = SYSTEMS[name]
+    end = advance(system, catalogue.find("heun"), DT, STEPS, threads=1)
+    check_same_bits(system, end)
+    assert end.positions[system.fixed].tolist() == system.positions[system.fixed].tolist()
+    assert not end.velocities[system.fixed].any()
 
 
 @pytest.mark.parametrize("scheme", ["kick_drift", "rk4"])
@@ -72,7 +77,7 @@ def test_threads_change_no_bit() -> None:
     check_same_bits(system, advance(system, catalogue.find("heun"), DT, STEPS, threads=2))
 
 
-@pytest.mark.parametrize("name", ["circle", "sphere and plane"])
+@pytest.mark.parametrize("name", ["circle", "sphere and plane", "fixed inside"])
 def test_a_sweep_does_the_same_to_the_bit(name: str) -> None:
     """More than a block of systems, of which the fourth and the last are looked at."""
     many = sweep(SYSTEMS[name], catalogue.find("heun"), np.full(18, DT), STEPS)

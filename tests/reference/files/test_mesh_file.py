@@ -67,6 +67,13 @@ def test_numbers_are_kept_to_the_last_bit(tmp_path: Path) -> None:
     assert mesh(tmp_path, text).positions[:2].tolist() == [[0.1, 1e-300, -0.3], [0.30000000000000004, 2, 3]]
 
 
+def test_edges_are_listed_in_the_order_of_the_elements(tmp_path: Path) -> None:
+    """And within an element from corner to corner: whoever gives springs numbers one by one counts on it."""
+    text = "".join(f"v {i} {i * i} 0\n" for i in range(5)) + "f 4 5 3\nf 2 1 3\nf 1 4 3\n"
+    pairs = [tuple(sorted(pair)) for pair in mesh(tmp_path, text).edges.tolist()]
+    assert pairs == [(3, 4), (2, 4), (2, 3), (0, 1), (0, 2), (1, 2), (0, 3)]
+
+
 # --- Bad ones ---
 
 BAD = {

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -207,10 +209,25 @@ def test_unknown_scenes_are_refused_with_a_suggestion() -> None:
     ),
 )
 def test_whatever_a_parameter_is_given_it_makes_a_system_or_says_why_not(scene: Any, data: Any, value: Any) -> None:
-    """Nothing but an InputError, in one line."""
+    """Nothing but an InputError, in one line; also of what changes while it moves."""
     name = data.draw(st.sampled_from(sorted(scene.parameters)))
-    message = refusal(lambda: scene.system({name: value}))
+    message = refusal(lambda: scene.setup({name: value}).check())
     assert message is None or ("\n" not in message and message)
+
+
+#: What floats can hold and products of them cannot, or not to rounding; and no numbers at all.
+EXTREMES = [0.0, 5e-324, 1e-310, 1e-160, 1e-20, 3.4e16, 5.4e16, 1e103, 1e155, 1.7e308, 2.0**63, np.inf, np.nan]
+
+
+@pytest.mark.parametrize("scene", ALL, ids=label)
+def test_an_extreme_value_of_any_parameter_makes_a_system_or_is_refused_by_name(scene: Any) -> None:
+    """By the parameter's, or by that of the system's field it goes into; warnings are errors in all tests."""
+    named = re.compile("|".join([*scene.parameters, *(f.name for f in fields(MassSpringSystem))]))
+    for name, default in scene.parameters.items():
+        for value in EXTREMES if isinstance(default, float) else (-(2**63), -1, 0, 10**19, 10**400):
+            for signed in (value, -value):
+                message = refusal(lambda: scene.setup({name: signed}).check())  # noqa: B023 - called at once
+                assert message is None or ("\n" not in message and named.search(message)), (name, signed, message)
 
 
 def refusal(make: Callable[[], object]) -> str | None:
