@@ -12,8 +12,8 @@ from reference.theory.equilibria import spring_equilibrium
 from tests import wrong
 from tests.reference.systems import label
 
-#: One step multiplies a mode by R(i z), z = dt w: R of Euler is 1 + iz, of Heun 1 + iz - z^2/2, of RK4 the series of the
-#: exponential to z^4, of backward Euler 1 / (1 - iz). Symplectic steps have eigenvalues on the unit circle.
+#: One step multiplies a mode by R(i z), z = dt w: R of Euler is 1 + iz, of Heun 1 + iz - z^2/2, of RK4 the series of
+#: the exponential to z^4, of backward Euler 1 / (1 - iz). Symplectic steps have eigenvalues on the unit circle.
 TRENDS = {
     "euler": "growing",
     "heun": "growing",
