@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Literal, get_args
 
 import numpy as np
 
@@ -27,15 +26,11 @@ from reference.scenes import find
 from reference.state import Array, State, Trajectory
 from reference.stepper import EQUATIONS, SchemeStepper, Stepper
 from reference.system import MassSpringSystem
+from reference.theory.energy_trend import TRENDS, EnergyTrend, predicted_energy_trend
 from reference.theory.equilibria import Equilibrium, equilibrium_of
 from reference.theory.equilibrium import hanging_string
-from reference.theory.step_map import step_jacobian
 
-#: What an energy does in the long run.
-Kind = Literal["bounded", "growing", "decaying"]
-KINDS: tuple[Kind, ...] = get_args(Kind)
-
-#: A soft string: with this dt [s], dt w is at most 0.20, so that slow growth and decay are slow.
+#: A soft string: with this dt [s], dt w is from 0.02 to 0.20, so that slow growth and decay are slow.
 STRING: Mapping[str, float] = {"masses": 3, "stiffness": 10, "angle": 60}
 DT, DURATION = 5e-3, 20.0
 
@@ -50,12 +45,6 @@ IDENTIFYING_STEPS = 200
 
 #: How long the free string flies [s], and how fast its masses are thrown [m/s].
 FREE_DURATION, SPEED = 1.0, 0.2
-
-#: An eigenvalue this far off the real axis is an oscillation's; the slowest mode has dt w = 0.02.
-TURNING = 1e-3
-
-#: Eigenvalues this near to the unit circle are on it: differences and rounding leave some 1e-12.
-ON_THE_CIRCLE = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +68,8 @@ class Row:
     stepper: Stepper
     scheme: SchemeStepper | None
     alike: str | None
-    predicted: Kind | None
-    measured: Kind | None
+    predicted: EnergyTrend | None
+    measured: EnergyTrend | None
     times: Array
     errors: Array
     outcome: Outcome
@@ -142,7 +131,7 @@ def measure(stepper: Stepper, on: Bench) -> Row:
     outcome = stepper.run(on.system, DT, round(DURATION / DT))
     identification = identify_beginning(stepper.name, outcome, on.system, on.known)
     scheme = scheme_of(stepper, identification)
-    predicted = None if scheme is None else predicted_kind(scheme, on.at_rest[scheme.equations])
+    predicted = None if scheme is None else predicted_energy_trend(scheme.scheme, on.at_rest[scheme.equations], DT)
     times, errors = energy_errors(on.system, outcome.trajectory)
     free = stepper.run(on.free, DT, round(FREE_DURATION / DT))
     ran = free.trajectory if free.ending == "done" else None
@@ -151,7 +140,7 @@ def measure(stepper: Stepper, on: Bench) -> Row:
         scheme=scheme,
         alike=identification.identified_as,
         predicted=predicted,
-        measured=kind_of(errors),
+        measured=measured_trend(errors),
         times=times,
         errors=errors,
         outcome=outcome,
@@ -159,20 +148,6 @@ def measure(stepper: Stepper, on: Bench) -> Row:
         angular_momentum=None if ran is None else change(on.free, ran, angular_momentum) / on.free.size,
         free_outcome=free,
     )
-
-
-def predicted_kind(scheme: SchemeStepper, at_rest: Equilibrium) -> Kind:
-    """What theory says: a string near its rest is as many undamped oscillators, of dt w up to 0.2.
-
-    One step multiplies a mode by an eigenvalue of the step's Jacobian, and its energy by the eigenvalue's modulus
-    squared: any beyond the unit circle grows; else any within decays; else all stay. Real eigenvalues are of no
-    oscillation, but of rods that are brought back to their lengths.
-    """
-    values = np.linalg.eigvals(step_jacobian(scheme.scheme, at_rest, DT))
-    moduli = np.abs(values[np.abs(values.imag) > TURNING])
-    if moduli.max() > 1 + ON_THE_CIRCLE:
-        return "growing"
-    return "decaying" if moduli.min() < 1 - ON_THE_CIRCLE else "bounded"
 
 
 def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tuple[Array, Array]:
@@ -189,7 +164,7 @@ def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tu
     return trajectory.times[whole], (energies - energy(system, system.start)) / released
 
 
-def kind_of(errors: Array) -> Kind | None:
+def measured_trend(errors: Array) -> EnergyTrend | None:
     """What energy errors do, evenly spaced in time: growing if their mean is larger in each of PARTS parts than before.
 
     Decaying if it is smaller each time. Growing, too, if an error ever exceeds what falling can release. What has no
@@ -248,7 +223,7 @@ def _findings(rows: Sequence[Row]) -> list[str]:
     if not compared:
         return ["No stepper has both a predicted and a measured kind of energy."]
     alike = [row for row in compared if row.predicted == row.measured]
-    counts = ", ".join(f"{kind} in {n}" for kind in KINDS if (n := sum(row.measured == kind for row in compared)))
+    counts = ", ".join(f"{kind} in {n}" for kind in TRENDS if (n := sum(row.measured == kind for row in compared)))
     return [
         f"In {DURATION:g} s the energy of an undamped string is {counts} steppers: as predicted in {len(alike)} of "
         f"{len(compared)}.",
@@ -265,8 +240,8 @@ def _findings(rows: Sequence[Row]) -> list[str]:
 def _exceptions(rows: Sequence[Row]) -> list[str]:
     """Those whose energy does something else than predicted."""
     sentences = []
-    for predicted in KINDS:
-        for measured in KINDS:
+    for predicted in TRENDS:
+        for measured in TRENDS:
             found = [row for row in rows if (row.predicted, row.measured) == (predicted, measured) and row.scheme]
             if not found or predicted == measured:
                 continue
@@ -283,7 +258,7 @@ def _exceptions(rows: Sequence[Row]) -> list[str]:
 
 def _engines(rows: Sequence[Row]) -> list[str]:
     engines = [row for row in rows if row.stepper.kind == "engine"]
-    by_kind = {kind: [row for row in engines if row.measured == kind] for kind in KINDS}
+    by_kind = {kind: [row for row in engines if row.measured == kind] for kind in TRENDS}
     parts = [f"{kind} in {_names(found)}" for kind, found in by_kind.items() if found]
     return [f"Of the engines, energy is {'; '.join(parts)}."] if parts else []
 

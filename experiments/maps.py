@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 
 from experiments.experiment import Experiment, Result, Table
+from experiments.limits.map_axes import axes_for, system_maker
 from experiments.limits.stability_map import StabilityMap, stability_map
-from experiments.runs.map_axes import axes_for, system_maker
 from experiments.runs.progress import Progress
 from experiments.runs.steppers import all_steppers
 from reference.errors import InputError

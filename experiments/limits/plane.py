@@ -11,6 +11,9 @@ from reference.errors import InputError
 from reference.state import Array
 from reference.system import PARAMETERS, MassSpringSystem
 
+#: What an axis can be.
+AXES = ("dt", "masses", *PARAMETERS)
+
 #: The values of the axes at a point, by name.
 Point = Mapping[str, float]
 
@@ -23,7 +26,7 @@ class Axis:
     """One axis of a plane.
 
     Attributes:
-        name: "dt", one of reference.system.PARAMETERS, or "masses" (how many).
+        name: one of AXES; "masses" is how many.
         low, high: its range, in SI units.
     """
 
@@ -57,8 +60,8 @@ class Plane:
 
     def __post_init__(self) -> None:
         for axis in (self.x, self.y):
-            if axis.name not in ("dt", "masses", *PARAMETERS):
-                raise InputError(f"map axis {axis.name!r}: expected dt, masses, {', '.join(PARAMETERS)}")
+            if axis.name not in AXES:
+                raise InputError(f"map axis {axis.name!r}: expected one of {', '.join(AXES)}")
             if not (np.isfinite([axis.low, axis.high]).all() and axis.low < axis.high):
                 raise InputError(f"map axis {axis.name} from {axis.low:g} to {axis.high:g}: expected a rising range")
 

@@ -98,8 +98,8 @@ def _write_maps(
     out: Path,
 ) -> None:
     """A map of each stepper, as a figure and as CSV, into a folder."""
+    from experiments.limits.map_axes import axes_for, system_maker
     from experiments.limits.stability_map import stability_map, write_map
-    from experiments.runs.map_axes import axes_for, system_maker
     from experiments.runs.steppers import find_steppers
     from report.figures.stability_map import draw_map
 

@@ -8,9 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from experiments.energy import DURATION, KINDS, Row
+from experiments.energy import DURATION, Row
 from experiments.experiment import Result
 from reference.state import Array
+from reference.theory.energy_trend import TRENDS
 from report.figures import COLOURS, Picture, from_nothing, new_figure, powers
 from report.figures.labels import End, label_ends
 
@@ -133,7 +134,7 @@ def _momentum(axes: Any, rows: Sequence[Row], rounding: float) -> None:
 
 def _alt(rows: Sequence[Row], free: Sequence[Row]) -> str:
     kinds = "; ".join(
-        f"{kind}: {', '.join(row.stepper.name for row in rows if row.measured == kind) or 'none'}" for kind in KINDS
+        f"{kind}: {', '.join(row.stepper.name for row in rows if row.measured == kind) or 'none'}" for kind in TRENDS
     )
     momenta = ", ".join(f"{row.stepper.name} {row.momentum:.0e} and {row.angular_momentum:.0e}" for row in free)
     return (

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -22,13 +21,13 @@ from experiments.energy import (
     bench,
     change,
     energy_errors,
-    kind_of,
     measure,
-    predicted_kind,
+    measured_trend,
     result_of,
     rounding,
 )
 from reference.conserved import angular_momentum, momentum
+from reference.motion import Motion
 from reference.outcome import first_diverged_frame
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
@@ -37,6 +36,7 @@ from reference.simulate import simulate
 from reference.state import Array, State
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
+from reference.theory.energy_trend import predicted_energy_trend
 from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored, Euler
@@ -187,31 +187,37 @@ SWING = 0.05 * np.sin(17 * T)
 )
 def test_kinds_of_made_up_errors(errors: Array, kind: str | None) -> None:
     """A swing, fast or slow, is none; a trend is one, however small against the swing; no more errors, no kind."""
-    assert kind_of(errors) == kind
+    assert measured_trend(errors) == kind
 
 
-def in_momenta(motion: Any, state: State, dt: float) -> State:
+def in_momenta(system: MassSpringSystem) -> Scheme:
     """Semi-implicit Euler of a pendulum in its angles q and their momenta p = M(q) q', momenta first (HLW VI.3).
 
     p1 = p0 - dt dH/dq(q0, p1), by iteration; q1 = q0 + dt M(q0)^-1 p1. With w = M(q)^-1 p, and as Lagrange's equations
-    say, -dH/dq = p' = M w' + (dM/dt) w with w' the acceleration at (q, w).
+    say, -dH/dq = p' = M w' + (dM/dt) w with w' the acceleration at (q, w). M is that of the system's masses and rods.
     """
-    q, lengths = state.positions, motion.system.rest_lengths
-    hanging = np.cumsum(motion.system.masses[:0:-1])[::-1]
-    longest = np.maximum.outer(np.arange(len(q)), np.arange(len(q)))
+    lengths, hanging = system.rest_lengths, np.cumsum(system.masses[:0:-1])[::-1]
+    longest = np.maximum.outer(np.arange(len(lengths)), np.arange(len(lengths)))
     inertia = np.outer(lengths, lengths) * hanging[longest]
-    between = q[:, None] - q[None, :]
-    mass = inertia * np.cos(between)
-    start = mass @ state.velocities
-    momenta = start
-    for _ in range(100):
-        w = np.linalg.solve(mass, momenta)
-        turning = -inertia * np.sin(between) * (w[:, None] - w[None, :])
-        before, momenta = momenta, start + dt * (mass @ motion.acceleration(State(0.0, q, w)) + turning @ w)
-        if np.abs(momenta - before).max() < 1e-15 * np.abs(momenta).max():
-            break
-    moved = q + dt * np.linalg.solve(mass, momenta)
-    return State(state.time + dt, moved, np.linalg.solve(inertia * np.cos(moved[:, None] - moved[None, :]), momenta))
+
+    def step(motion: Motion, state: State, dt: float) -> State:
+        q = state.positions
+        between = q[:, None] - q[None, :]
+        mass = inertia * np.cos(between)
+        start = mass @ state.velocities
+        momenta = start
+        for _ in range(100):
+            w = np.linalg.solve(mass, momenta)
+            turning = -inertia * np.sin(between) * (w[:, None] - w[None, :])
+            before, momenta = momenta, start + dt * (mass @ motion.acceleration(State(0.0, q, w)) + turning @ w)
+            if np.abs(momenta - before).max() < 1e-15 * np.abs(momenta).max():
+                break
+        moved = q + dt * np.linalg.solve(mass, momenta)
+        return State(
+            state.time + dt, moved, np.linalg.solve(inertia * np.cos(moved[:, None] - moved[None, :]), momenta)
+        )
+
+    return Scheme(step, 1, "scheme")
 
 
 def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
@@ -219,8 +225,8 @@ def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
 
     So what MuJoCo's cable gains is not in its equations, nor in its dt.
     """
-    right = Scheme(in_momenta, 1, "scheme")
-    kinds = [measure(SchemeStepper(s, PendulumMotion), on).measured for s in (right, find("kick_drift"))]
+    schemes = (in_momenta(on.system), find("kick_drift"))
+    kinds = [measure(SchemeStepper(scheme, PendulumMotion), on).measured for scheme in schemes]
     assert kinds == ["bounded", "growing"]
 
 
@@ -229,7 +235,7 @@ def test_engines_do_with_energy_what_their_schemes_do(engine: Engine, on: Bench)
     row = measure(EngineStepper(engine), on)
     assert row.scheme is not None
     assert row.measured == measure(row.scheme, on).measured
-    assert row.predicted == predicted_kind(row.scheme, on.at_rest[row.scheme.equations])
+    assert row.predicted == predicted_energy_trend(row.scheme.scheme, on.at_rest[row.scheme.equations], DT)
 
 
 # --- Momentum ---

@@ -146,7 +146,7 @@ def test_findings_are_made_from_the_rows() -> None:
 def test_an_engine_that_crashes_or_is_not_there_or_takes_strings_only_says_so() -> None:
     """Whatever happens to an engine happens to it alone, and comes with its reason."""
     crashed = numbering.effects_on(EngineStepper(Misbehaving(Segfaults)))
-    assert all("SIGSEGV" in reason for renamed in crashed for reason in renamed.reasons.values())
+    assert all("SIGSEGV" in reason for effects in crashed for reason in effects.reasons.values())
     absent = numbering.effects_on(EngineStepper(replace(PymunkSprings(), package="no-such-engine")))
     assert absent[0].reasons["ends swapped"] == "unsupported, no-such-engine is not installed"
     strings_only = Doctored(capabilities=frozenset({"damping"}))

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+<<<<<<< HEAD
 from reference.measured_stability import (
     LONGER,
     PERTURBATION,
@@ -18,11 +19,17 @@ from reference.measured_stability import (
     mode_growth,
     random_growth,
 )
+=======
+from reference.measured_stability import PERTURBATION, SEEN, limit_near, measured_limit, mode_growth, random_growth
+>>>>>>> runs
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
 from reference.state import Array
+from reference.theory.equilibria import spring_equilibrium
 from reference.theory.equilibrium import hanging_string
+from reference.theory.limits import stability_limit
+from reference.theory.step_map import step_jacobian
 from tests import wrong
 from tests.reference.systems import label
 
@@ -96,6 +103,48 @@ def test_measured_limit_fails_on_others(scheme: Scheme) -> None:
     """Theirs is elsewhere."""
     with pytest.raises(AssertionError):
         check_measured(scheme, (np.sqrt(25 + 4e4) - 5) / 1e4)
+
+
+@np.errstate(over="ignore", invalid="ignore")
+def growth_of_map(map_matrix: Array, steps: int) -> float:
+    """What `random_growth` sees of a linear map applied again and again to a random start."""
+    states = [np.random.default_rng(0).normal(size=len(map_matrix))]
+    for _ in range(steps):
+        states.append(map_matrix @ states[-1])
+    return random_growth(np.array(states))
+
+
+def test_random_perturbations_find_a_limit_known_in_closed_form() -> None:
+    """Z -> [[1 - h^2, h], [-h, 1]] z is kick-drift of x'' = -x, stable for h < 2."""
+    limit = measured_limit(lambda h, n: growth_of_map(np.array([[1 - h * h, h], [-h, 1.0]]), n), 1.0, 1e-4)
+    assert limit.reason == ""
+    assert limit.dt == pytest.approx(2, rel=1e-3)
+
+
+def test_random_perturbations_find_no_limit_where_there_is_none() -> None:
+    """Euler of x'' = -x, z -> [[1, h], [-h, 1]] z, grows by sqrt(1 + h^2) in a step at any h."""
+    limit = measured_limit(lambda h, n: growth_of_map(np.array([[1, h], [-h, 1.0]]), n), 1.0, 1e-4)
+    assert limit.dt is None
+    assert limit.reason.startswith("unstable")
+
+
+@pytest.mark.parametrize("expected", [2.0, 2.0004, 3.0, 0.5, None])
+def test_a_limit_is_the_same_wherever_it_is_expected(expected: float | None) -> None:
+    """Kick-drift's 2, to the precision of 1e-3: where to look is expected, what is found is not."""
+    limit = limit_near(lambda h, n: growth_of_map(np.array([[1 - h * h, h], [-h, 1.0]]), n), expected, 1.0, 1e-3)
+    assert limit.reason == ""
+    assert limit.dt == pytest.approx(2, rel=2e-3)
+
+
+def test_slow_growth_beside_fast_decay_is_seen_in_longer_runs() -> None:
+    """Euler of a string with damped springs: fast modes decay, slow ones grow at any dt (predicted), by 1e-4 in a step.
+
+    In a run that is long enough for the limits of others a random perturbation has not grown yet.
+    """
+    rest, euler = spring_equilibrium(find_scene("string").system({"damping": 0.1})), find("euler")
+    assert stability_limit(euler, rest).growth is not None
+    limit = measured_limit(lambda h, n: growth_of_map(step_jacobian(euler, rest, h), n), 0.005, 1e-4)
+    assert (limit.dt, limit.reason.partition(":")[0]) == (None, "unstable at any dt that was tried")
 
 
 def test_no_limit_is_told_with_its_reason() -> None:

@@ -5,23 +5,24 @@ from __future__ import annotations
 import numpy as np
 
 from experiments import energy
-from experiments.energy import DURATION, Kind, Row
+from experiments.energy import DURATION, Row
 from experiments.experiment import Result
 from reference.outcome import Outcome
 from reference.state import Array
 from reference.stepper import catalogued
+from reference.theory.energy_trend import EnergyTrend
 from tests.experiments.canned.steppers import SCHEME_OF, Named
 
 TIMES = np.linspace(0, DURATION, 501)
 
 #: The largest error at the end, by kind, as a part of what there is to give away.
-LARGEST: dict[Kind, float] = {"bounded": 0.02, "growing": 0.5, "decaying": 0.1}
+LARGEST: dict[EnergyTrend, float] = {"bounded": 0.02, "growing": 0.5, "decaying": 0.1}
 
 #: When Euler's string is torn [s].
 TORN = 4.0
 
 
-def errors(kind: Kind, size: float = 1.0) -> Array:
+def errors(kind: EnergyTrend, size: float = 1.0) -> Array:
     """Of every time: to and fro, or on and on."""
     largest = size * LARGEST[kind]
     if kind == "bounded":
@@ -31,8 +32,8 @@ def errors(kind: Kind, size: float = 1.0) -> Array:
 
 def row(
     name: str,
-    predicted: Kind,
-    measured: Kind,
+    predicted: EnergyTrend,
+    measured: EnergyTrend,
     momenta: tuple[float, float] | None = (1e-16, 2e-16),
     engine: str | None = None,
     size: float = 1.0,
@@ -89,7 +90,7 @@ def usual() -> Result:
 
 def full() -> Result:
     """All schemes and engines, with energies of their own."""
-    kinds: tuple[Kind, ...] = ("bounded", "growing", "decaying")
+    kinds: tuple[EnergyTrend, ...] = ("bounded", "growing", "decaying")
     schemes = [row(name, kinds[i % 3], kinds[i % 3], size=0.7**i) for i, name in enumerate(catalogued())]
     engines = [row(scheme, "bounded", "bounded", engine=name) for name, scheme in SCHEME_OF.items()]
     return energy.result_of([*schemes, *engines])

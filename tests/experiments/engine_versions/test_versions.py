@@ -68,8 +68,8 @@ def test_the_honest_engine_is_measured_as_what_it_is() -> None:
     """Kick-drift with explicit damping, to rounding, on everything; its limit is the closed form.
 
     Undamped, h^2 w^2 < 4 with w^2 = 4 k/m sin^2((2n - 1) pi / (4n + 2)), the fastest mode of n masses in a row, fixed
-    at one end. Near it, where two eigenvalues meet, a push grows in proportion to time: some 1e-6 below it that is a
-    doubling in a run. Only what belongs to a limit off by 1e-5 would deviate from the baseline.
+    at one end. Near it, where two eigenvalues meet, a perturbation grows in proportion to time: some 1e-6 below it
+    that is a doubling in a run. Only what belongs to a limit off by 1e-5 would deviate from the baseline.
     """
     rows = measure(EngineStepper(Doctored()))
     assert [rows[f"identified, {case}"] for case in ("plain", "damping", "drag")] == ["kick_drift"] * 3

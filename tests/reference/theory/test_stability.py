@@ -176,7 +176,10 @@ def polynomial_limit(name: str, damping: float) -> float:
     ],
 )
 def test_limits_of_the_default_string(name: str, damping: float, measured: float) -> None:
-    """What engine-facts.md tells of engines' maps on the default chain, to its seven digits."""
+    """Where eigenvalues of engines' own steps leave the unit circle on this string, to seven digits.
+
+    Steps differenced as in tests/conformance/test_jacobian.py; the closed forms and step matrices below agree.
+    """
     check_limit(find(name), string_rest(damping=damping), measured, 2e-6)
 
 
@@ -202,7 +205,7 @@ def test_limits_are_where_the_step_matrix_leaves_the_unit_circle(name: str, damp
 
 
 def test_drags_limit_on_the_default_string() -> None:
-    """Explicit drag: dt^2 w^2 + 2 dt Cd/m < 4 for every mode; engine-facts.md has .0099859 s for Cd = 0.1."""
+    """Explicit drag: dt^2 w^2 + 2 dt Cd/m < 4 for every mode: with Cd = 0.1 N s/m, 0.0099859 s."""
     expected = explicit_damping_limit(np.sqrt(W2), 0.1 / M)
     assert expected == pytest.approx(0.0099859, rel=1e-5)
     check_limit(find("kick_drift"), string_rest(drag=0.1), expected)

@@ -28,7 +28,7 @@ from tests.report.commands.terminal import springlab
 #: [m], where the string is 1.25 m long.
 WITHIN = 1e-12
 
-#: The scheme each engine of the issue is to be identified with on the default string.
+#: Engines of every package that is installed by default, and the scheme each is identified with on the default string.
 IDENTIFIED = {
     "pymunk_springs": "drift_kick",
     "mujoco_tendons": "kick_drift",
@@ -61,8 +61,8 @@ def installed(name: str) -> None:
         pytest.skip(f"{registry()[name].package} is not installed")
 
 
-def of_the_issue(*words: str) -> tuple[str, ...]:
-    """The words that compare the issue's engines alone, those that are installed."""
+def of_the_engines(*words: str) -> tuple[str, ...]:
+    """The words that compare these engines alone, those that are installed."""
     names = [name for name in IDENTIFIED if version(registry()[name]) is not None]
     return ("string", *words, *(word for name in names for word in ("--stepper", name)))
 
@@ -104,7 +104,7 @@ def test_every_engine_of_the_issue_is_identified_within_1e12(name: str, scheme: 
 def test_every_engine_is_identified_with_damped_springs(name: str, what: str) -> None:
     """As it claims to be, within 1e-12 m; Bullet against its own solver, which stops early."""
     installed(name)
-    run = rows(*of_the_issue("--set", what))[name]
+    run = rows(*of_the_engines("--set", what))[name]
     assert (run["outcome"], run["identified_as"]) == ("done", registry()[name].identified_as["damping"])
     assert run["identification_error_m"] <= WITHIN
 
@@ -113,7 +113,7 @@ def test_every_engine_is_identified_with_damped_springs(name: str, what: str) ->
 def test_every_engine_is_identified_with_drag(name: str) -> None:
     """As it claims to be, within 1e-12 m."""
     installed(name)
-    run = rows(*of_the_issue("--set", "drag=0.02"))[name]
+    run = rows(*of_the_engines("--set", "drag=0.02"))[name]
     assert (run["outcome"], run["identified_as"]) == ("done", registry()[name].identified_as["drag"])
     assert run["identification_error_m"] <= WITHIN
 
@@ -169,8 +169,8 @@ def test_the_error_is_the_distance_from_the_true_motion() -> None:
 def test_a_change_on_the_fly_is_made_in_every_run() -> None:
     """With stiffness, gravity and drag changed midway, engines still are their schemes; the cable says it cannot."""
     words = ("--change", "0.02:gravity=1.62", "--change", "0.03:drag=0.05", "--change", "0.04:stiffness=150")
-    found = rows(*of_the_issue(*words, "--duration", "0.1"))
-    plain = rows(*of_the_issue("--duration", "0.1"))
+    found = rows(*of_the_engines(*words, "--duration", "0.1"))
+    plain = rows(*of_the_engines("--duration", "0.1"))
     assert found
     for name, run in found.items():
         if run["outcome"] == "unsupported":

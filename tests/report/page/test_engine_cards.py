@@ -23,7 +23,7 @@ def test_there_is_a_card_for_every_engine_under_its_package() -> None:
 
 
 def test_crashes_are_those_kept_of_the_installed_version() -> None:
-    """Bullet 3.2.7 hangs and dies on bad meshes (engine facts); Pymunk 7.3.1 aborts without rounds."""
+    """Bullet 3.2.7 dies on bad meshes, Pymunk 7.3.1 aborts without rounds: see tests/engines/test_crash_cases.py."""
     found = {package.name: package for package in packages({})}
     if installed_version("pybullet") == "3.2.7":
         assert ("Load a triangle that has a corner twice.", "SIGSEGV") in found["pybullet"].crashes

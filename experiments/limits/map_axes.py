@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from experiments.limits.plane import Axis, SystemAt
+from experiments.limits.plane import AXES, Axis, SystemAt
 from reference.errors import InputError, unknown_name
 from reference.files.setup import setup_for
-from reference.system import PARAMETERS, MassSpringSystem
+from reference.system import MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import fastest_rate
-
-#: What an axis can be.
-AXES = ("dt", "masses", *PARAMETERS)
 
 
 def system_maker(scene: str, settings: Mapping[str, str], dt: float | None = None) -> tuple[SystemAt, float]:

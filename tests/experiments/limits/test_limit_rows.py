@@ -1,0 +1,97 @@
+"""Limits of engines, measured without theory, against what is predicted of the schemes they are identified with."""
+
+from __future__ import annotations
+
+import pytest
+
+from engines.engine import Engine, demands, registry, version
+from engines.process.isolation import EngineStepper
+from experiments.limits.limit_rows import Row, stability_rows
+from reference.lecture.listings import listings
+from reference.scenes import find
+from reference.schemes import catalogue
+from reference.stepper import SchemeStepper
+from reference.system import MassSpringSystem
+from tests.conformance.doctored import Doctored, KickDrift
+
+#: Limits are measured to 1e-4 of themselves, and growth of 8e-4 in a step is seen: together below a thousandth.
+TOLERANCE = 1e-3
+
+
+def quiet(_: object) -> None:
+    """No progress."""
+
+
+@pytest.fixture(scope="module", params=[{}, {"damping": 0.5}], ids=str)
+def engine_rows(request: pytest.FixtureRequest) -> tuple[MassSpringSystem, dict[str, Row]]:
+    """A string, and a row for each engine that can be started with it, all from one call."""
+    system = find("string").system({"masses": 4, **request.param})
+    able = [e for e in registry().values() if version(e) and e.capabilities.issuperset(demands(system))]
+    return system, {row.stepper: row for row in stability_rows(system, [EngineStepper(e) for e in able], quiet)}
+
+
+def check_as_predicted(row: Row) -> None:
+    """|measured - predicted| < 1e-3 predicted; or neither has a limit, and both say that it is unstable at any dt."""
+    assert row.outcome == "done", row.document["reason"]
+    assert (row.predicted.dt is None) == (row.measured.dt is None), row.document["reason"]
+    if row.predicted.dt is None:
+        assert row.predicted.growth is not None
+        assert row.predicted.growth > 0
+        assert "unstable at any dt" in row.measured.reason  # and not stable at any
+        return
+    assert row.relative_difference is not None
+    assert abs(row.relative_difference) < TOLERANCE
+
+
+def test_engines_blow_up_where_their_scheme_is_predicted_to(
+    engine: Engine, engine_rows: tuple[MassSpringSystem, dict[str, Row]]
+) -> None:
+    """From random perturbations, measured without any theory, against the limit of the scheme it is identified with.
+
+    Where that has none, as Euler without drag, none is measured either.
+    """
+    system, rows = engine_rows
+    if engine.name not in rows:
+        pytest.skip(f"{engine.name} cannot do {sorted({*demands(system)} - engine.capabilities)}")
+    check_as_predicted(rows[engine.name])
+
+
+def test_growth_factors_are_below_one_below_the_limit_and_above_it_above(
+    engine_rows: tuple[MassSpringSystem, dict[str, Row]],
+) -> None:
+    """Of the step of every engine that can start anywhere, at 0.99 and 1.01 of its measured limit.
+
+    Undamped modes stay on the unit circle, up to what differences leave: 3e-4 where an engine solves to 1e-8 m/s only.
+    """
+    seen = [row.measured.factors for row in engine_rows[1].values() if row.measured.factors is not None]
+    assert seen
+    for below, above in seen:
+        assert below <= 1 + 3e-4
+        assert above > 1 + 1e-3
+
+
+class Halfway(KickDrift):
+    """Kick-drift that believes its dt to be half of what it is: stable for twice as long."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        super().__init__(system, dt / 2)
+
+
+def test_an_engine_with_a_limit_of_its_own_is_caught() -> None:
+    """It is no scheme, so that nothing is predicted; and held against kick_drift's limit its own is twice as long."""
+    system = find("string").system({"masses": 2})
+    row, scheme = stability_rows(
+        system, [EngineStepper(Doctored(Halfway)), SchemeStepper(catalogue.find("kick_drift"))], quiet
+    )
+    assert row.predicted.dt is None
+    with pytest.raises(AssertionError):
+        check_as_predicted(Row(row.stepper, row.kind, system, scheme.predicted, row.measured))
+    assert row.measured.dt == pytest.approx(2 * (scheme.predicted.dt or 0.0), rel=TOLERANCE)
+
+
+def test_a_listing_is_unsupported_with_its_reason() -> None:
+    """It is neither scheme nor engine: nothing is predicted, nothing measured."""
+    (row,) = stability_rows(find("string").system({"masses": 2}), [listings()["lecture_heun_loops"]], quiet)
+    assert row.outcome == "unsupported"
+    assert (row.predicted.dt, row.measured.dt) == (None, None)
+    assert row.document["reason"]

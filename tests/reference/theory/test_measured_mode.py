@@ -1,0 +1,78 @@
+"""Schemes run along their fastest mode blow up where theory says; other schemes elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pytest
+
+from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find, schemes
+from reference.theory.equilibria import Equilibrium, spring_equilibrium
+from reference.theory.limits import stability_limit
+from reference.theory.measured_mode import STEPS, fastest_mode_of_step, measured_mode_limit, offsets
+from tests import wrong
+from tests.reference.systems import label
+
+#: Measured to 1e-5 of itself, where growth of 1e-8 in a step is seen: a limit met by a pair of eigenvalues on the unit
+#: circle, which grow as the root of the excess, is seen to about 1e-4.
+TOLERANCE = 1e-3
+
+#: Spring damping [N s/m] and drag [N s/m].
+CASES: tuple[Mapping[str, float], ...] = ({}, {"damping": 0.1}, {"damping": 0.5}, {"drag": 0.1})
+
+BY_THEORY = [s for s in schemes().values() if s.kind in ("scheme", "in_place")]
+
+
+def string_at_rest(case: Mapping[str, float]) -> Equilibrium:
+    """The default string of three masses, hanging."""
+    return spring_equilibrium(find_scene("string").system({"masses": 3, **case}))
+
+
+def check_measured_as_predicted(scheme: Scheme, run: Scheme, case: Mapping[str, float]) -> None:
+    """|measured - predicted| < 1e-3 predicted, or neither has a limit: theory's eigenvalues against a run."""
+    rest = string_at_rest(case)
+    predicted, measured = stability_limit(scheme, rest), measured_mode_limit(run, rest)
+    assert (predicted.dt is None) == (measured.dt is None)
+    if predicted.dt is not None and measured.dt is not None:
+        assert abs(measured.dt - predicted.dt) < TOLERANCE * predicted.dt
+
+
+@pytest.mark.parametrize("case", CASES, ids=str)
+@pytest.mark.parametrize("scheme", BY_THEORY, ids=label)
+def test_schemes_blow_up_where_predicted(scheme: Scheme, case: Mapping[str, float]) -> None:
+    """In every case of damping and drag that the report shows."""
+    check_measured_as_predicted(scheme, scheme, case)
+
+
+def test_a_scheme_that_steps_twice_too_far_is_caught() -> None:
+    """Heun without its half has another limit than Heun: the check of limits fails on it."""
+    with pytest.raises(AssertionError):
+        check_measured_as_predicted(find("heun"), wrong.heun_without_half, {"drag": 0.1})
+
+
+def check_only_the_mode(scheme: Scheme, left_of: Scheme) -> None:
+    """A run along a mode z is its eigenvalue's powers: in the left eigenvector, l z_n = mu^n l z_0, to 1e-4.
+
+    The perturbation is the real part of the mode: of a pair of modes l picks one out. What is not linear is of the
+    perturbation's size, 1e-6, in each of 200 steps.
+    """
+    rest, dt = string_at_rest({"drag": 0.1}), 1e-3
+    mode = fastest_mode_of_step(left_of, rest, dt)
+    assert mode is not None
+    part = np.array([*offsets(scheme, rest, dt, mode.shape)]) @ mode.left.conj()
+    assert len(part) == STEPS + 1
+    assert part[1:] / part[:-1] == pytest.approx(part[1] / part[0], rel=1e-4)
+
+
+@pytest.mark.parametrize("name", ["kick_drift", "heun", "rk4"])
+def test_a_run_along_a_mode_stays_in_it(name: str) -> None:
+    """Of three schemes below their limits."""
+    check_only_the_mode(find(name), find(name))
+
+
+def test_the_mode_of_another_scheme_is_not_kept() -> None:
+    """Euler's left eigenvector does not tell modes of kick-drift apart."""
+    with pytest.raises(AssertionError):
+        check_only_the_mode(find("kick_drift"), find("euler"))
