@@ -8,9 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from engines.engine import Engine, demands, registry
+from engines.engine import Engine, demands, registry, version
+from engines.engine import find as find_engine
 from engines.process.isolation import EngineStepper
-from experiments.stability import CASES, measure_scheme, result_of, stability_rows
+from experiments.stability import CASES, Row, measure_scheme, result_of, stability_rows
 from experiments.stability_map import stability_map
 from reference.errors import InputError
 from reference.limit import Limit
@@ -21,6 +22,7 @@ from reference.schemes.catalogue import Scheme, schemes
 from reference.stepper import SchemeStepper
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
+from reference.system import MassSpringSystem
 from reference.theory.step_map import step_jacobian
 from report.commands.map_arguments import axes_for, system_maker
 from tests import wrong
@@ -38,7 +40,7 @@ def quiet(_: object) -> None:
 
 def check_measured_as_predicted(scheme: Scheme, run: Scheme, case: dict[str, float]) -> None:
     """|measured - predicted| < 1e-3 predicted, or neither has a limit: theory's eigenvalues against a run."""
-    rest = spring_equilibrium(find("string").system({"masses": 4, **case}))
+    rest = spring_equilibrium(find("string").system({"masses": 3, **case}))
     predicted, measured = stability_limit(scheme, rest), measure_scheme(run, rest)
     assert (predicted.dt is None) == (measured.dt is None)
     if predicted.dt is not None and measured.dt is not None:
@@ -58,21 +60,31 @@ def test_a_scheme_that_steps_twice_too_far_is_caught() -> None:
         check_measured_as_predicted(catalogue.find("heun"), wrong.heun_without_half, {"drag": 0.1})
 
 
-@pytest.mark.parametrize("case", [{}, {"damping": 0.5}], ids=str)
-def test_engines_blow_up_where_their_scheme_is_predicted_to(engine: Engine, case: dict[str, float]) -> None:
+@pytest.fixture(scope="module", params=[{}, {"damping": 0.5}], ids=str)
+def engine_rows(request: pytest.FixtureRequest) -> tuple[MassSpringSystem, dict[str, Row]]:
+    """A string, and a row for each engine that can be started with it, all from one call."""
+    system = find("string").system({"masses": 4, **request.param})
+    able = [e for e in registry().values() if version(e) and e.capabilities.issuperset(demands(system))]
+    return system, {row.stepper: row for row in stability_rows(system, [EngineStepper(e) for e in able], quiet)}
+
+
+def test_engines_blow_up_where_their_scheme_is_predicted_to(
+    engine: Engine, engine_rows: tuple[MassSpringSystem, dict[str, Row]]
+) -> None:
     """From random pushes, measured without any theory, against the limit of the scheme it is identified with.
 
     Where that has none, as Euler without drag, none is measured either.
     """
-    system = find("string").system({"masses": 4, **case})
-    if not engine.capabilities.issuperset(demands(system)):
-        pytest.skip(f"{engine.name} cannot do {case}")
-    (row,) = stability_rows(system, [EngineStepper(engine)], quiet)
+    system, rows = engine_rows
+    if engine.name not in rows:
+        pytest.skip(f"{engine.name} cannot do {sorted({*demands(system)} - engine.capabilities)}")
+    row = rows[engine.name]
     assert row.outcome == "done", row.document["reason"]
     assert (row.predicted.dt is None) == (row.measured.dt is None), row.document["reason"]
     if row.predicted.dt is None:
-        assert "unstable at any dt" in row.predicted.reason
-        assert "unstable at any dt" in row.measured.reason
+        assert row.predicted.growth is not None
+        assert row.predicted.growth > 0
+        assert "unstable at any dt" in row.measured.reason  # and not stable at any
         return
     assert row.relative_difference is not None
     assert abs(row.relative_difference) < TOLERANCE
@@ -107,7 +119,7 @@ def test_slow_growth_beside_fast_decay_is_seen_in_longer_runs() -> None:
     In a run that is long enough for the limits of others a random push has not grown yet.
     """
     rest, euler = spring_equilibrium(find("string").system({"damping": 0.1})), catalogue.find("euler")
-    assert "unstable at any dt" in stability_limit(euler, rest).reason
+    assert stability_limit(euler, rest).growth is not None
     limit, reason = measured_limit(lambda h, n: growth_of(step_jacobian(euler, rest, h), n), 0.005, 1e-4)
     assert (limit, reason.partition(":")[0]) == (None, "unstable at any dt that was tried")
 
@@ -121,9 +133,9 @@ def test_findings_are_made_from_the_numbers() -> None:
 
 def test_a_swept_map_changes_colour_at_the_predicted_boundary() -> None:
     """Growth per step is over 1 % beyond 1.02 of the predicted limit and none below 0.98 of it."""
-    system_at, dt = system_maker("string", {"masses": "3"})
+    system_at, dt = system_maker("string", {"masses": "2"})
     x, y = axes_for(("dt", "drag"), ["drag=0.05:0.2"], system_at({}))
-    found = stability_map(SchemeStepper(catalogue.find("rk4")), system_at, dt, x, y)
+    found = stability_map(SchemeStepper(catalogue.find("rk4")), system_at, dt, x, y, resolution=64)
     limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])[:, None]
     assert (found.growth[found.x_values > 1.02 * limit] > 0.01).all()
     assert (found.growth[(found.x_values < 0.98 * limit)] < 1e-3).all()
@@ -131,8 +143,8 @@ def test_a_swept_map_changes_colour_at_the_predicted_boundary() -> None:
 
 def test_an_engine_has_a_map_too() -> None:
     """Coarser, with the boundary of the scheme it is identified with in the middle of the plane."""
-    engine = next(e for e in registry().values() if EngineStepper(e).version and "stretched" in e.capabilities)
-    system_at, dt = system_maker("string", {"masses": "3"})
+    engine = find_engine("mujoco_tendons")
+    system_at, dt = system_maker("string", {"masses": "2"})
     x, y = axes_for(("dt", "damping"), ["damping=0.1:0.5"], system_at({}))
     found = stability_map(EngineStepper(engine), system_at, dt, x, y, resolution=6)
     limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])[:, None]
