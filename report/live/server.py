@@ -61,6 +61,10 @@ class LiveServer:
         with contextlib.redirect_stdout(io.StringIO()):  # it would print a table
             self._server = Server(host=host, port=port, label="springlab live", verbose=False)
         self._server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
+        # In place of viser's environment and shadows, which cost a page seconds without a graphics card.
+        self._server.scene.configure_environment_map(hdri=None)
+        self._server.scene.configure_default_lights(cast_shadow=False)
+        self._server.scene.add_light_ambient("/light", intensity=1.5)
         self._server.scene.set_up_direction("+y")
         self._server.on_client_connect(self._welcome)
         self._server.on_client_disconnect(self._goodbye)

@@ -18,8 +18,8 @@ from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, equilibrium_of
 from reference.theory.limits import growth
 
-#: Differences by perturbations of 8e-7 m are themselves good to 1e-9. But an engine may solve to 1e-8 m/s only, which is
-#: 3e-4 of a perturbation in 0.02 s: as much of the growth factor is allowed, and schemes differ by far more.
+#: Differences by perturbations of 8e-7 m are themselves good to 1e-9. But an engine may solve to 1e-8 m/s only, which
+#: is 3e-4 of a perturbation in 0.02 s: as much of the growth factor is allowed, and schemes differ by far more.
 TOLERANCE = 3e-4
 
 #: Damped and at a dt [s] where the fastest mode turns by about half a radian a step.

@@ -38,8 +38,8 @@ def check_growth(measured: float, order: int, drag: float) -> None:
     """|R(h l)|, l = -Cd/(2m) + i (w^2 - (Cd/2m)^2)^(1/2), w the frequency of the fastest mode by its formula.
 
     A perturbation of 1e-9 m is measured to 2e-16 of the 1.4 m that the string hangs: 2e-7 of itself, which the fit over
-    500 steps divides by as many; the size wobbles by Cd/(2 m w) = 0.0025 (0.01 at most here) with the swing, of which the
-    fit leaves some 1e-6.
+    500 steps divides by as many; the size wobbles by Cd/(2 m w) = 0.0025 (0.01 at most here) with the swing, of which
+    the fit leaves some 1e-6.
     """
     frequency = 2 * np.sqrt(200.0 / 0.02) * np.sin(19 / 42 * np.pi)
     decay = drag / (2 * 0.02)

@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-<<<<<<< HEAD
 from reference.measured_stability import (
     LONGER,
     PERTURBATION,
@@ -19,9 +18,6 @@ from reference.measured_stability import (
     mode_growth,
     random_growth,
 )
-=======
-from reference.measured_stability import PERTURBATION, SEEN, limit_near, measured_limit, mode_growth, random_growth
->>>>>>> runs
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate

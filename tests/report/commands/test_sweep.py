@@ -208,7 +208,7 @@ def test_a_dt_that_is_not_varied_is_the_one_given_or_the_scenes(
 def test_a_run_is_judged_as_compare_judges_it(tmp_path: Path) -> None:
     """The same distance from the true motion to the last bit, and the same scheme."""
     store = tmp_path / "store.sqlite"
-    of = ("--stepper", "heun", "--stepper", "kick_drift", "--duration", "0.3", "--set", "damping=0.1")
+    of = ("--stepper", "heun", "--stepper", "kick_drift", "--duration", "0.05", "--set", "damping=0.1")
     swept(store, "sweep", *of, "--over", "masses=3", "--identify")
     document = json.loads(springlab("compare", *of, "--set", "masses=3", "--json").out)
     wanted = {run["stepper"]: run for run in document["runs"]}
