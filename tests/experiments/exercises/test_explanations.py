@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from experiments.exercises.answer_catalogue import AnswerCatalogue
+from experiments.exercises.answer_catalogue import AnswerCatalogue, catalogue_of, draw_questions
 from experiments.exercises.answer_distance import LARGEST, answer_distance, scales_of
 from experiments.exercises.exercise import Answer, Exercise, Mistake, Question, mistake
 from experiments.exercises.naming import APART, SINGLE, identify
@@ -105,6 +106,18 @@ def test_functions_are_explained_one_by_one_and_each_mistake_once() -> None:
     assert explanation.mistakes == (ADDS, EXPLODES)
     assert explanation.distance == pytest.approx(0.5 * TOLERANCE / 1.5, rel=1e-5)
     assert identify(known, [*answers(1.5), *answers(20.0), *answers(7.0)]) is None
+
+
+def test_questions_are_drawn_anew_until_mistakes_can_be_told_apart() -> None:
+    """From 0 every factor leads to 0, from 1 they differ: whatever the key, the question is about 1."""
+
+    def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
+        return [Question("step", (float(random.integers(2)),), ("x",), "")]
+
+    exercise = Exercise("Drawn", 1, "", {"step": step}, questions, (EXPLODES,), folder=Path("e99_drawn"))
+    first = {draw_questions(exercise, "", key, 0)[0].arguments for key in "abcdefgh"}
+    assert first == {(0.0,), (1.0,)}
+    assert {catalogue_of(exercise, "", key).questions[0].arguments for key in "abcdefgh"} == {(1.0,)}
 
 
 @pytest.mark.parametrize(
