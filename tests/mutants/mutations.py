@@ -1,7 +1,7 @@
 """Mutants of a source text: each a small mistake, as a piece of the text and what stands there in its place.
 
 Left out is what no test should hold: docstrings, annotations and types, `assert`, the words of errors, `__repr__`,
-settings of dataclasses, `strict=` of zip, and what parameters that are given by name are by default, as scenes' are.
+settings of dataclasses, `strict=` of zip, and what scenes are shown with: defaults of parameters given by name.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from tests.mutants.kinds import KINDS, is_type
 
 #: Keywords, decorators and functions in which a mistake has no meaning that a test could hold.
 SKIPPED_KEYWORDS = {"strict", "encoding"}
-SKIPPED_DECORATORS = {"dataclass", "cache", "lru_cache", "property", "overload"}
+SKIPPED_DECORATORS = {"dataclass", "cache", "lru_cache", "property", "overload", "scene"}
 SKIPPED_FUNCTIONS = {"__repr__", "__str__"}
 
 
