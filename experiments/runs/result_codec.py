@@ -87,3 +87,11 @@ def decode(document: Any, arrays: Mapping[str, Array]) -> Any:
 def _as_tuple(value: Any) -> Any:
     """A field of a limit: JSON has its tuples as lists."""
     return tuple(map(_as_tuple, value)) if isinstance(value, list) else value
+
+
+def arrays_of(document: Any) -> frozenset[str]:
+    """The names of the arrays that an encoded answer refers to."""
+    if isinstance(document, dict) and ARRAY in document:
+        return frozenset({document[ARRAY]})
+    parts = document.values() if isinstance(document, dict) else document if isinstance(document, list) else ()
+    return frozenset().union(*map(arrays_of, parts))

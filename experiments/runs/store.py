@@ -10,7 +10,7 @@ import errno
 import json
 import sqlite3
 import threading
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from experiments.runs.environment import environment
-from experiments.runs.result_codec import decode, encode
+from experiments.runs.result_codec import arrays_of, decode, encode
 from experiments.runs.task import Task, digest
 from reference.errors import InputError
 from reference.outcome import Outcome
@@ -97,11 +97,12 @@ class Store:
             row = self._current(task)
         if row is None:
             return None
-        arrays = read_arrays(self._arrays, row["arrays"])
+        document = json.loads(row["answer"])
+        arrays = read_arrays(self._arrays, row["arrays"], arrays_of(document))
         if arrays is None:
             self.retire([task.key])
             return None
-        return Stored(decode(json.loads(row["answer"]), arrays))
+        return Stored(decode(document, arrays))
 
     def keep(self, task: Task, answer: Any, seconds: float) -> None:
         """Keep a task's answer and how long it took [s]; where another springlab has just kept one, let that be."""
@@ -210,13 +211,18 @@ def check_format(file: Path, sql: sqlite3.Connection) -> bool:
     return "runs" in tables
 
 
-def read_arrays(folder: Path, path: str | None) -> dict[str, Array] | None:
-    """The arrays of a run; None where the file is gone or broken, as after a power failure."""
+def read_arrays(folder: Path, path: str | None, names: Set[str] | None = None) -> dict[str, Array] | None:
+    """The arrays of a run; None where the file is gone or broken, as after a power failure.
+
+    Args:
+        names: of the arrays it must have; left out, those it has.
+    """
     if path is None:
         return {}
     try:
         with (folder / path).open("rb") as file, np.load(file) as opened:
-            return dict(opened)
+            found = dict(opened)
+            return found if names is None or found.keys() == names else None
     except Exception:  # NumPy and zipfile raise nearly anything for a broken file
         return None
 

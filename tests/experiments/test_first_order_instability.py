@@ -172,4 +172,4 @@ def test_findings_and_figure_are_made_from_the_fates(monkeypatch: pytest.MonkeyP
     assert "rk4" in draw("first_order_instability", result).alt
     gone = replace(only, distance=np.where(np.arange(len(only.distance)) > 200, np.inf, only.distance))
     lost = replace(result, data={**result.data, "fates": [gone]})
-    assert "rk4 no number" in draw("first_order_instability", lost).alt
+    assert "rk4 not a finite number" in draw("first_order_instability", lost).alt

@@ -11,7 +11,7 @@ from typing import Any
 from experiments.runs.result_codec import decode, encode
 from experiments.runs.store import read_arrays
 from tests.soak import faults
-from tests.soak.sweep import job_of
+from tests.soak.sweep import task_of
 
 #: What differs from one time to another.
 TIMES = ("seconds", "finished")
@@ -83,7 +83,7 @@ def check_accounted_for(store: Path, numbers: Iterable[int]) -> None:
 def check_rows_due(found: Iterable[Row], numbers: Iterable[int], folder: Path) -> None:
     """As above, of rows and the folder of their arrays."""
     by_key = {key: row for (key, _), row in _by_key(found).items()}
-    due = {job_of(number).key: number for number in numbers}
+    due = {task_of(number).key: number for number in numbers}
     assert not due.keys() - by_key.keys(), f"{len(due.keys() - by_key.keys())} runs are lost"
     assert not by_key.keys() - due.keys(), "there are runs that nobody asked for"
     said = {number: (by_key[key]["outcome"], by_key[key]["reason"]) for key, number in due.items()}
