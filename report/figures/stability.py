@@ -37,21 +37,27 @@ def _panel(axes: Any, case: str, rows: Sequence[Row], names: Sequence[str]) -> N
             axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)
         if row.measured.dt is not None:
             axes.plot(row.measured.dt, y, color=COLOURS[1], markersize=5, **MEASURED)
-        if row.predicted.dt is not None and row.measured.dt is None:
-            axes.text(1.2 * row.predicted.dt, y, "not measured", va="center", fontsize=8, color="#555555")
-        if row.predicted.dt is None and row.measured.dt is None:
-            word = _short(row)
-            axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), va="center", fontsize=8, color="#555555")
+        if row.measured.dt is None:
+            beside = {"va": "center", "fontsize": 8, "color": "#555555"}
+            if row.predicted.dt is not None:
+                axes.text(1.2 * row.predicted.dt, y, _measured(row), **beside)
+            else:
+                word = "unstable at any dt" if row.predicted.growth is not None else _measured(row)
+                axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), **beside)
     axes.set_xscale("log")
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_title(case, fontsize=10, loc="left")
     axes.set_xlabel("dt [s]")
 
 
-def _short(row: Row) -> str:
+def _measured(row: Row) -> str:
+    """Why there is no measured limit, in a few words."""
     if row.outcome != "done":
         return row.outcome
-    return "unstable at any dt" if row.predicted.growth is not None else "stable at any dt tried"
+    for word in ("unstable", "stable"):
+        if row.measured.reason.startswith(f"{word} at any dt"):
+            return f"{word} at any dt tried"
+    return "not measured"
 
 
 def _case(row: Row) -> str:

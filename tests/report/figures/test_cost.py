@@ -74,6 +74,8 @@ def test_what_lies_between_cheapest_and_dearest_is_shaded() -> None:
 def test_axes_have_units_and_are_logarithmic() -> None:
     """All four."""
     left, right = shown("cost").figure.axes
+    assert left.get_title(loc="left") == f"Measured: a string of {MASSES[0]} masses, five dt"
+    assert right.get_title(loc="left") == "Measured: speed on larger strings"
     assert left.get_xlabel() == f"wall time of {DURATION:g} s of motion [s]"
     assert left.get_ylabel() == "largest distance of any mass from the true motion at the end [m]"
     assert (right.get_xlabel(), right.get_ylabel()) == ("masses [1]", "steps per second [1/s]")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from report.figures import COLOURS, draw
@@ -45,6 +47,18 @@ def test_labels_name_the_scheme_and_who_is_it_at_the_end_of_their_line() -> None
     assert (rk4.arrowprops["color"], stranger.arrowprops["color"]) == COLOURS[:2]
     (deviation,) = marks(axes, fillstyle="none")
     assert data(deviation)[1][-1] == pytest.approx(5e-15)
+
+
+def test_a_line_ends_where_the_first_of_its_engines_does() -> None:
+    """Beyond, there is no largest of all; its label is at that end."""
+    whole, broken = divergence.ran("a", "rk4", 1e-8), divergence.ran("b", "rk4", 3e-8)
+    assert broken.error is not None
+    broken = replace(broken, error=broken.error[:11], deviation=broken.error[:11])
+    axes = draw("divergence", divergence.of(whole, broken)).figure.axes[0]
+    (measured,) = marks(axes, linestyle="-")
+    times, errors = data(measured)
+    assert (len(times), times[-1], errors[-1]) == (11, pytest.approx(0.01), pytest.approx(1.5e-8))
+    assert text(axes, "a, b").xy == pytest.approx((0.01, 1.5e-8))
 
 
 def test_words_say_which_is_which() -> None:
