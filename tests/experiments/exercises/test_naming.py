@@ -107,6 +107,16 @@ def test_right_at_first_is_not_another_order() -> None:
     assert of_order(catalogue, later) is None
 
 
+def test_another_order_is_not_all_where_another_function_is_wrong() -> None:
+    """Energies in another order are told where the power is right; else nothing would be said of the power."""
+    catalogue = catalogue_of(find("6"), "", None)
+    reordered = [[[*answer[0][1:], answer[0][0]]] for answer in catalogue.right]
+    assert of_order(catalogue, reordered) is not None
+    assert of_order(catalogue, [[[2 * part for part in answer[0]]] for answer in reordered]) is None
+    wrong_power = [answer if len(answer[0]) > 1 else [[2 * answer[0][0]]] for answer in reordered]
+    assert of_order(catalogue, wrong_power) is None
+
+
 def test_link_by_link_first_differs_at_the_second_mass() -> None:
     """The first mass's predictor still sees everything as it was: x of mass 0 is right for longer than that of mass 1.
 
