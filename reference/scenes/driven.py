@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from reference.changes import Driven
+from reference.errors import InputError
 from reference.scenes import scene
 from reference.scenes.crossing import Crossing, cambered
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law
@@ -89,6 +90,8 @@ def earthquake(
     amplitude [m/s^2] along the axis x or y; in `shaking` [s] it sweeps from one frequency to the other [Hz]. The others
     are as for `bridge` and `soil`.
     """
+    if not 0 < shaking < np.inf:
+        raise InputError(f"shaking = {shaking:g}: expected a finite number > 0 [s]")
     build = {"rock": bridge, "soil": soil}[on]
     standing = build(
         kind=kind,

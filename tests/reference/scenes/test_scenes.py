@@ -230,6 +230,17 @@ def test_an_extreme_value_of_any_parameter_makes_a_system_or_is_refused_by_name(
                 assert message is None or ("\n" not in message and named.search(message)), (name, signed, message)
 
 
+@pytest.mark.parametrize("scene", ALL, ids=label)
+def test_the_border_that_a_refusal_names_is_where_it_is(scene: Any) -> None:
+    """What is told to be >= 0 may be 0, as far as it goes, and what is told to be > 0 may not."""
+    for name, default in scene.parameters.items():
+        below = refusal(lambda: scene.setup({name: type(default)(-1)})) or ""  # noqa: B023 - called at once
+        said = re.search(r"= -1: expected a (?:finite )?number (>=?) 0", below)
+        if said:
+            at_zero = refusal(lambda: scene.setup({name: type(default)(0)})) or ""  # noqa: B023
+            assert at_zero.startswith(f"{name} = 0") == (said[1] == ">"), (name, below, at_zero)
+
+
 def refusal(make: Callable[[], object]) -> str | None:
     """What is said to bad input, None if it is taken."""
     try:

@@ -1,0 +1,125 @@
+"""Limits of engines, measured: on an engine whose every step is known, they are where theory has them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from engines.engine import CAPABILITIES
+from engines.measured_limit import (
+    ABOVE,
+    BELOW,
+    growth_of_engine,
+    growths_of_engine,
+    limit_of_engine,
+    limit_of_engine_near,
+)
+from reference.growth_factor import UNRESISTED
+from reference.limit import Limit
+from reference.measured_stability import PERTURBATION
+from reference.outcome import Outcome
+from reference.scenes import find
+from reference.theory.equilibrium import hanging_string
+from tests.conformance.doctored import Doctored, KickDrift
+
+ENGINE = Doctored(KickDrift)
+
+#: A mass on a spring with Cd/m = 5/s, w = 100/s along it, and w^2 = g/L across; at rest, and moved a little along.
+DRAG = 5.0
+SPRING = find("spring").system({"drag": 0.02 * DRAG})
+REST = hanging_string(SPRING).positions
+PERTURBED = replace(SPRING, positions=REST + np.array([[0.0, 0.0], [0.0, PERTURBATION * 0.125]]))
+SQUARES = (1e4, 9.81 / np.linalg.norm(REST[1]))
+
+#: Kick-drift with explicit drag is stable while dt^2 w^2 + 2 dt Cd/m < 4 [s].
+LIMIT = (np.sqrt(DRAG**2 + 4e4) - DRAG) / 1e4
+
+
+def factor(dt: float) -> float:
+    """The growth factor of v' = v - dt (w^2 x + Cd/m v), x' = x + dt v': of the worse of the two motions."""
+    steps = [
+        np.array([[1 - dt**2 * square, dt * (1 - dt * DRAG)], [-dt * square, 1 - dt * DRAG]]) for square in SQUARES
+    ]
+    return float(max(np.abs(np.linalg.eigvals(step)).max() for step in steps))
+
+
+#: Motions that die away faster than that are not looked at.
+assert factor(BELOW * LIMIT) < 1 - UNRESISTED
+
+
+def test_an_engines_limit_is_where_theory_has_it_and_its_step_is_looked_at_there() -> None:
+    """To 1 %: bisection stops within 1e-3, growth is seen from 6e-4 in a step; factors by differences, to 1e-6."""
+    limit = limit_of_engine(ENGINE, REST, PERTURBED, 0.01, 1e-3)
+    assert isinstance(limit, Limit)
+    assert limit.dt == pytest.approx(LIMIT, rel=0.01)
+    assert limit.factors is not None
+    below, above = limit.factors
+    assert below == 1 - UNRESISTED
+    assert above == pytest.approx(factor(ABOVE * limit.dt), rel=1e-6)
+    assert above > 1.2
+
+
+def test_an_engine_that_starts_at_rest_only_is_not_looked_at_there() -> None:
+    """It has a limit all the same."""
+    resting = Doctored(KickDrift, frozenset(CAPABILITIES) - {"velocities"})
+    limit = limit_of_engine(resting, REST, PERTURBED, 0.01, 1e-2)
+    assert isinstance(limit, Limit)
+    assert limit.dt == pytest.approx(LIMIT, rel=0.02)
+    assert limit.factors is None
+
+
+@pytest.mark.parametrize(("beyond", "grows"), [(1.05, True), (0.95, False)])
+def test_what_is_beyond_a_limit_is_looked_at_too(beyond: float, grows: bool) -> None:
+    """Where it is expected, and 5 % from there."""
+    limit = limit_of_engine_near(ENGINE, REST, PERTURBED, 1.005 * LIMIT, 0.01, 1e-2, beyond)
+    assert isinstance(limit, Limit)
+    assert limit.dt == pytest.approx(LIMIT, rel=0.02)
+    assert limit.grows_beyond is grows
+
+
+def test_without_a_limit_nothing_is_beyond_it() -> None:
+    """A step a tenth as long as expected is unstable too."""
+    limit = limit_of_engine_near(ENGINE, REST, PERTURBED, LIMIT, 100 * LIMIT, 1e-2, 1.05)
+    assert limit.dt == pytest.approx(LIMIT, rel=0.02)  # type: ignore[union-attr]
+    lost = limit_of_engine_near(ENGINE, REST, PERTURBED, 100 * LIMIT, 100 * LIMIT, 1e-2, 1.05)
+    assert isinstance(lost, Limit)
+    assert lost.dt is None
+    assert lost.reason
+    assert lost.grows_beyond is None
+
+
+def test_growth_is_measured_case_by_case() -> None:
+    """Below the limit the worse motion dies away by its factor in a step, to a tenth of SEEN; above it grows."""
+    cases = [(REST, PERTURBED, part * LIMIT) for part in (0.5, 2.0, 0.5)]
+    found = growths_of_engine(ENGINE, cases, 400)
+    assert isinstance(found, dict)
+    below, above, again = found["growth"]
+    assert below == again < 0 < above == np.inf
+    assert below == growth_of_engine(ENGINE, REST, PERTURBED, 0.5 * LIMIT, 400)
+
+
+def test_a_run_ends_once_all_is_lost() -> None:
+    """A hundred times as far: what a nonlinear system does after that is another matter, and takes its time."""
+    made = []
+
+    class Counting(KickDrift):
+        def step(self) -> None:
+            made.append(1)
+            super().step()
+
+    assert growth_of_engine(Doctored(Counting), REST, PERTURBED, 3 * LIMIT, 1000) == np.inf
+    assert len(made) < 10
+    made.clear()
+    assert growth_of_engine(Doctored(Counting), REST, PERTURBED, 0.5 * LIMIT, 200) < 0
+    assert len(made) == 200
+
+
+def test_what_an_engine_cannot_do_is_an_outcome_with_its_reason() -> None:
+    """From whichever is asked."""
+    dragless = Doctored(KickDrift, frozenset(CAPABILITIES) - {"drag"})
+    outcome = Outcome("unsupported", f"KickDrift cannot do {CAPABILITIES['drag']}")
+    assert limit_of_engine(dragless, REST, PERTURBED, 0.01, 1e-2) == outcome
+    assert limit_of_engine_near(dragless, REST, PERTURBED, LIMIT, 0.01, 1e-2, 1.05) == outcome
+    assert growths_of_engine(dragless, [(REST, PERTURBED, 0.01)], 10) == outcome

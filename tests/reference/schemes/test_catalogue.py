@@ -1,0 +1,64 @@
+"""The catalogue: what is said of a scheme where it is defined is what is known of it."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+import pytest
+
+from reference.errors import InputError
+from reference.motion import Motion
+from reference.schemes import catalogue
+from reference.schemes.catalogue import Scheme, find, scheme, schemes
+from reference.state import State
+
+
+def entered(**said: Any) -> Scheme:
+    """What the catalogue has of a step of which something is said; on trial."""
+    with catalogue._SCHEMES.as_it_is():
+
+        @scheme(**{"order": 1, **said})
+        def on_trial(motion: Motion, state: State, dt: float) -> State:
+            """Go nowhere, for the time being."""
+            return state
+
+        return find("on_trial")
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("order", 4),
+        ("kind", "in_place"),
+        ("implicit", True),
+        ("linear", False),
+        ("one_step", False),
+        ("iterated", True),
+        ("interactive_up_to", 7),
+        ("aliases", ("trying",)),
+    ],
+)
+def test_each_thing_said_of_a_scheme_is_kept_as_that(name: str, value: Any) -> None:
+    """And nothing else is another for it; what is not said is as `Scheme` has it."""
+    plain, found = entered(), entered(**{name: value})
+    differing = [
+        f.name for f in fields(Scheme) if f.name != "step" and getattr(plain, f.name) != getattr(found, f.name)
+    ]
+    assert differing == [name]
+    assert getattr(found, name) == value
+    assert all(getattr(plain, f.name) == f.default for f in fields(Scheme) if f.name not in ("step", "order"))
+
+
+def test_a_trial_leaves_nothing() -> None:
+    """The name is free again."""
+    entered(aliases=("trying",))
+    assert "on_trial" not in schemes()
+    with pytest.raises(InputError, match="unknown scheme 'trying'"):
+        find("trying")
+
+
+@pytest.mark.parametrize(("alias", "name"), [("semi_implicit_euler", "kick_drift"), ("symplectic_euler", "kick_drift")])
+def test_a_scheme_is_found_by_its_other_names(alias: str, name: str) -> None:
+    """And is the same."""
+    assert find(alias) is find(name)
