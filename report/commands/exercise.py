@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from report.commands.options import json_option
-from report.commands.terminal import plain, progress, show_table
+from report.commands.terminal import progress, show_table
+from report.plain import plain
 
 if TYPE_CHECKING:
     from experiments.exercises.exercise import Exercise

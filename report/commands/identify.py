@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import click
 
 from report.commands.options import json_option, setup_options
-from report.commands.terminal import plain, progress, show_table
+from report.commands.terminal import progress, show_table
+from report.plain import plain
 
 if TYPE_CHECKING:
     from reference.identification import Identification

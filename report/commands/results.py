@@ -13,7 +13,8 @@ import click
 
 from report.commands.options import json_option
 from report.commands.runner_options import store_option
-from report.commands.terminal import plain, show_table
+from report.commands.terminal import show_table
+from report.plain import plain
 
 #: Rows of results that are shown in the terminal.
 SHOWN = 40

@@ -7,7 +7,7 @@ from typing import Any
 
 from experiments.runs.results import MORE_COLUMNS, columns_of
 from reference.system import PARAMETERS
-from report.commands.terminal import plain
+from report.plain import plain
 
 #: Columns that are called otherwise by `springlab compare`.
 HEADINGS = {

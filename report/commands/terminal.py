@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.errors import InputError, SolverError
+from report.plain import plain
 
 if TYPE_CHECKING:  # these import NumPy, Numba and the engines' adapters: `springlab --help` does without
     from experiments.experiment import Experiment, Result, Table
@@ -64,15 +65,6 @@ def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]
     # A file or a pipe has no width of its own: give it that of a wide terminal.
     console.width = console.width if console.is_terminal else 160
     console.print(table)
-
-
-def plain(value: Any) -> str:
-    """A value as people read it: numbers to three figures, nothing as a dash."""
-    if value is None:
-        return "-"
-    if isinstance(value, float):
-        return f"{value:.3g}"
-    return str(value)
 
 
 def show_result(experiment: Experiment, result: Result) -> None:

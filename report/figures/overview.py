@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from report.figures import COLOURS, IDENTIFIED, MEASURED, Picture, from_nothing, new_figure, powers
-from report.page.overview import Explained
 
 #: Lengths that people know [m].
 KNOWN = {1e-3: "1 mm", 1e-6: "1 µm", 1e-10: "an atom", 1e-15: "a proton"}
@@ -18,6 +18,16 @@ NOTHING = 3e-17
 
 #: Up to here it is rounding [m]: what adding a thousand numbers of the size of 1 m leaves.
 ROUNDING = 1e-13
+
+
+@dataclass(frozen=True)
+class Explained:
+    """An engine setting: what it was identified as, and how far it is from the true motion and from that scheme [m]."""
+
+    engine: str
+    scheme: str | None
+    error: float
+    deviation: float
 
 
 def draw(engines: Sequence[Explained]) -> Picture:

@@ -3,24 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from reference.stepper import stepper_named
+from report.figures.overview import Explained
 from report.page.section import Section
 
 #: Units of length, the largest first [m].
 UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15}
-
-
-@dataclass(frozen=True)
-class Explained:
-    """An engine setting: what it was identified as, and how far it is from the true motion and from that scheme [m]."""
-
-    engine: str
-    scheme: str | None
-    error: float
-    deviation: float
 
 
 def explained(section: Section | None) -> list[Explained]:

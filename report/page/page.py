@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 from engines.engine import installed_version, registry
 from experiments.runs.environment import environment
-from report.commands.terminal import plain
 from report.figures import Picture
+from report.figures.overview import Explained
 from report.page import overview
 from report.page.engine_cards import Package, packages
 from report.page.inline_svg import dark_colours, inline
-from report.page.overview import Explained, explained
+from report.page.overview import explained
 from report.page.section import Section
+from report.plain import plain
 
 #: Findings that are shown, and rows of a table that is open; more is folded.
 FINDINGS, ROWS = 2, 12

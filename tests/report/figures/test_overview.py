@@ -5,8 +5,7 @@ from __future__ import annotations
 import pytest
 
 from report.figures import COLOURS
-from report.figures.overview import NOTHING, ROUNDING, draw
-from report.page.overview import Explained
+from report.figures.overview import NOTHING, ROUNDING, Explained, draw
 from tests.report.figures.artists import (
     cut_off,
     data,
