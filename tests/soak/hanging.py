@@ -17,7 +17,7 @@ from report.commands.runner_options import chosen_runner
 from tests.engines.process import misbehaving
 
 #: [s]: much longer than anybody waits.
-LONG = 30.0
+LONG = 300.0
 
 
 def main() -> None:

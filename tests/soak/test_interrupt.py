@@ -24,8 +24,8 @@ from tests.soak.stored import kept_in
 #: Runs of the sweep: some seconds of them.
 RUNS = 60
 
-#: After Ctrl-C the command has ended within [s].
-PATIENCE = 3.0
+#: After Ctrl-C the command has ended within [s]: on the busiest machine, and long before runs that hang are given up.
+PATIENCE = 60.0
 
 SWEEP = (
     *(sys.executable, "-m", "report.commands.main", "sweep", "string"),
