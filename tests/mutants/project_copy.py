@@ -10,10 +10,12 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
+
+import psutil
 
 from reference.cache import cache_folder
 from tests.mutants.mutations import Mutant
@@ -30,6 +32,9 @@ PASSED, NO_TESTS = 0, 5
 #: What a process ends with that has been stopped by a limit of time.
 OUT_OF_TIME = (-signal.SIGKILL, -signal.SIGXCPU)
 
+#: Tests that for so long use less than a second on a processor wait for ever [s].
+WAITS = 180.0
+
 
 @dataclass(frozen=True)
 class TestRun:
@@ -39,14 +44,12 @@ class TestRun:
         passed: all of them, or there were none.
         in_time: they ended before a limit of time.
         used: how long a processor worked for them, in all their processes [s].
-        lasted: how long they took by the clock [s].
         said: the last lines they printed.
     """
 
     passed: bool
     in_time: bool
     used: float
-    lasted: float
     said: str
 
 
@@ -73,10 +76,11 @@ class ProjectCopy:
         finally:
             self._write(file, source)
 
-    def run(self, tests: Sequence[str], options: Sequence[str], used: float, lasted: float) -> TestRun:
-        """Some test files, in this order, until the first failure or a limit of time, as in TestRun [s].
+    def run(self, tests: Sequence[str], options: Sequence[str], limit: float) -> TestRun:
+        """Some test files, in this order, until the first failure or until a process has used its limit [s].
 
-        Time on a processor is what tells an endless loop from a busy machine; only what waits for ever needs the clock.
+        Not by the clock: a machine that is busy with something else is no endless loop. What waits for ever is told by
+        its using no time at all.
 
         Raises:
             InterruptedError: once it is to stop.
@@ -84,8 +88,8 @@ class ProjectCopy:
         if self._stop.is_set():
             raise InterruptedError("stopped")
         pytest = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:randomly", "-p", "no:cacheprovider"]
-        limited = ["/bin/sh", "-c", f'ulimit -t {int(used) + 1} -d {MEMORY}; exec "$@"', "sh", *pytest]
-        output, begin = self._scratch / "output", time.monotonic()
+        limited = ["/bin/sh", "-c", f'ulimit -t {int(limit) + 1} -d {MEMORY}; exec "$@"', "sh", *pytest]
+        output = self._scratch / "output"
         with output.open("w") as file:
             process = subprocess.Popen(
                 [*limited, "--hypothesis-seed=0", *options, *tests],
@@ -96,19 +100,24 @@ class ProjectCopy:
                 stdin=subprocess.DEVNULL,
                 start_new_session=True,
             )
-            process.returncode, seconds = self._ended(process.pid, begin + lasted)
+            process.returncode, used = self._ended(process.pid)
         shutil.rmtree(self._root / ".hypothesis", ignore_errors=True)
         said = "\n".join(output.read_text(errors="replace").splitlines()[-8:])
         passed = process.returncode in (PASSED, NO_TESTS)
-        return TestRun(passed, process.returncode not in OUT_OF_TIME, seconds, time.monotonic() - begin, said)
+        return TestRun(passed, process.returncode not in OUT_OF_TIME, used, said)
 
-    def _ended(self, pid: int, deadline: float) -> tuple[int, float]:
-        """How a process ended, killed with its group at the deadline; and how long a processor worked for it [s]."""
+    def _ended(self, pid: int) -> tuple[int, float]:
+        """How a process ended, killed with its group if it is to stop or waits for ever; and what it used [s]."""
+        begin, before = time.monotonic(), 0.0
         while True:
             found, status, usage = os.wait4(pid, os.WNOHANG)
             if found:
                 return os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime
-            if self._stop.is_set() or time.monotonic() > deadline:
+            if time.monotonic() > begin + WAITS and _used(pid) < before + 1.0:
+                os.killpg(pid, signal.SIGKILL)
+            elif time.monotonic() > begin + WAITS:
+                begin, before = time.monotonic(), _used(pid)
+            if self._stop.is_set():
                 os.killpg(pid, signal.SIGKILL)
             time.sleep(0.05)
 
@@ -124,3 +133,11 @@ class ProjectCopy:
             "XDG_CACHE_HOME": str(self._cache),
             "TMPDIR": str(self._scratch),
         }
+
+
+def _used(pid: int) -> float:
+    """How long a processor has worked for a process and all it has started [s]."""
+    with suppress(psutil.NoSuchProcess):
+        root = psutil.Process(pid)
+        return sum(sum(process.cpu_times()[:4]) for process in [root, *root.children(recursive=True)])
+    return 0.0

@@ -24,10 +24,6 @@ FIRST, ALL = 8.0, 45.0
 #: A mutant is given this many times what its tests take without it, and this much besides [s on a processor].
 TIMES, BESIDES = 3.0, 20.0
 
-#: The same by the clock, where others use the machine too; and how long tests without a mutant may last [s].
-CLOCK_TIMES, CLOCK_BESIDES = 10.0, 60.0
-LONGEST = 1800.0
-
 
 @dataclass
 class Judge:
@@ -72,9 +68,9 @@ class Judge:
     def _verdict(self, copy: ProjectCopy, mutant: Mutant, near: Sequence[str]) -> Verdict:
         options = tuple(f"--engine={name}" for name in engines_of(mutant.file))
         verdict: Verdict = "not covered"
-        for batch, used, lasted in self._batches(copy, near, options):
+        for batch, used in self._batches(copy, near, options):
             with copy.mutated(mutant):
-                run = copy.run(batch, options, TIMES * used + BESIDES, CLOCK_TIMES * lasted + CLOCK_BESIDES)
+                run = copy.run(batch, options, TIMES * used + BESIDES)
             if not run.passed:
                 return "killed" if run.in_time else "timed out"
             verdict = "survived"
@@ -82,28 +78,28 @@ class Judge:
 
     def _batches(
         self, copy: ProjectCopy, near: Sequence[str], options: tuple[str, ...]
-    ) -> Iterator[tuple[list[str], float, float]]:
-        """The nearest tests up to FIRST, then the others up to ALL; with what each batch takes, as in TestRun [s]."""
+    ) -> Iterator[tuple[list[str], float]]:
+        """The nearest tests up to FIRST, then the others up to ALL; with what each batch takes [s]."""
         batch: list[str] = []
-        used, lasted, total, limit = 0.0, 0.0, 0.0, FIRST
+        used, total, limit = 0.0, 0.0, FIRST
         for test in near:
             run = self._unmutated(copy, test, options)
             if not run.passed or total + run.used > ALL:
                 continue
             batch.append(test)
-            used, lasted, total = used + run.used, lasted + run.lasted, total + run.used
+            used, total = used + run.used, total + run.used
             if total >= limit:
-                yield batch, used, lasted
-                batch, used, lasted, limit = [], 0.0, 0.0, ALL
+                yield batch, used
+                batch, used, limit = [], 0.0, ALL
         if batch:
-            yield batch, used, lasted
+            yield batch, used
 
     def _unmutated(self, copy: ProjectCopy, test: str, options: tuple[str, ...]) -> TestRun:
         """What comes of a test file without any mutant: what takes long is tried again, as it may have compiled."""
         key = (test, options)
         if key not in self._runs:
-            run = copy.run([test], options, 3 * ALL, LONGEST)
-            self._runs[key] = copy.run([test], options, ALL, LONGEST) if run.passed and run.used > FIRST else run
+            run = copy.run([test], options, 3 * ALL)
+            self._runs[key] = copy.run([test], options, ALL) if run.passed and run.used > FIRST else run
             if not run.passed and run.in_time:
                 self.failing[test] = run.said
         return self._runs[key]

@@ -66,13 +66,38 @@ def test_balance_fails_on_an_unstretched_string() -> None:
 
 @pytest.mark.parametrize("masses", [1, 2, 5, 10])
 def test_equilibrium_of_a_string_is_the_hanging_one(masses: int) -> None:
-    """Found by least energy and Newton's method from a slanted start, to 1e-11 of the size.
+    """In closed form, to the bit."""
+    system = find_scene("string").system({"masses": masses, "angle": 60.0})
+    assert equilibrium(system).positions.tolist() == hanging_string(system).positions.tolist()
+
+
+@pytest.mark.parametrize("masses", [1, 2, 5, 10])
+def test_least_energy_finds_where_a_string_hangs(masses: int) -> None:
+    """Numbered from below it is any mesh, found by least energy and Newton's method: to 1e-11 of the size.
 
     The softest swing resists with m g/l x_1/... ~ 0.05 N/m; forces balance to 1e-14 N.
     """
     system = find_scene("string").system({"masses": masses, "angle": 60.0})
-    found, straight = equilibrium(system), hanging_string(system)
-    assert np.abs(found.positions - straight.positions).max() < 1e-11 * system.size
+    backwards = system.renumbered(np.arange(masses + 1)[::-1])
+    assert not backwards.is_string
+    found, straight = equilibrium(backwards), hanging_string(system)
+    assert np.abs(found.positions[::-1] - straight.positions).max() < 1e-11 * system.size
+
+
+def test_a_string_hangs_along_gravity_whichever_way_that_is() -> None:
+    """L_j = L0_j + (m_{j+1} + ... + m_n) |g| / k_j along g/|g|: as under gravity downwards, turned. To 1e-11."""
+    system = find_scene("string").system({"masses": 4, "angle": 60.0, "gravity": 5.0})
+    tilted = replace(system, gravity=np.array([3.0, -4.0]))
+    turn = np.array([[0.8, -0.6], [0.6, 0.8]])
+    assert turn @ system.gravity == pytest.approx(tilted.gravity)
+    expected = hanging_string(system).positions @ turn.T
+    assert np.abs(equilibrium(tilted).positions - expected).max() < 1e-11 * system.size
+
+
+def test_a_string_that_one_spring_does_not_hold_has_no_equilibrium() -> None:
+    """What hangs on a spring without stiffness falls."""
+    with pytest.raises(SolverError, match="no equilibrium"):
+        equilibrium(find_scene("string").system({"masses": 3, "stiffness": [200.0, 0.0, 200.0]}))
 
 
 @pytest.mark.parametrize("seed", range(8))
