@@ -7,6 +7,8 @@ import pytest
 
 from engines.engine import find, version
 from engines.process.isolation import isolated
+from reference.obstacles import Plane
+from reference.scenes import find as find_scene
 
 DT = 1e-3
 
@@ -58,3 +60,17 @@ def test_masses_are_left_inside_unless_told() -> None:
     assert isinstance(out, float)
     assert 0.1 * np.sqrt(2 * 9.81 * 0.01) * DT < left < np.sqrt(2 * 9.81 * 0.01) * DT
     assert abs(out) <= 1.01 * 9.81 * DT**2 < left
+
+
+def test_a_plane_reaches_beyond_every_mass_however_far_its_point_is() -> None:
+    """The strip that stands for it goes on for LONG times the distance of the mass that is farthest from its point."""
+    import pymunk
+
+    from engines.pymunk.obstacles import LONG, _shape
+
+    system = find_scene("string").system({"masses": 3})
+    for point in ((0.0, -3.0), (200.0, -3.0)):
+        strip = _shape(pymunk, pymunk.Space().static_body, Plane(point, (0.0, 1.0)), system)
+        farthest = float(np.abs(system.positions - np.array(point)).max())
+        assert (strip.b - strip.a).length / 2 >= LONG * farthest
+        assert strip.radius >= LONG * farthest

@@ -100,3 +100,13 @@ def test_what_is_neither_swept_nor_an_engine_is_refused() -> None:
     x, y = Axis("dt", 1e-3, 1e-2), Axis("stiffness", 100.0, 200.0)
     with pytest.raises(InputError, match="lecture_heun_loops"):
         stability_map(listings()["lecture_heun_loops"], system_at, dt, x, y, resolution=2)
+
+
+def test_the_usual_range_of_an_axis_is_about_the_systems_first_spring_and_last_mass() -> None:
+    """From a twentieth to twice: of a string whose springs and masses differ."""
+    system = find_scene("string").system(
+        {"masses": 3, "rest_length": "0.1,0.2,0.3", "stiffness": "50,60,70", "mass": "1,2,3"}
+    )
+    for name, value in (("rest_length", 0.1), ("stiffness", 50.0), ("mass", 3.0)):
+        x, _ = axes_for((name, "dt"), {}, system)
+        assert (x.low, x.high) == pytest.approx((0.05 * value, 2 * value))

@@ -1,0 +1,35 @@
+"""What `springlab versions` prints and writes, of versions that are made up."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from report.commands.versions import _show
+from tests.experiments.engine_versions.spring_versions import LIMIT, MEASURED, subject
+
+
+def test_as_json_it_prints_what_was_measured_and_nothing_else(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The versions as they are, and each change with both numbers; its files are written too."""
+    assert _show([(subject(), MEASURED)], True, tmp_path) == 0
+    document = json.loads(capsys.readouterr().out)["spring"]
+    assert document["versions"] == dict(MEASURED.rows)
+    limits = [change for change in document["changes"] if change["measure"] == LIMIT]
+    assert [(c["from"], c["to"], c["before"], c["after"]) for c in limits][0] == ("1.9.0", "1.10.0", 0.01, 0.011)
+    assert json.loads((tmp_path / "spring.json").read_text(encoding="utf-8")) == document
+
+
+def test_in_words_it_prints_the_findings_and_the_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """No JSON; every file it names is there."""
+    assert _show([(subject(), MEASURED)], False, tmp_path) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    with pytest.raises(json.JSONDecodeError):
+        json.loads(printed)
+    files = printed.partition("written: ")[2].split(", ")
+    assert len(files) >= 3
+    for file in files:
+        assert Path(file).stat().st_size > 0
