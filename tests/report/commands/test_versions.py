@@ -18,8 +18,8 @@ def test_as_json_it_prints_what_was_measured_and_nothing_else(
     assert _show([(subject(), MEASURED)], True, tmp_path) == 0
     document = json.loads(capsys.readouterr().out)["spring"]
     assert document["versions"] == dict(MEASURED.rows)
-    limits = [change for change in document["changes"] if change["measure"] == LIMIT]
-    assert [(c["from"], c["to"], c["before"], c["after"]) for c in limits][0] == ("1.9.0", "1.10.0", 0.01, 0.011)
+    first = next(change for change in document["changes"] if change["measure"] == LIMIT)
+    assert [first[key] for key in ("from", "to", "before", "after")] == ["1.9.0", "1.10.0", 0.01, 0.011]
     assert json.loads((tmp_path / "spring.json").read_text(encoding="utf-8")) == document
 
 
