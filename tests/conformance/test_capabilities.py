@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import get_args
 
 import pytest
@@ -43,7 +44,10 @@ def test_an_engine_declares_known_capabilities_and_catalogued_schemes(engine: En
 
 
 def test_an_engine_says_what_its_numbers_mean_and_what_was_chosen(engine: Engine) -> None:
-    """Its semantics name stiffness, damping and drag; its settings are on record, and its precision."""
+    """Its semantics name stiffness, damping and drag, in SI units; its settings are on record, and its precision."""
     assert all(word in engine.semantics for word in ("stiffness", "damping", "drag"))
+    units = {"k": "N/m", "c": "N s/m", "Cd": "N s/m", "drag": "N s/m"}
+    for name, unit in re.findall(r"(\w+) \[([^\]]+)\]", engine.semantics):
+        assert unit == units[name]
     assert engine.settings
     assert precision(engine) in get_args(Precision)

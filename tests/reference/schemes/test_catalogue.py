@@ -5,13 +5,17 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
+import numpy as np
 import pytest
 
 from reference.errors import InputError
+from reference.forces import SpringMotion
 from reference.motion import Motion
+from reference.scenes import find as find_scene
 from reference.schemes import catalogue
 from reference.schemes.catalogue import Scheme, find, scheme, schemes
 from reference.state import State
+from tests.reference.systems import label
 
 
 def entered(**said: Any) -> Scheme:
@@ -62,3 +66,24 @@ def test_a_trial_leaves_nothing() -> None:
 def test_a_scheme_is_found_by_its_other_names(alias: str, name: str) -> None:
     """And is the same."""
     assert find(alias) is find(name)
+
+
+#: Each so large that an explicit step of 1 ms multiplies what it acts on by 300: c dt/m, Cd dt/m, k dt^2/m.
+STIFF = {"damping": 6e3, "drag": 6e3, "stiffness": 6e6}
+
+#: It takes of each spring's rate what decays in a step, by an exponential: that is bounded too, and solves nothing.
+BOUNDED_ALL_THE_SAME = find("drift_kick_sequential_damping")
+
+
+@pytest.mark.parametrize("known", schemes().values(), ids=label)
+def test_a_scheme_is_implicit_if_something_stiff_does_not_throw_it_far(known: Scheme) -> None:
+    """Explicit, v1 = (1 - 300) v0 or v0 - 300 x0/dt; implicit, |v1| <= v0 + 2 x0/dt = 21 m/s of what is solved for.
+
+    On a spring without gravity, x0 = 1 cm longer than at rest, at v0 = 1 m/s; 2 x0/dt is the midpoint rule's.
+    """
+    reached = []
+    for name, value in STIFF.items():
+        system = find_scene("spring").system({"stretch": 0.01, "velocity": 1.0, "gravity": 0.0, name: value})
+        end = known.on(SpringMotion(system))(system.start, 1e-3)
+        reached.append(float(np.abs(end.velocities).max()))
+    assert (min(reached) < 25.0) == (known.implicit or known == BOUNDED_ALL_THE_SAME), reached
