@@ -88,7 +88,7 @@ class ProjectCopy:
         if self._stop.is_set():
             raise InterruptedError("stopped")
         pytest = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:randomly", "-p", "no:cacheprovider"]
-        limited = ["/bin/sh", "-c", f'ulimit -t {int(limit) + 1} -d {MEMORY}; exec "$@"', "sh", *pytest]
+        limited = ["/bin/sh", "-c", f'ulimit -t {int(limit) + 1} && ulimit -d {MEMORY} && exec "$@"', "sh", *pytest]
         output = self._scratch / "output"
         with output.open("w") as file:
             process = subprocess.Popen(
