@@ -93,20 +93,6 @@ def test_energy_is_lost_or_gained_as_the_step(monkeypatch: pytest.MonkeyPatch) -
         assert gained[0] / gained[1] == pytest.approx(2.0, rel=0.1)
 
 
-def test_findings_are_made_from_the_slides() -> None:
-    """With other numbers, other sentences."""
-    found = {
-        ("heun", barrier.INWARDS): [Slide(0.5, 0.5, 0.0, 0.0)],
-        ("engine", barrier.OWN): [Slide(0.7, 0.7, 3e-3, 0.0)],
-    }
-    said = " ".join(barrier._findings(found))
-    assert f"heun, a rule that {barrier.INWARDS}, does at {np.degrees(0.5):.1f}" in said
-    assert f"Of 1 engine settings the one furthest from the true angle, engine, leaves at {np.degrees(0.7):.1f}" in said
-    assert "by 3.0e-03 m" in said
-    assert "printed" not in said
-    assert "does not leave" in said
-
-
 def test_the_experiment_runs_and_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without engines and with one step."""
     monkeypatch.setattr(barrier, "STEPS", (4e-3,))

@@ -13,7 +13,6 @@ from engines.process.isolation import EngineStepper
 from experiments import cost
 from experiments.benchmark.timing import Speeds, Timing
 from experiments.cost import ANCHOR, DTS, MASSES, Cost, Point
-from experiments.runs.environment import processor
 from reference.compiled.kernels import advance, arrays_of
 from reference.compiled.loops import Loops
 from reference.forces import SpringMotion
@@ -101,25 +100,6 @@ def made_up(name: str, seconds: float, error: float, runs_as: str = "kernel", id
     """A stepper whose steps all take so long [s], and whose runs all have that error [m]."""
     found = [Point(dt, round(cost.DURATION / dt) * seconds, error) for dt in DTS]
     return Cost(catalogued()[name], runs_as, identified_as or name, found, Speeds([seconds] * len(MASSES)))
-
-
-def test_findings_are_made_from_the_costs() -> None:
-    """An engine 30 times as slow as the anchor, off its scheme by 1 %; without it, that is what is said."""
-    costs = [made_up(ANCHOR, 1e-7, 1e-2), made_up("heun", 2e-7, 1e-4)]
-    alone = " ".join(cost.result_of(costs).findings)
-    assert "takes the kick_drift kernel 100 ns" in alone
-    assert "No engine ran." in alone
-    assert (
-        "The cheapest scheme that ends within 0.001 m of the true motion is heun, with dt = 0.008 s: 0.012 ms" in alone
-    )
-    assert "cheapest engine" not in alone
-    slow = made_up("drift_kick", 3e-6, 1.01e-2, "engine", ANCHOR)
-    result = cost.result_of([*costs, slow])
-    both = " ".join(result.findings)
-    assert "With 1000 masses engines take 30 (drift_kick) to 30 (drift_kick) times as long" in both
-    assert "to 1e-02 of them over 5 runs" in both
-    assert result.tables[0].rows[2][4] == pytest.approx(30)
-    assert processor() in result.tables[0].rows[0]
 
 
 def test_an_engine_that_crashes_or_is_not_there_is_a_failure_and_not_drawn() -> None:

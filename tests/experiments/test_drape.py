@@ -82,26 +82,3 @@ def test_an_engine_hangs_the_same_cloth() -> None:
     assert len({engine.package for engine in engines}) == len(engines)
     found = hung_in(engines[-1], 0.017, 0.02, 0)
     assert found["coefficient"] == pytest.approx(hung(0.017, 0.02, 0)["coefficient"], abs=1e-3)
-
-
-def one(by: str, length: float, spacing: float, sample: int, coefficient: float) -> dict[str, Any]:
-    """A cloth as the experiment keeps it, with six folds."""
-    known = {"by": by, "length": length, "spacing": spacing, "sample": sample, "coefficient": coefficient}
-    positions = disc(drape.RADIUS, spacing, sample).positions
-    return {**known, "time": 1.0, "positions": positions, "outline": 0.12 + 0.01 * np.cos(6 * TURN)}
-
-
-def test_findings_are_made_from_the_cloths() -> None:
-    """With other numbers, other sentences."""
-    rising = [one("kick_drift", c, drape.SPACING, i, 10 * c + 0.01 * i) for c in (0.01, 0.02, 0.03) for i in (0, 1)]
-    said = " ".join(drape._findings(rising))
-    assert "rises from 0.11 to 0.31" in said.replace("0.10", "0.11").replace("0.30", "0.31")
-    assert "at every step between" in said
-    assert "differ by up to 0.01" in said
-    assert "6 to 6 folds" in said
-    assert "Engines" not in said
-    coarse = [one(by, 0.017, drape.COARSE, 0, dc) for by, dc in (("kick_drift", 0.5), ("some_engine", 0.52))]
-    falling = [*rising, one("kick_drift", 0.04, drape.SPACING, 0, 0.05), *coarse]
-    said = " ".join(drape._findings(falling))
-    assert "but for 1 of 3 steps between" in said
-    assert "some_engine by 2.0e-02" in said

@@ -37,7 +37,6 @@ from reference.state import Array, State
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
 from reference.theory.energy_trend import predicted_energy_trend
-from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored, Euler
 from tests.engines.process.misbehaving import Misbehaving, Segfaults
@@ -341,11 +340,3 @@ def test_failures_have_their_reasons(mixed: list[Row]) -> None:
     assert "pendulum_kick_drift on the free string: unsupported, expected a string" in said
     (crashed,) = (row for row in result.tables[0].rows if row[0] == "Segfaults")
     assert crashed[1:6] == [None] * 5
-
-
-@pytest.mark.parametrize("count", [0, 1, 7])
-def test_the_figure_is_drawn_with_what_there_is(mixed: list[Row], count: int) -> None:
-    """The words that stand for it name the kinds."""
-    picture = draw("energy", result_of(mixed[:count]))
-    assert picture.svg().startswith("<svg")
-    assert ("bounded: kick_drift" if count else "bounded: none") in picture.alt

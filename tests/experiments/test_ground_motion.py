@@ -10,9 +10,7 @@ import pytest
 from experiments import ground_motion
 from experiments.ground_motion import (
     DT,
-    SPEEDS,
     SWEEP,
-    Ran,
     influence_line,
     middle,
     predicted_sway,
@@ -26,16 +24,6 @@ from reference.simulate import simulate
 from reference.state import Array
 from report.figures import draw
 from tests.reference.scenes.direct_stiffness import deflection
-
-LINEAR = 0.01 * np.exp(-((SWEEP.frequency(np.arange(5001) * DT) - 1.31) ** 2) / 1e-3)
-LINE = (np.array([0.0, 12.0, 24.0]), np.array([0.0, 0.08, 0.0]))
-
-
-def ran(frequency: float, sag: float, distance: float | None = None) -> Ran:
-    """Runs with the largest sway at a frequency, and a sag at every speed."""
-    times = np.arange(5001) * ground_motion.DT
-    sway = 0.01 * np.exp(-((SWEEP.frequency(times) - frequency) ** 2) / 1e-3)
-    return Ran(sway, {speed: np.full(50, sag) for speed in SPEEDS}, distance)
 
 
 def sways_as_predicted(bridge: Driven, linear: Array) -> bool:
@@ -72,21 +60,6 @@ def test_the_influence_line_is_that_of_direct_stiffness() -> None:
         expected = -deflection(alone)[4, 1]
         assert np.interp(place, positions, down) == pytest.approx(expected, rel=0.03)
         assert np.interp(place + 2, positions, down) != pytest.approx(expected, rel=0.03)
-
-
-def test_findings_are_made_from_the_numbers() -> None:
-    """With other numbers, other sentences."""
-    right, wrong = ran(1.3, 0.08, 1e-13), ran(1.8, 0.08, 2e-9)
-    said = " ".join(ground_motion._findings({"a": right}, LINEAR, LINE))
-    assert (
-        "shakes at 1.30 Hz, by 10.0 mm, measured in 1 runs. Predicted by the linear bridge: 1.31 Hz, 10.0 mm." in said
-    )
-    assert "sinks it by 80 mm" in said
-    assert "a goes furthest, 1.0e-13 m" in said
-    other = " ".join(ground_motion._findings({"a": right, "b": wrong}, LINEAR, LINE))
-    assert "at 1.30 to 1.80 Hz, by 10.0 mm, measured in 2 runs" in other
-    assert "b goes furthest, 2.0e-09 m" in other
-    assert not ground_motion._findings({}, LINEAR, LINE)
 
 
 @pytest.fixture

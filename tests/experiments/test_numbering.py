@@ -12,16 +12,14 @@ from engines.engine import version
 from engines.process.isolation import EngineStepper, run_engine
 from engines.pymunk.springs import PymunkSprings
 from experiments import numbering
-from experiments.numbering import Convergence, Row
-from experiments.runs.permutation import CHANGES, PermutationEffects, permutation_effects, permutations
+from experiments.runs.permutation import CHANGES, permutation_effects, permutations
 from reference.forces import SpringMotion
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import Scheme, find
 from reference.schemes.implicit_damping import spring_directions
 from reference.state import State
-from reference.stepper import SchemeStepper, Stepper, catalogued
+from reference.stepper import SchemeStepper, catalogued
 from reference.theory.gauss_seidel import convergence_factor
-from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored
 from tests.engines.process.misbehaving import Misbehaving, Segfaults
@@ -112,35 +110,6 @@ def test_the_difference_falls_by_what_a_round_leaves() -> None:
     few, many = (numbering.reversal(EngineStepper(PymunkSprings(rounds=n)), 20.0) for n in (30, 50))
     assert np.log(many / few) / 20 == pytest.approx(np.log(convergence_factor(system, 1e-3)), rel=0.1)
     assert np.log(many / few) / 20 != pytest.approx(np.log(convergence_factor(numbering.string(5.0), 1e-3)), rel=0.1)
-
-
-def row(stepper: Stepper, predicted: frozenset[str] | None, distances: dict[str, float], reason: str = "") -> Row:
-    """A row made up: what could not be run has the reason."""
-    missing = {change: reason for change in CHANGES if change not in distances}
-    return Row(stepper, numbering.DAMPINGS[0], predicted, PermutationEffects(distances, missing))
-
-
-ALL_SMALL = dict.fromkeys(CHANGES, 1e-16)
-
-
-def test_findings_are_made_from_the_rows() -> None:
-    """A scheme predicted not to see the springs' order that does, one not known, and one that could not run."""
-    euler, heun, rk4 = (catalogued()[name] for name in ("euler", "heun", "rk4"))
-    rows = [
-        row(euler, NONE, ALL_SMALL),
-        row(heun, NONE, {**ALL_SMALL, "springs reversed": 3e-4}),
-        row(rk4, None, {}, "unsupported, it is not installed"),
-    ]
-    result = numbering.result_of(rows, [Convergence(5.0, [np.nan] * len(numbering.ROUNDS), 0.1, None)] * 2)
-    said = " ".join(result.findings)
-    assert "In 1 of 2 runs it does not matter" in said
-    assert "With springs reversed heun differ by 3.0e-04 to 3.0e-04 m." in said
-    assert "predicted from the scheme in 1 of 2 runs; not for heun." in said
-    assert "masses renumbered" not in said
-    assert "Pymunk" not in said
-    assert result.failures[0] == "rk4, masses renumbered: unsupported, it is not installed"
-    assert [cells[2] for cells in result.tables[0].rows] == ["none", "springs", None]
-    assert draw("numbering", result).svg().startswith("<svg")
 
 
 def test_an_engine_that_crashes_or_is_not_there_or_takes_strings_only_says_so() -> None:

@@ -18,7 +18,6 @@ from reference.outcome import Outcome
 from reference.schemes.catalogue import Scheme, find
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper, catalogued
-from report.figures import draw
 from tests import wrong
 from tests.conformance.doctored import Doctored, Euler, StifferByAMillionth
 from tests.engines.process.misbehaving import Misbehaving, Segfaults, Still
@@ -191,12 +190,3 @@ def test_another_engine_that_lies_about_its_step_is_predicted_by_what_it_does(be
     row = measure(EngineStepper(Doctored(Euler)), benches)
     assert row.scheme is not None
     assert row.scheme.name == "euler"
-
-
-@pytest.mark.parametrize("count", [0, 2, 6])
-def test_the_figure_is_drawn_with_what_there_is(mixed: list[Row], count: int) -> None:
-    """The words that stand for it have the slopes."""
-    picture = draw("order", result_of(mixed[:count]))
-    assert picture.svg().startswith("<svg")
-    for row in mixed[:count]:
-        assert (f"{row.stepper.name} {row.slope:.2f}" if row.slope is not None else "Errors") in picture.alt

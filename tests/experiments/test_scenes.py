@@ -10,7 +10,6 @@ import pytest
 from experiments import scenes
 from experiments.experiment import Result
 from reference.identification import identify_run
-from reference.outcome import Outcome
 from reference.scenes import find
 from reference.stepper import catalogued
 
@@ -34,31 +33,12 @@ def of(*runs: scenes.Run) -> Result:
     return scenes.result_of(list(runs), {})
 
 
-def test_the_findings_are_made_from_the_numbers() -> None:
-    """Two identified, one a nanometre and more away; one unsupported, with its reason counted."""
-    run = ran("string", "heun")
-    cannot = replace(run, outcome=Outcome("unsupported", "heun cannot do flying"), compared=scenes.STEPS)
-    away = ran("string", "kick_drift", shift=3e-9)
-    found = " ".join(of(run, ran("spring", "kick_drift"), away, cannot).findings)
-    assert (
-        f"Of 3 engine runs of {scenes.STEPS} steps that meet no obstacle, 2 are a scheme of the catalogue to 1e-09 m"
-        in found
-    )
-    assert "Not identified: kick_drift on string, " in found
-    assert "1 of 4 runs are unsupported, for flying (1)." in found
-
-
 def test_who_meets_an_obstacle_is_counted_apart() -> None:
     """The barrier's string reaches the circle after 200 steps, not before."""
     assert not ran("barrier", "heun", 200).met_obstacle
     late = ran("barrier", "heun", 600)
     assert late.met_obstacle
     assert "Of 1 engine runs that meet an obstacle 0 are" in " ".join(of(ran("string", "heun"), late).findings)
-
-
-def test_without_engines_there_is_a_sentence() -> None:
-    """Nothing ran."""
-    assert of().findings == ["No engine ran on any scene that could be identified."]
 
 
 def test_the_motion_shown_is_the_scenes_from_start_to_end() -> None:

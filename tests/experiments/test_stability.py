@@ -13,15 +13,6 @@ def row(stepper: str, measured: Limit, predicted: Limit | None = None) -> Row:
     return Row(stepper, "engine", find("string").system({"masses": 2}), predicted or Limit(0.01), measured)
 
 
-def test_findings_are_made_from_the_numbers() -> None:
-    """A measured limit that is off by a tenth is told in the finding, and whose it is."""
-    first = result_of([row("near", Limit(0.01001)), row("far", Limit(0.011))]).findings[0]
-    assert "2 limits" in first
-    assert "1.0e-01" in first
-    assert "far" in first
-    assert "1.0e-03" in result_of([row("near", Limit(0.01001))]).findings[0]
-
-
 def test_the_table_has_an_engines_growth_factors_in_their_order() -> None:
     """Below the limit, then above it; empty where its step was not looked at."""
     (table,) = result_of([row("seen", Limit(0.01, factors=(0.9, 1.2))), row("unseen", Limit(0.01))]).tables

@@ -94,3 +94,8 @@ def full() -> Result:
     schemes = [row(name, kinds[i % 3], kinds[i % 3], size=0.7**i) for i, name in enumerate(catalogued())]
     engines = [row(scheme, "bounded", "bounded", engine=name) for name, scheme in SCHEME_OF.items()]
     return energy.result_of([*schemes, *engines])
+
+
+def nobody() -> Result:
+    """No stepper."""
+    return energy.result_of([])

@@ -55,3 +55,8 @@ def full() -> Result:
     """Every scheme and every engine: many lines of one order lie on one another."""
     schemes = [row(name) for name in catalogued()]
     return order.result_of([*schemes, *(row(scheme, engine=name) for name, scheme in SCHEME_OF.items())])
+
+
+def nobody() -> Result:
+    """No stepper."""
+    return order.result_of([])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from experiments.barrier import DURATION, START, STEPS, predicted
+from experiments.barrier import DURATION, INWARDS, START, STEPS, Slide, predicted, result_of
 from reference.conserved import energy
 from reference.scenes import find
 from tests.experiments.canned import barrier
@@ -61,3 +61,16 @@ def test_engines_have_their_farthest_and_their_deepest() -> None:
     said = finding(barrier.usual(), "engine settings")
     assert numbers(said) == pytest.approx([len(ENGINES), 46.0, 1e-5])
     assert in_order(said, "pymunk_springs", "46.0", "mujoco_flex", "1.0e-05")
+
+
+def test_who_does_not_leave_is_said_to() -> None:
+    """In the sentence of the true angle, of what is held on, and of the engines; nobody, of no engine."""
+    stays = Slide(None, 1.5, 0.0, 0.0)
+    slides = {key: [stays] * len(STEPS) for key in FOUND}
+    string = find("barrier").system({})
+    result = result_of(slides, string, {})
+    assert finding(result, "let go at rest").count("does not") == 2
+    assert "does not leave" in finding(result, "Slide 17's rule")
+    assert "leaves not at all" in finding(result, "engine settings")
+    nobody = result_of({("heun", INWARDS): [stays] * len(STEPS)}, string, {})
+    assert not [said for said in nobody.findings if "engine settings" in said or "printed" in said]

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from experiments.cost import ANCHOR, DT, DURATION, GOAL, MASSES
+from experiments.cost import ANCHOR, DT, DURATION, GOAL, MASSES, result_of
+from experiments.runs.environment import processor
 from tests.experiments.canned import cost
 from tests.experiments.canned.cost import STEP
 from tests.experiments.canned.reading import finding, in_order, numbers, records
@@ -72,3 +73,12 @@ def test_failures_are_who_did_not_run_and_who_did_not_come_far() -> None:
     failures = cost.usual().failures
     assert failures[0] == "Segfaults: crashed, killed by SIGSEGV"
     assert "bullet_softbody: a step would take some 1 s" in failures
+
+
+def test_without_engines_that_is_said() -> None:
+    """And no engine is the cheapest."""
+    ours = [priced for priced in cost.costs() if priced.runs_as != "engine"]
+    said = result_of(ours).findings
+    assert "No engine ran." in said
+    assert not [sentence for sentence in said if "cheapest engine" in sentence]
+    assert processor() in records(result_of(ours))[0]["processor"]

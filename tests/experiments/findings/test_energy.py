@@ -62,3 +62,9 @@ def test_failures_are_of_the_string_they_happened_on() -> None:
         "pendulum_kick_drift on the free string: unsupported, pendulum_kick_drift does not fly",
         "Segfaults on the free string: crashed, SIGSEGV",
     ]
+
+
+def test_without_a_stepper_there_is_a_sentence() -> None:
+    """And no row."""
+    assert len(energy.nobody().findings) == 1
+    assert records(energy.nobody()) == []

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from experiments.ground_motion import SPEEDS, peak
+from experiments.ground_motion import SPEEDS, peak, result_of
 from tests.experiments.canned import ground_motion
 from tests.experiments.canned.ground_motion import HIGH, PEAK, sway
 from tests.experiments.canned.reading import finding, in_order, numbers, records
@@ -64,6 +64,10 @@ def test_the_truck_s_sentence_has_the_most_of_each_speed() -> None:
 
 
 def test_the_engine_that_goes_farthest_from_its_scheme_is_named() -> None:
-    """Of one."""
-    said = finding(ground_motion.usual(), "with the schemes that they are")
-    assert (numbers(said), "mujoco_tendons" in said) == ([1, pytest.approx(2e-13)], True)
+    """Of two; and of none there is no sentence."""
+    usual = ground_motion.usual()
+    far = {"pymunk_springs": ground_motion.ran(1.3, 0.01, 0.0, 3e-9), **usual.data["rows"]}
+    predicted = [usual.data[name] for name in ("natural", "linear", "line")]
+    said = finding(result_of(far, *predicted), "with the schemes that they are")
+    assert (numbers(said), "pymunk_springs goes" in said) == ([2, pytest.approx(3e-9)], True)
+    assert ground_motion.nobody().findings == []

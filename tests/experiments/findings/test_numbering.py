@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
-from experiments.numbering import DAMPINGS, ROUNDS, ROUNDS_DAMPINGS
+from experiments.numbering import DAMPINGS, ROUNDS, ROUNDS_DAMPINGS, result_of
 from tests.experiments.canned import numbering
 from tests.experiments.canned.numbering import LEFT, START
 from tests.experiments.canned.reading import finding, in_order, numbers, records
@@ -64,3 +67,27 @@ def test_sentences_of_rounds_have_the_measured_factor_then_the_predicted() -> No
         expected = [damping, START * left, 1, START * left**10, 10, left, predicted]
         assert numbers(said) == pytest.approx(expected, rel=0.05)
         assert in_order(said, f"{left:.2f} of that", "predicted")
+
+
+def test_what_could_not_be_fitted_has_no_sentence() -> None:
+    """Pymunk, where it is not installed."""
+    nothing = [replace(c, distances=[np.nan] * len(ROUNDS), measured=None) for c in numbering.convergences()]
+    result = result_of(numbering.rows(), nothing)
+    assert not [said for said in result.findings if "Pymunk" in said]
+    assert {row["springs reversed [m]"] for row in records(result, "numbering_rounds")} == {None}
+
+
+def test_failures_have_their_reasons_once() -> None:
+    """The same with both dampings."""
+    assert [failure.partition(": ")[0] for failure in numbering.usual().failures] == [
+        "mujoco_cable, masses renumbered",
+        "mujoco_cable, springs reversed",
+    ]
+
+
+def test_who_is_not_as_predicted_is_named() -> None:
+    """One that should see nothing, and sees springs."""
+    wrong = numbering.row("heun", numbering.NONE, 0.0, 3e-4, DAMPINGS[0], 0.0)
+    said = finding(result_of([*numbering.rows(), wrong], numbering.convergences()), "predicted from the scheme")
+    assert numbers(said) == [6, 7]
+    assert said.endswith("not for heun.")

@@ -77,3 +77,9 @@ def test_of_straight_stretches_as_long_the_one_with_the_smallest_dt_is_taken() -
 def test_failures_are_who_did_not_come_to_an_end() -> None:
     """Not who could not be identified."""
     assert order.usual().failures == ["Segfaults: crashed, SIGSEGV"]
+
+
+def test_without_a_stepper_there_is_a_sentence() -> None:
+    """And no row."""
+    assert len(order.nobody().findings) == 1
+    assert records(order.nobody()) == []

@@ -61,3 +61,8 @@ def test_what_is_unsupported_is_counted_by_its_reason_and_no_failure() -> None:
     assert "for mesh (3)" in said
     assert len(scenes.usual().failures) == 3
     assert all(failure.startswith("Segfaults on ") for failure in scenes.usual().failures)
+
+
+def test_without_engines_there_is_a_sentence() -> None:
+    """Nothing ran."""
+    assert len(scenes.nothing().findings) == 1

@@ -8,10 +8,9 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
 from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.text import Text
 
 from experiments.experiment import NAMES
 from report.figures import draw, look, new_figure
@@ -20,9 +19,11 @@ from tests.report.figures.artists import (
     cut_off,
     hidden_by_legend,
     laid_out,
+    legend,
     out_of_sight,
     overlaps,
     unlabelled,
+    words,
 )
 from tests.report.figures.shown import result, shown
 
@@ -101,12 +102,18 @@ def test_a_figure_that_is_not_well_is_seen(what: str) -> None:
 
 
 def fingerprint(figure: Figure) -> list[object]:
-    """All words, and all lines and points with their places and colours."""
-    return [
-        *(text.get_text() for text in figure.findobj(Text)),
-        *((line.get_xydata().tolist(), line.get_color(), line.get_marker()) for line in figure.findobj(Line2D)),
-        *(points.get_offsets().tolist() for points in figure.findobj(PathCollection)),
-    ]
+    """The words in all axes, and the lines and points with their places and colours."""
+    found: list[object] = []
+    for axes in figure.get_axes():
+        found += [axes.get_title(loc="left"), axes.get_xlabel(), axes.get_ylabel(), words(axes), sorted(labels(axes))]
+        found += [(line.get_xydata().tolist(), line.get_color(), line.get_marker()) for line in axes.lines]
+        found += [points.get_offsets().tolist() for points in axes.collections if isinstance(points, PathCollection)]
+    return found
+
+
+def labels(axes: Axes) -> list[str]:
+    """What stands in the legend, if there is one."""
+    return [] if axes.get_legend() is None else [*legend(axes)]
 
 
 @pytest.mark.parametrize("name", RESULTS)
