@@ -20,7 +20,7 @@ from reference.theory.equilibria import Equilibrium
 
 
 def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
-    """J over the free positions, dt x velocities, and what a multistep scheme remembers: exactly where it can be computed so.
+    """J over the free positions, dt x velocities, and what a multistep scheme remembers: exactly where it can be.
 
     About an equilibrium of springs a scheme that is `linear` is given the linearised equations of motion and the
     identity matrix in place of a state, and its own function returns J. Others are differenced.
