@@ -1,7 +1,8 @@
 """The environments of other versions: each a folder in the user's cache, with its own Python, that version and NumPy.
 
 Of the lab it sees the rooms `reference` and `engines`, and nothing of what else is installed beside the lab. It is made
-by uv where there is one, else by venv and pip, and used again. What was not finished is never taken for an environment.
+by uv where there is one, else by venv and the pip beside the lab, and used again. What was not finished is never taken
+for an environment.
 """
 
 from __future__ import annotations
@@ -68,8 +69,10 @@ def _make(home: Path, package: str, version: str) -> None:
         _call(wanted, uv, "venv", "--quiet", "--clear", "--python", sys.executable, str(home))
         install = [uv, "pip", "install", "--quiet", "--python", python]
     else:
-        _call(wanted, sys.executable, "-m", "venv", str(home))
-        install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        # By the pip that is here: a new one in every environment would take longer than the rest.
+        _call(wanted, sys.executable, "-m", "venv", "--without-pip", str(home))
+        pip = [sys.executable, "-m", "pip", "--python", python]
+        install = [*pip, "install", "--quiet", "--disable-pip-version-check"]
     for numpy in NUMPY:
         _call(wanted, *install, wanted, numpy)
         if subprocess.run([python, "-c", f"import {package}"], capture_output=True, cwd=home).returncode == 0:

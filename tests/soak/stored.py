@@ -59,7 +59,8 @@ def check_same_rows(found: Iterable[Row], wanted: Iterable[Row]) -> None:
     assert not due.keys() - by_key.keys(), f"{len(due.keys() - by_key.keys())} rows are missing"
     assert not by_key.keys() - due.keys(), f"{len(by_key.keys() - due.keys())} rows are too many"
     for key, row in due.items():
-        assert by_key[key] == row
+        differ = {name: (by_key[key][name], value) for name, value in row.items() if by_key[key][name] != value}
+        assert not differ, f"{row['parameters']}: {differ}"
 
 
 def check_same_files(found: Mapping[str, bytes], wanted: Mapping[str, bytes]) -> None:

@@ -28,7 +28,7 @@ def task_of(number: int) -> Task:
     """One of them. Only a run that is to hang is given little time: a busy machine must not be taken for a hang."""
     wrong = faults.fault(number)
     hangs = wrong is not None and wrong.ending == "timed out"
-    patience = faults.PATIENCE if hangs else 60.0
+    patience = faults.PATIENCE if hangs else 600.0
     return Task(faults.run, (number,), {"number": number}, time_limit=patience, memory_limit=faults.MEMORY)
 
 

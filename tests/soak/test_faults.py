@@ -16,15 +16,10 @@ from experiments.runs.store import Store, outcome_of_answer
 from experiments.runs.task import Task
 from reference.outcome import Outcome
 from tests.soak import faults
-from tests.soak.children import Killer
+from tests.soak.children import kill_one
 from tests.soak.conftest import Size
 from tests.soak.stored import check_accounted_for, check_answer, check_rows_due, check_same_rows, rows
 from tests.soak.sweep import task_of
-
-#: Between two kills [s]: of all runs, and of those that are quick. Were it as short for all, no run that hangs for half
-#: a second would live to be timed out: with two processes to choose from and T = 0.65 s between kills, one is killed
-#: before its time with the probability 1 - exp(-0.5 / 2 T) = 0.32, and ten times over with 1e-5.
-PAUSE, SHORT_PAUSE = (0.1, 1.2), (0.05, 0.2)
 
 #: Runs that take half a second.
 SLOW = ("no answer", "took more")
@@ -36,32 +31,37 @@ def processes(random: Random) -> list[int]:
     return [server] if server is not None and random.random() < 0.1 else supervisor().pids()
 
 
-def sweep(store: Path, numbers: Sequence[int], pause: tuple[float, float]) -> int:
-    """Do runs while processes are killed: how many kills there were."""
+def sweep(store: Path, numbers: Sequence[int], kills: int) -> None:
+    """Do runs while processes are killed: this number of kills, each at once after one of the answers, at random.
+
+    One in the middle of its run is hit as often as not. No clock has a part in it, so that a machine may be as busy as
+    it likes; and with fewer kills than a run is tried again after, or few for the time that it takes, none is given up.
+    """
     kept, random, begin = Store(store), Random(3), time.perf_counter()
-    runner = Runner(LocalExecutor(2), kept)
-    with Killer(lambda: processes(random), pause) as killer:
-        for _ in runner.answers(map(task_of, numbers)):
-            pass
+    due = {*random.sample(range(len(numbers) - len(numbers) // 5), kills)}
+    runner, owed = Runner(LocalExecutor(2), kept), 0
+    for count, _ in enumerate(runner.answers(map(task_of, numbers))):
+        owed += count in due
+        if owed and kill_one(processes(random), random):
+            owed -= 1
     seconds = time.perf_counter() - begin
     kept.close()
-    print(f"\n{len(numbers)} runs, {killer.kills} kills, {seconds:.1f} s: {len(numbers) / seconds:.0f} runs/s")
-    assert runner.done == len(numbers)
-    return killer.kills
+    print(f"\n{len(numbers)} runs, {kills} kills, {seconds:.1f} s: {len(numbers) / seconds:.0f} runs/s")
+    assert (runner.done, owed) == (len(numbers), 0)
 
 
 def test_every_run_is_accounted_for_though_processes_are_killed(tmp_path: Path, size: Size) -> None:
     """A row for each run, with its own outcome and reason and nobody else's; good answers are equal bit for bit."""
     store = tmp_path / "store.sqlite"
-    assert sweep(store, range(size.runs), PAUSE) >= size.kills // 2
+    sweep(store, range(size.runs), size.kills)
     check_accounted_for(store, range(size.runs))
 
 
 def test_every_quick_run_is_accounted_for_though_processes_are_killed_all_the_time(tmp_path: Path, size: Size) -> None:
-    """As above, with many more kills."""
+    """As above, with a kill after every eighth answer."""
     store = tmp_path / "store.sqlite"
     quick = [number for number in range(size.runs) if not faults.due(number)[1].startswith(SLOW)]
-    assert sweep(store, quick, SHORT_PAUSE) >= 2 * size.kills
+    sweep(store, quick, len(quick) // 8)
     check_accounted_for(store, quick)
 
 

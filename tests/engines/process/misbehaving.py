@@ -9,6 +9,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -91,9 +92,11 @@ def die_in_mid_sentence() -> NoReturn:
 
 
 def crash_and_leave_a_child() -> NoReturn:
-    """Fork a child that lives on for 10 s, holding the pipe open, and abort."""
+    """Fork a child that lives on as long as the folder it works in, holding the pipe open, and abort."""
     if os.fork() == 0:
-        time.sleep(10)
+        with suppress(FileNotFoundError):
+            while os.getcwd():
+                time.sleep(0.05)
         os._exit(0)
     os.abort()
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from engines.process.isolation import EngineStepper, isolated
+from engines.process.isolation import TIME_LIMIT, EngineStepper, isolated
 from reference.outcome import Outcome
 from reference.scenes import find
 from tests.engines.process import misbehaving
@@ -21,7 +21,7 @@ from tests.engines.process.misbehaving import Misbehaving
 STRING = find("string").system({"masses": 3})
 
 #: [s], for what must hang; everything else ends long before its limit of 60 s.
-PATIENCE = 1.0
+PATIENCE = 0.3
 
 #: Meshes that Bullet does not survive: a triangle with no area, one with a corner twice, one with a corner that is not
 #: there.
@@ -58,8 +58,8 @@ def test_a_crash_is_an_outcome_that_names_its_cause(
 
 
 def test_a_crash_is_noticed_though_a_child_of_the_process_lives_on() -> None:
-    """The child holds the pipe open for longer than the time limit: waiting for the pipe alone would time out."""
-    outcome = isolated(misbehaving.crash_and_leave_a_child, time_limit=5.0)
+    """The child holds the pipe open until the process is done with: waiting for the pipe alone would time out."""
+    outcome = isolated(misbehaving.crash_and_leave_a_child)
     assert (outcome.ending, outcome.reason) == ("crashed", "killed by SIGABRT")
 
 
@@ -74,7 +74,7 @@ def test_a_crash_is_noticed_though_a_child_of_the_process_lives_on() -> None:
 def test_a_hang_is_timed_out(task: Callable[..., Outcome], arguments: tuple[Any, ...]) -> None:
     """When the time limit is up, and it is named."""
     outcome = isolated(task, *arguments, time_limit=PATIENCE)
-    assert (outcome.ending, outcome.reason) == ("timed out", "no answer within 1 s")
+    assert (outcome.ending, outcome.reason) == ("timed out", "no answer within 0.3 s")
 
 
 def test_a_process_that_shouts_is_heard_out() -> None:
@@ -114,7 +114,7 @@ def test_a_crash_leaves_no_process_and_the_next_run_is_well() -> None:
     ("simulation", "ending", "reason"),
     [
         (misbehaving.Segfaults, "crashed", "killed by SIGSEGV"),
-        (misbehaving.Hangs, "timed out", "no answer within 1 s"),
+        (misbehaving.Hangs, "timed out", "no answer within 0.3 s"),
         (misbehaving.GoesToNan, "diverged", "the position of mass 2 is not a number at t = 0.003 s"),
         (misbehaving.Raises, "crashed", "ZeroDivisionError: mass 3 is zero"),
         (misbehaving.Still, "done", ""),
@@ -124,7 +124,8 @@ def test_an_engine_that_fails_is_a_stepper_with_that_outcome(
     simulation: type[misbehaving.Still], ending: str, reason: str
 ) -> None:
     """Nothing an engine does is raised."""
-    outcome = EngineStepper(Misbehaving(simulation), PATIENCE).run(STRING, 1e-3, 10)
+    limit = PATIENCE if ending == "timed out" else TIME_LIMIT
+    outcome = EngineStepper(Misbehaving(simulation), limit).run(STRING, 1e-3, 10)
     assert outcome.ending == ending
     assert outcome.reason.startswith(reason)
 

@@ -26,8 +26,11 @@ from tests.soak.children import check_all_end
 
 ROOT = Path(__file__).parents[3]
 
-#: [s], and [bytes].
-LONG, MUCH = 60.0, 4 * 2**30
+#: [s], and [bytes]: what nothing comes near to.
+LONG, MUCH = 600.0, 4 * 2**30
+
+#: What is waited for is there after this time [s], however busy the machine is.
+PATIENCE = 60.0
 
 
 class Asked(Supervisor):
@@ -58,7 +61,7 @@ def asked(request: pytest.FixtureRequest) -> Iterator[Asked]:
 
 def lines(file: Path, count: int) -> list[int]:
     """The numbers noted in a file, as soon as there are so many."""
-    deadline = time.monotonic() + 20
+    deadline = time.monotonic() + PATIENCE
     while not file.exists() or file.read_text().count("\n") < count:
         assert time.monotonic() < deadline
         time.sleep(0.01)
@@ -151,34 +154,26 @@ def test_a_signal_is_named_even_one_that_has_no_name(asked: Asked, number: int, 
 
 
 def test_those_who_wait_are_interrupted_by_stop_and_new_tasks_are_done(asked: Asked) -> None:
-    """Within a second, not at the end of their limit of 60 s; and no process is left."""
+    """At once, not at the end of their limit of ten minutes; and no process is left."""
     asked.ask(used.pid)
     with ThreadPoolExecutor() as pool:
         waiting = [pool.submit(asked.ask, misbehaving.hang) for _ in range(2)]
         while len(asked.pids()) < 2:
             time.sleep(0.01)
         processes = [psutil.Process(pid) for pid in asked.pids()]
-        begin = time.monotonic()
         asked.stop()
         for future in waiting:
             with pytest.raises(InterruptedError):
-                future.result()
-        assert time.monotonic() - begin < 5
+                future.result(PATIENCE)
     assert asked.pids() == []
     check_all_end(processes)
     assert asked.ask(misbehaving.fine) == Outcome("done")
 
 
-def test_threads_have_processes_of_their_own_at_once(asked: Asked) -> None:
-    """Four tasks side by side are in four processes; afterwards these are used again."""
-    meeting = threading.Barrier(4)
-
-    def ask(_: int) -> int:
-        meeting.wait()
-        return int(asked.ask(used.pid, 0.5))
-
+def test_threads_have_processes_of_their_own_at_once(asked: Asked, tmp_path: Path) -> None:
+    """Four tasks that wait for one another are in four processes; afterwards these are used again."""
     with ThreadPoolExecutor(4) as pool:
-        pids = set(pool.map(ask, range(4)))
+        pids = set(pool.map(lambda _: asked.ask(used.gather, tmp_path, 4), range(4)))
     assert len(pids) == 4
     assert pids == set(asked.pids())
     assert asked.ask(used.pid) in pids

@@ -32,9 +32,16 @@ def crash_if_marked() -> int:
     return os.getpid()
 
 
-def pid(seconds: float = 0.0) -> int:
-    """Say which process this is, after a while."""
-    time.sleep(seconds)
+def pid() -> int:
+    """Say which process this is."""
+    return os.getpid()
+
+
+def gather(folder: Path, count: int) -> int:
+    """Say which process this is, once this number of processes are in a folder at once."""
+    (folder / str(os.getpid())).touch()
+    while len(list(folder.iterdir())) < count:
+        time.sleep(0.01)
     return os.getpid()
 
 
