@@ -44,8 +44,9 @@ class DaskExecutor:
             raise InputError("--cluster: Dask is not installed; expected the extra springlab[cluster]") from None
         if not re.fullmatch(r"(tcp|tls)://[^\s:/]+:\d+", address):
             raise InputError(f"--cluster {address!r}: expected tcp://HOST:PORT of a Dask scheduler")
-        # Of a lost scheduler it would log a traceback; that it is lost is ours to say, below.
-        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
+        # Of a lost scheduler it would log lines and a traceback; that it is lost is ours to say, below.
+        for name in ("distributed", "distributed.client"):
+            logging.getLogger(name).setLevel(logging.CRITICAL)
         self._address, self._lost = address, (dask.KilledWorker,)
         try:
             self._client = dask.Client(address, timeout=PATIENCE, set_as_default=False)
