@@ -12,7 +12,7 @@ from experiments.limits.stability_map import StabilityMap
 
 def field(stepper: str = "heun", other: str = "drag", limit: float = 0.01, offset: float = 0.0) -> StabilityMap:
     """10 % growth a step beyond dt = limit + offset [s], 10 % decay below; predicted at the limit."""
-    x, y = Axis("dt", 0.0, 2 * limit), Axis(other, 0.0, 1.0)
+    x, y = Axis("dt", 0.0, 2 * limit), Axis(other, 0.1, 1.0)
     xs, ys = x.values(40), y.values(10)
     growth = np.where(xs > limit + offset, 0.1, -0.1) * np.ones((len(ys), 1))
     boundary = np.column_stack([np.full(10, limit), ys])

@@ -58,6 +58,7 @@ def test_shadows_are_the_outlines_with_disc_and_flat_cloth() -> None:
         (disc,), (flat,) = marks(axes, linestyle="-"), marks(axes, linestyle=":")
         for circle, radius in ((disc, SUPPORT), (flat, RADIUS)):
             assert np.hypot(*data(circle)) == pytest.approx(np.full(len(data(circle)[0]), 1e3 * radius))
+        assert axes.get_title().endswith(" folds of 10 mm")
         assert numbers(axes.get_title()) == pytest.approx([coefficient(length), 6, 1e3 * AMPLITUDE], abs=0.005)
 
 

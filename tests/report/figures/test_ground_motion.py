@@ -69,6 +69,8 @@ def test_lines_of_the_truck_are_sags_in_millimetres_at_its_position() -> None:
             assert sags == pytest.approx(1e3 * ran.crossed[speed])
             assert places == pytest.approx(speed * DT * np.arange(len(sags)))
         assert found[0].get_label() == f"crosses at {speed:g} m/s, {len(rows)} steppers"
+        each = [drawn.get_markevery() for drawn in found]
+        assert len(set(each)) == len(each)  # their markers are not over one another
     bottom, top = crossed().get_ylim()
     assert bottom > top
 

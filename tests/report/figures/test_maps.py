@@ -11,7 +11,7 @@ from matplotlib.colors import SymLogNorm
 from matplotlib.contour import ContourSet
 
 from report.figures import BLACK_ON_COLOURS
-from report.figures.stability_map import LEAST, MOST, draw_map, words
+from report.figures.stability_map import MOST, draw_map, words
 from tests.experiments.canned.maps import field, plane
 from tests.report.figures.artists import data
 from tests.report.figures.shown import result, shown
@@ -49,9 +49,15 @@ def test_colours_are_the_growth_and_the_line_the_prediction() -> None:
         assert red > 2 * blue
     assert bar.get_ylabel() == "measured growth in a step [1]"
     labels = dict(zip(bar.get_yticks(), (label.get_text() for label in bar.get_yticklabels()), strict=True))
-    assert labels[MOST] == "5 % or more"
-    assert labels[-MOST] == "-5 % or less"
-    assert labels[LEAST] == "0.1 %"
+    assert labels == {
+        -0.05: "-5 % or less",
+        -0.01: "-1 %",
+        -0.001: "-0.1 %",
+        0.0: "0",
+        0.001: "0.1 %",
+        0.01: "1 %",
+        0.05: "5 % or more",
+    }
 
 
 def test_growth_is_at_its_place() -> None:

@@ -66,6 +66,7 @@ def test_lines_are_the_differences_by_rounds_and_dotted_what_is_predicted() -> N
         assert x[0] == 10
         assert y[0] == rows[ROUNDS.index(10)]["springs reversed [m]"]
         assert y[1:] / y[:-1] == pytest.approx(np.full(len(y) - 1, predicted))
+        assert x[-1] == ROUNDS[-1] or y[-1] * predicted <= result("numbering").data["rounding"] < y[-1]
         note = text(right(), f"damping {damping:g} N s/m")
         assert numbers(note.get_text())[-1] == predicted
         assert note.xy[0] == x[-1]
