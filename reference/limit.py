@@ -3,18 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isinf
+from typing import Literal
+
+#: How sure a limit is: proved up to rounding; from eigenvalues or runs; or known only to lie between two values.
+Certainty = Literal["certified", "computed", "between"]
 
 
 @dataclass(frozen=True)
 class Limit:
-    """Up to which dt perturbations do not grow.
+    """Up to which dt perturbations do not grow: the first limit, from short steps on.
 
     Attributes:
-        dt: the limit [s]; None where there is none.
+        dt: the limit [s]; None where there is none. Of a limit between two values the lower one.
         reason: why there is none; empty where there is one.
         growth: where perturbations grow at any dt, how much they do in a step of a tenth of the fastest mode's 1/w.
         factors: the growth factors of the step just below and just above the limit, where they were looked at.
         grows_beyond: whether perturbations were seen to grow beyond the limit; None where that was not looked at.
+        certainty: how sure it is.
+        at_most: the upper one of two values between which the limit lies [s].
+        windows: where above the limit a step is stable again: (from, to) [s], rising; the last may have no end.
     """
 
     dt: float | None
@@ -22,3 +30,24 @@ class Limit:
     growth: float | None = None
     factors: tuple[float, float] | None = None
     grows_beyond: bool | None = None
+    certainty: Certainty = "computed"
+    at_most: float | None = None
+    windows: tuple[tuple[float, float], ...] = ()
+
+    @property
+    def exact(self) -> bool:
+        """Whether there is a limit, and it is one value."""
+        return self.dt is not None and self.certainty != "between"
+
+    @property
+    def remark(self) -> str:
+        """What there is to say besides the value, in a few words; empty where there is nothing."""
+        words = [self.reason] if self.reason else []
+        if self.certainty == "between" and self.dt is not None and self.at_most is not None:
+            words.append(f"between {self.dt:.6g} and {self.at_most:.6g} s")
+        words += [f"stable again {_window(*window)}" for window in self.windows]
+        return "; ".join(words)
+
+
+def _window(low: float, high: float) -> str:
+    return f"from {low:.4g} s on" if isinf(high) else f"from {low:.4g} to {high:.4g} s"

@@ -36,7 +36,7 @@ class Equilibrium:
 def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
     """Where a mesh of springs comes to rest. Raises SolverError if it never does."""
     free = ~system.fixed
-    return Equilibrium(SpringMotion(system), equilibrium(system), free, float(system.rest_lengths.min()))
+    return Equilibrium(SpringMotion(system), equilibrium(system), free, float(system.rest_lengths.min(initial=system.size or 1.0)))
 
 
 def pendulum_equilibrium(system: MassSpringSystem) -> Equilibrium:

@@ -1,9 +1,13 @@
-"""The equilibrium of a large mesh: its energy goes downhill by sparse steps, then Newton's method to rounding.
+"""The stable equilibrium of a mesh: its energy goes downhill by sparse steps, then Newton's method to rounding.
 
 A step s solves (K + mu) s = F with F the forces, K their derivative and mu [N/m] as much as it takes: with little of it
 a step is Newton's, with much it is short and straight downhill. (Levenberg, Quart. Appl. Math. 2 (1944); Nocedal and
 Wright, *Numerical Optimization* (2006), 4.1 for when to trust it.) Springs in compression would make K indefinite, and
-downhill might be up: what they give across themselves is left out of it until the end is near.
+downhill might be up: what they give across themselves is left out of it until no force is above the
+mean load of a mass.
+
+Where it ends forces balance; but they balance on a ridge, too. So the eigenvalues of K are counted: if one is negative,
+the system is pushed along its eigenvector, to either side, and goes on downhill.
 """
 
 from __future__ import annotations
@@ -13,33 +17,46 @@ from typing import Any
 import numpy as np
 
 from reference.assembly import Blocks, assemble, spring_blocks
-from reference.conserved import energy
 from reference.errors import SolverError
 from reference.forces import SpringMotion
+from reference.spring_law import elastic_energy
 from reference.state import Array, State
 from reference.system import MassSpringSystem
+from reference.theory.inertia import negative_eigenvalues
+from reference.theory.parts import loads, parts_of
 
-#: Downhill as long as a force is above this part of the weight; a few steps of Newton's do the rest.
+#: Downhill as long as a force is above this part of all forces; a few steps of Newton's do the rest.
 NEAR = 1e-6
-
-#: So many times its size: whatever goes further away is held by nothing.
-FAR = 1e3
 
 #: So many steps downhill; a cloth of 4,000 masses takes some hundred.
 MOST_STEPS = 2_000
 
+#: An eigenvalue of K that is this little below zero, as a part of its largest entry, is zero but for rounding.
+FLAT = 1e-9
+
+#: How far a system is pushed off a ridge, as a part of its size; and how often.
+PUSH, MOST_PUSHES = 1e-3, 40
+
 
 def least_energy(system: MassSpringSystem) -> State:
-    """The state at rest where forces balance, reached downhill from the start. Of any size; memory as the springs.
+    """The state at rest where forces balance and every push comes back, downhill from the start.
+
+    Parts that nothing holds are at rest among themselves, in the frame that falls with them (`parts`).
 
     Raises:
-        SolverError: if there is none in reach.
+        SolverError: if it is not reached, and what could be done.
     """
     search = _Search(system)
-    q = search.newton(search.downhill(system.positions[~system.fixed].ravel()))
-    if not np.abs(search.force(q)).max() < force_tolerance(system, search.weight):
-        raise SolverError("no equilibrium: the forces do not balance anywhere near the start")
-    return search.at(q)
+    q = system.positions[~system.fixed].ravel()
+    for _ in range(MOST_PUSHES):
+        q = search.newton(search.downhill(q))
+        if not np.abs(search.force(q)).max(initial=0.0) < force_tolerance(system, search.weight):
+            raise SolverError("no equilibrium: the forces do not balance anywhere near the start")
+        away = search.downwards(q)
+        if away is None:
+            return search.at(q)
+        q = search.pushed(q, away)
+    raise SolverError(f"no equilibrium: after {MOST_PUSHES} pushes off ridges of the energy it is still on one")
 
 
 def force_tolerance(system: MassSpringSystem, weight: float) -> float:
@@ -53,9 +70,13 @@ class _Search:
 
     def __init__(self, system: MassSpringSystem) -> None:
         self._system = system
-        self._motion = SpringMotion(system)
+        self._motion = SpringMotion(system.with_parameter("gravity", np.zeros(system.dimension)))
         self._free = ~system.fixed
-        self.weight = float((system.masses[:, None] * np.abs(system.gravity)).sum()) or 1.0
+        self._loads = loads(system, parts_of(system))[self._free].ravel()
+        tension = np.abs(self._motion.acceleration(system.start, damping=False)) * system.masses[:, None]
+        # what forces are small against: what is carried, what the start pulls with, a millionth of what springs can
+        firm = 1e-6 * float((system.stiffness * system.rest_lengths).max(initial=0.0))
+        self.weight = max(float(np.abs(self._loads).sum()), float(tension.sum()), firm) or 1.0
 
     def at(self, q: Array) -> State:
         """The state at rest there."""
@@ -65,38 +86,58 @@ class _Search:
 
     def force(self, q: Array) -> Array:
         """On the free masses [N]."""
-        forces = self._motion.acceleration(self.at(q)) * self._system.masses[:, None]
-        return np.asarray(forces[self._free].ravel())
+        forces = self._motion.acceleration(self.at(q), damping=False) * self._system.masses[:, None]
+        return np.asarray(forces[self._free].ravel() + self._loads)
+
+    def energy(self, q: Array) -> float:
+        """Of the springs, and of what they carry [J]."""
+        x = self.at(q).positions
+        a, b = self._system.springs.T
+        stretch = np.linalg.norm(x[b] - x[a], axis=1) - self._system.rest_lengths
+        return float(elastic_energy(self._system.stiffness, stretch).sum() - self._loads @ q)
 
     def downhill(self, q: Array) -> Array:
         """Coordinates where forces nearly balance, with less energy than those given."""
-        start, mu = q, self.weight / self._system.size
-        height = energy(self._system, self.at(q))
+        mu, height = self.weight / self._system.size, self.energy(q)
+        near = max(NEAR * self.weight, force_tolerance(self._system, 0.0))
         for _ in range(MOST_STEPS):
             force = self.force(q)
-            if np.abs(force).max() < NEAR * self.weight:
-                break
-            stiffness = self._stiffness(q, tension_only=True)
+            largest = np.abs(force).max(initial=0.0)
+            if largest < near:
+                return q
+            stiffness = self._stiffness(q, tension_only=largest > self.weight / len(self._free))
             step = _solve(stiffness, mu, force)
             promised = force @ step - step @ (stiffness @ step) / 2
-            there = energy(self._system, self.at(q + step))
-            kept = (height - there) / promised
+            there = self.energy(q + step)
+            kept = (height - there) / abs(promised) if promised else 0.0
             if kept > 0.1:
                 q, height = q + step, there
-            if np.abs(q - start).max() > FAR * self._system.size:
-                raise SolverError("no equilibrium: some of the system falls for ever")
             mu *= 0.25 if kept > 0.5 else 1.0 if kept > 0.1 else 4.0
-        return q
+        raise SolverError(f"no equilibrium was reached in {MOST_STEPS} steps downhill: start the scene nearer to it")
 
     def newton(self, q: Array) -> Array:
         """The same to rounding; a trace of mu lets what no force holds stay where it is."""
         for _ in range(30):
             stiffness = self._stiffness(q)
-            change = _solve(stiffness, 1e-13 * abs(stiffness).max(), self.force(q))
+            change = _solve(stiffness, 1e-13 * (abs(stiffness).max() or 1.0), self.force(q))
             q = q + change
-            if np.abs(change).max() < 1e-14 * self._system.size:
+            if np.abs(change).max(initial=0.0) < 1e-14 * self._system.size:
                 break
         return q
+
+    def downwards(self, q: Array) -> Array | None:
+        """The direction in which the energy falls off a ridge, shape as q; None where all pushes come back."""
+        stiffness = self._stiffness(q)
+        flat = FLAT * float(abs(stiffness).max() or 1.0)
+        shifted = stiffness + flat * _identity(len(q))
+        if negative_eigenvalues(shifted) == 0:
+            return None
+        return _lowest_eigenvector(stiffness)
+
+    def pushed(self, q: Array, away: Array) -> Array:
+        """Off the ridge, along the direction and to the side where the energy is less."""
+        push = PUSH * self._system.size * away / np.abs(away).max()
+        return min(q + push, q - push, key=self.energy)
 
     def _stiffness(self, q: Array, tension_only: bool = False) -> Any:
         blocks, _ = spring_blocks(self._system, self.at(q))
@@ -116,11 +157,26 @@ def _without_compression(system: MassSpringSystem, state: State, springs: Array)
     return np.asarray(springs - pushing[:, None, None] * across)
 
 
-def _solve(matrix: Any, mu: float, right: Array) -> Array:
+def _identity(size: int) -> Any:
     from scipy.sparse import diags_array
+
+    return diags_array(np.ones(size))
+
+
+def _lowest_eigenvector(matrix: Any) -> Array:
+    """Of a sparse symmetric matrix."""
+    if matrix.shape[0] <= 200:
+        return np.asarray(np.linalg.eigh(matrix.toarray())[1][:, 0])
+    from scipy.sparse.linalg import eigsh
+
+    start = np.random.default_rng(0).normal(size=matrix.shape[0])
+    return np.asarray(eigsh(matrix, 1, which="SA", v0=start, tol=1e-3)[1][:, 0])
+
+
+def _solve(matrix: Any, mu: float, right: Array) -> Array:
     from scipy.sparse.linalg import splu
 
     # symmetric: a pattern that is kept so fills in less
-    whole = (matrix + diags_array(np.full(len(right), mu))).tocsc()
+    whole = (matrix + mu * _identity(len(right))).tocsc()
     solved = splu(whole, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
     return np.asarray(solved.solve(right))

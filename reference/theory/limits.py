@@ -1,32 +1,44 @@
 """Stability, predicted: up to which dt perturbations of an equilibrium do not grow under a scheme.
 
 They do not while all eigenvalues of the step map's Jacobian lie within the unit circle (Hairer and Wanner, *Solving
-Ordinary Differential Equations II* (1996), IV.2).
+Ordinary Differential Equations II* (1996), IV.2). How that is found depends on what the scheme's own definition shows:
+
+    a step with symmetric matrices      `definite`: certified by the sign of a sparse matrix
+    an explicit Runge-Kutta method      `runge_kutta`: its stability polynomial on the eigenvalues of the motion
+    any other                           `step_spectrum`: eigenvalues of the step itself, dt by dt
+
+The answer is the first limit, from short steps on; where a step is stable again above it, that is told.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
-from reference.bisection import bisect
 from reference.errors import SolverError
+from reference.forces import SpringMotion
 from reference.growth_factor import growth_factor
 from reference.limit import Limit
-from reference.schemes import catalogue
-from reference.schemes.catalogue import Scheme
+from reference.schemes.catalogue import Scheme, find
+from reference.theory.definite import Definiteness
 from reference.theory.equilibria import Equilibrium
+from reference.theory.linearisation import Linearisation
+from reference.theory.numerical_range import limit_from_below
+from reference.theory.rates import Rates, rates
+from reference.theory.rates import fastest_rate as fastest_rate
+from reference.theory.runge_kutta import stability_polynomial, stable_steps
+from reference.theory.step_coefficients import is_quadratic
 from reference.theory.step_map import step_jacobian
+from reference.theory.strong_damping import drowned_from, limit_with_rods
+from reference.theory.step_spectrum import first_limit, unstable_at_any
+from reference.theory.windows import windows_of
 
-#: An eigenvalue this little over 1 may be rounding.
-MARGIN = 1e-9
+#: Schemes that stop their iteration early have, to what they leave, the limit of what they would come to.
+SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
 
-#: How often dt is doubled or halved in search of a limit. Far beyond 1/w, eigenvalues near -1 are lost in rounding.
-UP, DOWN = 5, 22
-
-#: A limit is found to this part of itself. Where two eigenvalues meet on the unit circle none is known much better.
-PRECISION = 1e-7
+#: The Runge-Kutta limit of a large system is one value where it is known so nearly from both sides.
+AS_GOOD_AS_ONE = 1e-8
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
@@ -38,74 +50,67 @@ def growth(scheme: Scheme, rest: Equilibrium, dt: float) -> float:
         return np.inf
 
 
-def fastest_rate(rest: Equilibrium) -> float:
-    """The largest modulus of an eigenvalue of the equations of motion [1/s]: the highest frequency, or fastest decay.
+def stability_limit(scheme: Scheme, rest: Equilibrium, found: Rates | None = None) -> Limit:
+    """The predicted limit of a scheme about an equilibrium: the first dt above which perturbations grow.
 
-    Euler's step of an equation z' = A z is 1 + dt A, exactly: its Jacobian has all of A in it.
+    Args:
+        found: the eigenvalues of the motion there, where they are known already.
     """
-    euler = catalogue.find("euler")
-    dt = 1e-3
-    for _ in range(3):
-        rates = (np.linalg.eigvals(step_jacobian(euler, rest, dt)) - 1) / dt
-        fastest = float(np.abs(rates).max())
-        if fastest == 0:
-            break
-        # Once more with a step that suits it, so that neither positions nor velocities drown in the other.
-        dt = 1 / fastest
-    return fastest
-
-
-def stability_limit(scheme: Scheme, rest: Equilibrium) -> Limit:
-    """The predicted limit of a scheme about an equilibrium: the dt below which perturbations do not grow."""
-    fastest = fastest_rate(rest)
-    if fastest == 0:
+    found = found or rates(rest)
+    if found.fastest == 0:
         return Limit(None, "nothing moves")
-    return find_limit(lambda dt: growth(scheme, rest, dt) - 1, 1 / fastest)
+    scheme = find(SOLVED[scheme.name]) if scheme.name in SOLVED else scheme
+    if isinstance(rest.motion, SpringMotion):
+        linear = Linearisation(rest.motion.system, rest.state)
+        if is_quadratic(scheme, linear.damped, linear.dragged):
+            definite = Definiteness(scheme, linear, 1 / found.fastest)
+            if definite.decides:
+                return _by_definiteness(definite)
+    polynomial = stability_polynomial(scheme)
+    if polynomial is not None:
+        return _by_polynomial(polynomial, rest, found)
+    return first_limit(scheme, rest, found)
 
 
-def find_limit(
-    excess: Callable[[float], float], dt: float, margin: float = MARGIN, precision: float = PRECISION
-) -> Limit:
-    """The limit where an excess of growth over 1 in a step rises above a margin, from any dt about as long as a mode.
-
-    Where perturbations grow at any dt the excess falls as a power of dt, and the margin is crossed on a slope; at a
-    true limit there is nothing but rounding below it.
-    """
-    unit = dt
-
-    def unstable(h: float) -> bool:
-        # Beyond the fastest mode's 1/w, positions and dt x velocities are of different sizes, and so is rounding.
-        return excess(h) > margin * max(1.0, h / unit)
-
-    high, low = _bracket(unstable, 3 * unit)
-    if high is None:
-        return Limit(None, f"stable at any dt that was tried, up to {low:.3g} s")
-    if low is not None:
-        low, high = bisect(unstable, low, high, _within(0.02))
-    if low is None or excess(0.9 * low) > 0.1 * margin:
-        rate = excess(0.1 * unit)
-        return Limit(None, f"unstable at any dt: grows by {rate:.2g} of itself in a step of {0.1 * unit:.2g} s", rate)
-    low, high = bisect(unstable, low, high, _within(precision))
-    return Limit(low)
+def _by_definiteness(definite: Definiteness) -> Limit:
+    """Of a step with symmetric matrices."""
+    if definite.never_negative:
+        return Limit(None, "stable at any dt", certainty="certified")
+    last = np.inf if definite.in_proportion else drowned_from(definite)
+    dt = definite.first_limit(last)
+    if np.isfinite(dt):
+        return Limit(dt, certainty="certified", windows=windows_of(definite, dt))
+    if np.isinf(last):
+        return Limit(None, "stable at any dt", certainty="certified")
+    with_rods = limit_with_rods(definite, last)
+    if with_rods is None:
+        return Limit(last, "at least: with longer steps damping drowns all else in rounding", certainty="between")
+    return Limit(with_rods) if np.isfinite(with_rods) else Limit(None, "stable at any dt")
 
 
-def _bracket(unstable: Callable[[float], bool], dt: float) -> tuple[float | None, float | None]:
-    """(an unstable dt, a stable one below it), by doubling or halving; None for what is not found."""
-    if not unstable(dt):
-        for _ in range(UP):
-            dt *= 2
-            if unstable(dt):
-                return dt, dt / 2
-        return None, dt
-    for _ in range(DOWN):
-        dt /= 2
-        if not unstable(dt):
-            return 2 * dt, dt
-    return 2 * dt, None
+def _by_polynomial(polynomial: tuple[float, ...], rest: Equilibrium, found: Rates) -> Limit:
+    """Of an explicit Runge-Kutta method."""
+    (_, first), *others = stable_steps(polynomial, found.values)
+    if first == 0:
+        return _never(polynomial, found)
+    if np.isinf(first):
+        return Limit(None, "stable at any dt")
+    limit = Limit(float(first), windows=tuple((float(a), float(b)) for a, b in others))
+    if found.all or found.least_decay == 0 and not found.values.real.any():
+        return limit
+    assert isinstance(rest.motion, SpringMotion)
+    below = limit_from_below(polynomial, Linearisation(rest.motion.system, rest.state))
+    if below >= (1 - AS_GOOD_AS_ONE) * first:
+        return limit
+    return replace(limit, dt=below, at_most=float(first), certainty="between", windows=())
 
 
-def _within(part: float) -> Callable[[float, float], bool]:
-    return lambda low, high: high - low <= part * low
+def _never(polynomial: tuple[float, ...], found: Rates) -> Limit:
+    """No step is stable: there is a mode that nothing damps, and the method lets such grow."""
+    unit = 0.1 / found.fastest
+    multiplied = np.abs(np.polyval(polynomial[::-1], unit * found.values)).max()
+    rate = float(multiplied - 1)
+    return Limit(None, unstable_at_any(rate, unit), rate)
 
 
 def explicit_damping_limit(omega: float, gamma: float) -> float:

@@ -1,0 +1,48 @@
+"""How a scheme steps single oscillators, many at once: x'' + g x' + w^2 x = 0, each on a spring of its own."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reference.schemes.catalogue import Scheme
+from reference.state import Array, State
+from reference.system import MassSpringSystem
+from reference.theory.step_map import LinearMotion
+
+
+def step_matrices(scheme: Scheme, dt: float, masses: Array, stiffness: Array, damping: Array, drag: float = 0.0) -> Array:
+    """The 2 x 2 matrices by which a step multiplies (x, dt v) of oscillators, shape (s, 2, 2); of springs at rest.
+
+    Args:
+        dt: the step [s].
+        masses: [kg], shape (s,), each on a spring to a fixed point.
+        stiffness: of that spring [N/m], shape (s,).
+        damping: of that spring [N s/m], shape (s,).
+        drag: of every mass [N s/m].
+    """
+    s = len(masses)
+    along = np.arange(2 * s)
+    system = MassSpringSystem(
+        positions=np.stack([along % 2, along // 2], axis=1).astype(float),
+        springs=along.reshape(s, 2),
+        masses=np.repeat(masses, 2),
+        rest_lengths=np.array(1.0),
+        stiffness=stiffness,
+        damping=damping,
+        drag=drag,
+        gravity=np.array(0.0),
+        fixed=along % 2 == 0,
+    )
+    step = scheme.on(LinearMotion(system, system.start))
+    nothing = np.zeros_like(system.positions)
+    moved = nothing.copy()
+    moved[1::2, 0] = 1.0
+    ends = [step(State(0.0, x, v), dt) for x, v in ((moved, nothing), (nothing, moved / dt))]
+    columns = [np.stack([end.positions[1::2, 0], dt * end.velocities[1::2, 0]], axis=1) for end in ends]
+    return np.stack(columns, axis=2)
+
+
+def growth_of_oscillators(scheme: Scheme, dt: float, squares: Array, damping: Array) -> Array:
+    """The growth factors of oscillators with w^2 [1/s^2] and g [1/s], shape (s,)."""
+    matrices = step_matrices(scheme, dt, np.ones(len(squares)), squares, damping)
+    return np.asarray(np.abs(np.linalg.eigvals(matrices)).max(axis=1))

@@ -1,0 +1,144 @@
+"""The stability polynomial of a Runge-Kutta method, from its own definition, and where it leaves the unit circle.
+
+On z' = m z a Runge-Kutta step is z -> R(h m) z with R a polynomial (Hairer and Wanner, *Solving Ordinary Differential
+Equations II* (1996), IV.2). R is found by running the method itself on v' = v with complex steps around the unit circle:
+its Fourier coefficients there are the coefficients of R.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from reference.errors import InputError, SolverError, Unsupported
+from reference.schemes.catalogue import Scheme
+from reference.state import Array, Slope, State
+
+Complex = npt.NDArray[np.complex128]
+
+#: R is taken to have no more terms than half of this.
+POINTS = 32
+
+#: Coefficients this small are rounding.
+ROUNDING = 1e-13
+
+
+class _Exponential:
+    """The equation v' = v, and x' = v, on complex numbers."""
+
+    def acceleration(self, state: State) -> Array:
+        """As it moves."""
+        return state.velocities
+
+    def slope(self, state: State) -> Slope:
+        """(1, x', v')."""
+        return Slope(1.0, state.velocities, state.velocities)
+
+
+class _Turning:
+    """z' = A z of two unknowns that do not commute with anything: x' = v, v' = -2 x - 0.3 v."""
+
+    MATRIX = np.array([[0.0, 1.0], [-2.0, -0.3]])
+
+    def acceleration(self, state: State) -> Array:
+        """From both."""
+        return np.asarray(-2.0 * state.positions - 0.3 * state.velocities)
+
+    def slope(self, state: State) -> Slope:
+        """(1, x', x'')."""
+        return Slope(1.0, state.velocities, self.acceleration(state))
+
+
+@lru_cache(maxsize=64)
+def stability_polynomial(scheme: Scheme) -> tuple[float, ...] | None:
+    """The coefficients of R, of z^0 first; None where the scheme is no explicit Runge-Kutta method.
+
+    >>> from reference.schemes.catalogue import find
+    >>> [round(c, 12) for c in stability_polynomial(find("heun"))]
+    [1.0, 1.0, 0.5]
+    """
+    if scheme.needs != "accelerations" or not scheme.one_step or scheme.implicit:
+        return None
+    around = np.exp(2j * np.pi * np.arange(POINTS) / POINTS)
+    try:
+        values = [_multiplied(scheme, complex(z)) for z in around]
+    except (TypeError, ValueError, InputError, SolverError, Unsupported):
+        return None
+    found = np.fft.fft(np.array(values)) / POINTS
+    if np.abs(found.imag).max() > ROUNDING or np.abs(found[POINTS // 2 :]).max() > ROUNDING:
+        return None
+    kept = np.trim_zeros(np.where(np.abs(found.real) > ROUNDING, found.real, 0.0), "b")
+    polynomial = tuple(float(c) for c in kept)
+    return polynomial if _holds_for_systems(scheme, polynomial) else None
+
+
+def _multiplied(scheme: Scheme, z: complex) -> complex:
+    """R(z): by what a step of z multiplies the solution of v' = v."""
+    start = State(0.0, np.zeros((1, 1), dtype=complex), np.ones((1, 1), dtype=complex))  # type: ignore[arg-type]
+    end = scheme.on(_Exponential())(start, z)  # type: ignore[arg-type]
+    return complex(end.velocities[0, 0])
+
+
+def _holds_for_systems(scheme: Scheme, polynomial: tuple[float, ...]) -> bool:
+    """Whether a step of z' = A z is R(h A) z: schemes that treat positions and velocities differently are not."""
+    h, step = 0.37, scheme.on(_Turning())
+    ends = [step(State(0.0, np.array([[x]]), np.array([[v]])), h) for x, v in np.eye(2)]
+    jacobian = np.array([[end.positions[0, 0], end.velocities[0, 0]] for end in ends]).T
+    expected, power = np.zeros((2, 2)), np.eye(2)
+    for c in polynomial:
+        expected, power = expected + c * power, power @ (h * _Turning.MATRIX)
+    return bool(np.abs(jacobian - expected).max() < 1e-12)
+
+
+def modulus_along(polynomial: tuple[float, ...], angle: float) -> Array:
+    """The coefficients in s of |R(s e^(i angle))|^2 - 1, of s^0 first."""
+    terms = [c * np.exp(1j * k * angle) for k, c in enumerate(polynomial)]
+    # on the axes the cosines are what they are, not what the rounded angle makes of them
+    if abs(np.cos(angle)) < 1e-15:
+        terms = [c * (1j if angle > 0 else -1j) ** k for k, c in enumerate(polynomial)]
+    square = np.convolve(terms, np.conj(terms)).real
+    square[0] -= 1.0
+    return np.where(np.abs(square) < ROUNDING, 0.0, square)
+
+
+def stable_along(polynomial: tuple[float, ...], angle: float) -> tuple[tuple[float, float], ...]:
+    """The intervals of s >= 0 in which |R(s e^(i angle))| <= 1, rising; the first from 0, empty if unstable at once.
+
+    >>> stable_along((1.0, 1.0), np.pi)  # Euler, of decay: up to 2
+    ((0.0, 2.0),)
+    """
+    square = modulus_along(polynomial, angle)
+    order = int(np.argmax(square != 0)) if square.any() else 0
+    roots = np.roots(square[order:][::-1]) if square.any() else np.array([])
+    real = np.sort(roots.real[(np.abs(roots.imag) < 1e-9 * np.abs(roots)) & (roots.real > 0)])
+    ends = np.concatenate([[0.0], real, [2 * real[-1] if len(real) else 1.0]])
+    middles = (ends[1:] + ends[:-1]) / 2
+    stable = np.polyval(square[::-1], middles) <= 0
+    found: list[tuple[float, float]] = []
+    for low, high, inside in zip(ends[:-1], ends[1:], stable, strict=True):
+        if inside and found and found[-1][1] == low:
+            found[-1] = (found[-1][0], float(high))
+        elif inside:
+            found.append((float(low), float(high)))
+    if not found or found[0][0] > 0:
+        return ((0.0, 0.0), *found)
+    return tuple(found)
+
+
+def stable_steps(polynomial: tuple[float, ...], rates: Complex) -> list[tuple[float, float]]:
+    """The intervals of h in which no mode of these rates [1/s] grows, rising [s]; the first from 0."""
+    common = [(0.0, np.inf)]
+    for rate in _of_upper_half(rates):
+        own = [(a / abs(rate), b / abs(rate)) for a, b in stable_along(polynomial, float(np.angle(rate)))]
+        common = [
+            (max(a, c), min(b, d)) for a, b in common for c, d in own if max(a, c) < min(b, d) or max(a, c) == 0.0
+        ]
+    return common
+
+
+def _of_upper_half(rates: Complex) -> Complex:
+    """One of every conjugate pair, the fastest first: these leave the least for the others to look at."""
+    upper = rates[(rates.imag >= 0) & (np.abs(rates) > 0)]
+    return np.asarray(upper[np.argsort(-np.abs(upper), kind="stable")])
