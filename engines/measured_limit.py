@@ -6,7 +6,7 @@ Needs NumPy only.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,13 +14,24 @@ from engines.engine import Engine, Unsupported
 from engines.step_jacobian import step_jacobian
 from reference.growth_factor import growth_factor
 from reference.limit import Limit
-from reference.measured_stability import GROWN, SEEN, STEPS, limit_near, measured_limit, random_growth
+from reference.measured_stability import (
+    GROWN,
+    SEEN,
+    STEPS,
+    limit_near,
+    measured_limit,
+    mode_growth,
+    random_growth,
+)
 from reference.outcome import Outcome
 from reference.state import Array
-from reference.system import MassSpringSystem
+from reference.system import BoolArray, MassSpringSystem
 
 #: Below and above its limit, as parts of it, an engine's step is looked at.
 BELOW, ABOVE = 0.99, 1.01
+
+#: How many steps a mode is watched.
+MODE_STEPS = 300
 
 
 def limit_of_engine(
@@ -77,6 +88,58 @@ def limit_of_engine_near(
         return replace(limit, grows_beyond=growth(beyond * limit.dt, STEPS) > SEEN)
     except Unsupported as error:
         return Outcome("unsupported", str(error))
+
+
+@dataclass(frozen=True, eq=False)
+class ModeRun:
+    """One run along a mode that theory chose.
+
+    Attributes:
+        dt: the step [s].
+        positions, velocities: the perturbation of rest [m], [m/s], shape (n, d).
+        left: the left eigenvector that tells the mode from others, over the free masses' coordinates and dt x their
+            velocities.
+    """
+
+    dt: float
+    positions: Array
+    velocities: Array
+    left: Array
+
+
+def growths_along_modes(engine: Engine, rest: MassSpringSystem, runs: Sequence[ModeRun]) -> dict[str, Array] | Outcome:
+    """The "growth" of a mode in a step of an engine, in each of the runs; NaN where it tells no velocities.
+
+    Args:
+        rest: the system at rest. What nothing holds falls: a run from rest is subtracted from each.
+    """
+    try:
+        return {"growth": np.array([_growth_along(engine, rest, run) for run in runs])}
+    except Unsupported as error:
+        return Outcome("unsupported", str(error))
+
+
+def _growth_along(engine: Engine, rest: MassSpringSystem, run: ModeRun) -> float:
+    positions, velocities = rest.positions + run.positions, run.velocities
+    moved = engine.start(replace(rest, positions=positions, velocities=velocities), run.dt)
+    still = engine.start(rest, run.dt) if not rest.fixed.any() else None
+    free, size = ~rest.fixed, float(np.abs(run.positions).max())
+    offsets = [_offset(run.positions, run.velocities, run.dt, free)]
+    for _ in range(MODE_STEPS):
+        moved.step()
+        x, v = moved.state()
+        base_x, base_v = rest.positions, np.zeros_like(v)
+        if still is not None:
+            still.step()
+            base_x, base_v = still.state()
+        offsets.append(_offset(x - base_x, v - base_v, run.dt, free))
+        if not np.abs(x - base_x).max() <= GROWN * size:
+            break
+    return mode_growth(np.array(offsets), run.left)
+
+
+def _offset(x: Array, v: Array, dt: float, free: BoolArray) -> Array:
+    return np.concatenate([x[free].ravel(), dt * v[free].ravel()])
 
 
 def growths_of_engine(

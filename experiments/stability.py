@@ -37,11 +37,17 @@ def _tell(progress: Progress, case: str, what: str) -> None:
 
 def result_of(rows: Sequence[Row]) -> Result:
     """Rows as findings and a table."""
-    columns = ["stepper", "damping [N s/m]", "drag [N s/m]", "predicted dt [s]", "measured dt [s]"]
+    columns = ["stepper", "damping [N s/m]", "drag [N s/m]", "predicted dt [s]", "how sure", "measured dt [s]"]
     columns += ["relative difference", "outcome", "reason"]
     columns += ["engine's own growth factor at 0.99 of it", "at 1.01"]
-    table = Table("stability", columns, [[*row.document.values(), *_factors(row)] for row in rows])
+    table = Table("stability", columns, [_cells(row) for row in rows])
     return Result(_findings(rows), [table], {"rows": rows}, _failures(rows))
+
+
+def _cells(row: Row) -> list[object]:
+    told = row.document
+    limits = [told["predicted_dt_s"], told["predicted_certainty"], told["measured_dt_s"], told["relative_difference"]]
+    return [row.stepper, told["damping"], told["drag"], *limits, row.outcome, told["reason"], *_factors(row)]
 
 
 def _factors(row: Row) -> tuple[float | None, float | None]:

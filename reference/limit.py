@@ -22,6 +22,7 @@ class Limit:
         grows_beyond: whether perturbations were seen to grow beyond the limit; None where that was not looked at.
         certainty: how sure it is.
         at_most: the upper one of two values between which the limit lies [s].
+        note: what is to be known of a limit that there is.
         windows: where above the limit a step is stable again: (from, to) [s], rising; the last may have no end.
     """
 
@@ -32,6 +33,7 @@ class Limit:
     grows_beyond: bool | None = None
     certainty: Certainty = "computed"
     at_most: float | None = None
+    note: str = ""
     windows: tuple[tuple[float, float], ...] = ()
 
     @property
@@ -42,7 +44,7 @@ class Limit:
     @property
     def remark(self) -> str:
         """What there is to say besides the value, in a few words; empty where there is nothing."""
-        words = [self.reason] if self.reason else []
+        words = [word for word in (self.reason, self.note) if word]
         if self.certainty == "between" and self.dt is not None and self.at_most is not None:
             words.append(f"between {self.dt:.6g} and {self.at_most:.6g} s")
         words += [f"stable again {_window(*window)}" for window in self.windows]

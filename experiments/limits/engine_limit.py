@@ -1,33 +1,127 @@
-"""An engine's stability limit, measured in a process of its own."""
+"""An engine's stability limit, measured in a process of its own.
+
+Where theory knows which scheme the engine is, it says which mode to perturb and where to look: runs at steps a little
+below the predicted limit and above it show growth of a millionth in a step. Where it does not, or the engine cannot be
+started so, a random perturbation is watched in longer runs, from short steps on.
+"""
 
 from __future__ import annotations
 
-from engines.measured_limit import limit_of_engine
+from collections.abc import Sequence
+from dataclasses import replace
+from math import floor, log, log1p, sqrt
+
+import numpy as np
+
+from engines.engine import precision as precision_of
+from engines.measured_limit import ModeRun, growths_along_modes, limit_of_engine
 from engines.process.isolation import EngineStepper
 from experiments.limits.perturbed import perturbed, rest_of_engine
+from reference.errors import SolverError
+from reference.forces import SpringMotion
 from reference.limit import Limit
+from reference.measured_stability import PERTURBATION
 from reference.outcome import Outcome
+from reference.state import State
+from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium
+from reference.theory.measured_mode import WHOLE_UP_TO, fastest_mode_of_step
+from reference.theory.rates import Rates
+from reference.theory.step_map import layout_of
 
 #: Limits are found to this part of themselves.
 PRECISION = 1e-4
 
+#: The steps at which runs are made are whole powers of 1 + PRECISION, so far from the one below the predicted limit:
+#: where to look is expected, what is found is not.
+LADDER = (-1000, -300, -100, -10, -1, 0, 1, 2, 10, 100, 300, 1000)
+
+#: Growth in a step that is more than rounding and what is not linear, and the size of a perturbation as a part of the
+#: shortest spring: in double and in single precision.
+MARGIN = {"double": 2e-7, "single": 2e-4}
+SIZE = {"double": PERTURBATION, "single": 1e-3}
+
 
 def measure_engine(
-    stepper: EngineStepper, system: MassSpringSystem, rest: Equilibrium, dt: float, precision: float = PRECISION
+    stepper: EngineStepper,
+    system: MassSpringSystem,
+    rest: Equilibrium,
+    dt: float,
+    precision: float = PRECISION,
+    scheme: SchemeStepper | None = None,
+    predicted: Limit | None = None,
+    found: Rates | None = None,
 ) -> Limit | Outcome:
-    """An engine's limit, from random perturbations about the equilibrium it can have; or the outcome that says why not.
+    """An engine's limit about the equilibrium it can have; or the outcome that says why not.
 
     Args:
         rest: of the system's springs.
         dt: about as long as the fastest mode lasts [s].
-        precision: as a part of the limit.
+        precision: as a part of the limit, of a blind search.
+        scheme, predicted: what the engine was identified as, and its limit; None where it was not.
+        found: the eigenvalues of the motion at rest.
     """
     if stepper.version is None:
         return Outcome("unsupported", f"{stepper.engine.package} is not installed")
     own_rest = rest_of_engine(stepper.engine, system, rest)
     if isinstance(own_rest, Outcome):
         return own_rest
+    if scheme is not None and predicted is not None and found is not None:
+        along = _along_modes(stepper, system, own_rest, scheme, predicted, found)
+        if along is not None:
+            return along
     start = perturbed(system, own_rest)
     return stepper.isolate(limit_of_engine, stepper.engine, *start, dt, precision, time_limit=2 * stepper.time_limit)
+
+
+def _along_modes(
+    stepper: EngineStepper,
+    system: MassSpringSystem,
+    rest: Equilibrium,
+    scheme: SchemeStepper,
+    predicted: Limit,
+    found: Rates,
+) -> Limit | Outcome | None:
+    """From runs along modes at steps around the predicted limit; None where these do not tell."""
+    engine = stepper.engine
+    able = isinstance(rest.motion, SpringMotion) and {"stretched", "velocities"} <= engine.capabilities
+    if not able or scheme.on_rods or not predicted.exact or predicted.note or predicted.dt is None:
+        return None
+    if layout_of(scheme.scheme, rest, predicted.dt)[0].size > WHOLE_UP_TO:
+        return None
+    size = SIZE[precision_of(engine)] * rest.scale
+    below = floor(log(predicted.dt) / log1p(PRECISION))
+    steps = [(1 + PRECISION) ** (below + further) for further in LADDER]
+    runs = [_mode_run(scheme, rest, dt, size, found) for dt in steps]
+    if any(run is None for run in runs):
+        return None
+    at_rest = replace(system, positions=rest.state.positions, velocities=np.zeros_like(rest.state.positions))
+    limit = 2 * stepper.time_limit
+    answer = stepper.isolate(growths_along_modes, engine, at_rest, runs, time_limit=limit)
+    if isinstance(answer, Outcome):
+        return answer
+    first = _first_unstable(answer["growth"].tolist(), MARGIN[precision_of(engine)])
+    return None if first is None else Limit(sqrt(steps[first - 1] * steps[first]))
+
+
+def _mode_run(scheme: SchemeStepper, rest: Equilibrium, dt: float, size: float, found: Rates) -> ModeRun | None:
+    """The scheme's fastest mode at a dt, as a perturbation [m]."""
+    try:
+        mode = fastest_mode_of_step(scheme.scheme, rest, dt, found)
+    except (SolverError, np.linalg.LinAlgError):
+        return None
+    if mode is None:
+        return None
+    nothing = np.zeros_like(rest.state.positions)
+    layout, _ = layout_of(scheme.scheme, rest, dt)
+    whole = layout.state(mode.shape * (size / np.abs(mode.shape).max()), State(0.0, nothing, nothing))
+    return ModeRun(dt, whole.positions, whole.velocities, mode.left)
+
+
+def _first_unstable(growths: Sequence[float], margin: float) -> int | None:
+    """The first of the runs in which the mode grew; None unless none before and all after did, and both there are."""
+    grows = [not growth <= margin for growth in growths]
+    if grows != sorted(grows) or grows[0] or not grows[-1]:
+        return None
+    return grows.index(True)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from engines.process.isolation import EngineStepper
-from experiments.limits.engine_limit import measure_engine
+from experiments.limits.engine_limit import PRECISION, measure_engine
 from experiments.limits.perturbed import rest_of_scheme
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
@@ -16,9 +16,10 @@ from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.stepper import SchemeStepper, Stepper, stepper_named
 from reference.system import MassSpringSystem
-from reference.theory.equilibria import Equilibrium, equilibrium_of, spring_equilibrium
-from reference.theory.limits import fastest_rate, stability_limit
+from reference.theory.equilibria import Equilibrium, spring_equilibrium
+from reference.theory.limits import stability_limit
 from reference.theory.measured_mode import measured_mode_limit
+from reference.theory.rates import Rates, rates
 
 #: An engine is identified from this many steps, at a tenth of what the fastest mode allows.
 IDENTIFYING_STEPS = 200
@@ -43,25 +44,28 @@ class Row:
 
     @property
     def relative_difference(self) -> float | None:
-        """(measured - predicted) / predicted; None without either."""
-        if self.predicted.dt is None or self.measured.dt is None:
+        """(measured - predicted) / predicted; None without either, or where one is known between two values only."""
+        if self.predicted.dt is None or self.measured.dt is None or not (self.predicted.exact and self.measured.exact):
             return None
         return (self.measured.dt - self.predicted.dt) / self.predicted.dt
 
     @property
     def document(self) -> dict[str, Any]:
         """The row as the command line's JSON has it."""
-        reasons = {"predicted": self.predicted.reason, "measured": self.measured.reason}
-        if self.predicted.reason == self.measured.reason:
-            reasons = {"predicted and measured": self.predicted.reason}
+        reasons = {"predicted": self.predicted.remark, "measured": self.measured.remark}
+        if self.predicted.remark == self.measured.remark:
+            reasons = {"predicted and measured": self.predicted.remark}
         return {
             "stepper": self.stepper,
             "damping": float(self.system.damping.max()),
             "drag": self.system.drag,
             "predicted_dt_s": self.predicted.dt,
+            "predicted_certainty": self.predicted.certainty if self.predicted.dt is not None else None,
+            "predicted_at_most_s": self.predicted.at_most,
             "measured_dt_s": self.measured.dt,
             "relative_difference": self.relative_difference,
             "outcome": self.outcome,
+            "windows_s": [[low, high] for low, high in self.predicted.windows],
             "reason": "; ".join(f"{word}: {reason}" for word, reason in reasons.items() if reason),
         }
 
@@ -76,19 +80,25 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
         SolverError: if the system has no equilibrium.
     """
     rest = spring_equilibrium(system)
-    dt = 1 / fastest_rate(rest)
+    found = rates(rest)
+    dt = 1 / (found.fastest or 1.0)
     engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
     rows = []
+    identified = _identified(engines, system, 0.1 * dt)
+    known = {engine.name: _named(identified[engine.name]) for engine in engines}
+    limits = _Limits(system, rest, found)
+    predicted = {name: _predicted(identified[name], scheme, limits) for name, scheme in known.items()}
     with current().threads() as pool:
-        measured = {engine.name: pool.submit(measure_engine, engine, system, rest, dt) for engine in engines}
-        identified = _identified(engines, system, 0.1 * dt)
+        measured = {
+            e.name: pool.submit(measure_engine, e, system, rest, dt, PRECISION, known[e.name], predicted[e.name], found)
+            for e in engines
+        }
         for stepper in steppers:
             progress(stepper.name)
             if isinstance(stepper, SchemeStepper):
-                rows.append(_scheme_row(stepper, system, rest))
+                rows.append(_scheme_row(stepper, limits))
             elif isinstance(stepper, EngineStepper):
-                predicted = _predicted(identified[stepper.name], system, rest)
-                rows.append(_engine_row(stepper, system, predicted, measured[stepper.name].result()))
+                rows.append(_engine_row(stepper, system, predicted[stepper.name], measured[stepper.name].result()))
             else:
                 none = Limit(None, "stability is of schemes and engines; identify says which scheme this is")
                 rows.append(Row(stepper.name, stepper.kind, system, none, none, "unsupported"))
@@ -102,19 +112,52 @@ def _identified(engines: Sequence[EngineStepper], system: MassSpringSystem, dt: 
     return {engine.name: identify_run(engine.name, run, system, known) for engine, run in runs}
 
 
-def _predicted(identification: Identification, system: MassSpringSystem, rest: Equilibrium) -> Limit:
+def _named(identification: Identification) -> SchemeStepper | None:
+    """The scheme that an engine was identified with."""
+    return None if identification.identified_as is None else stepper_named(identification.identified_as)
+
+
+class _Limits:
+    """The predicted limits of schemes on one system, each looked for once.
+
+    Args:
+        rest: of the springs.
+        found: the eigenvalues of the motion there.
+    """
+
+    def __init__(self, system: MassSpringSystem, rest: Equilibrium, found: Rates) -> None:
+        self.system, self._rest, self._found = system, rest, found
+        self._known: dict[str, Limit] = {}
+
+    def about(self, stepper: SchemeStepper) -> tuple[Equilibrium, Rates] | Limit:
+        """Where a scheme's system is at rest, and how it moves there; where there is no rest, no limit and why."""
+        rest = rest_of_scheme(stepper, self.system, self._rest)
+        if isinstance(rest, Limit):
+            return rest
+        return rest, rates(rest) if stepper.on_rods else self._found
+
+    def of(self, stepper: SchemeStepper) -> Limit:
+        """A scheme's."""
+        if stepper.name not in self._known:
+            about = self.about(stepper)
+            limit = about if isinstance(about, Limit) else stability_limit(stepper.scheme, *about)
+            self._known[stepper.name] = limit
+        return self._known[stepper.name]
+
+
+def _predicted(identification: Identification, scheme: SchemeStepper | None, limits: _Limits) -> Limit:
     """The limit of the scheme an engine was identified with."""
-    if identification.identified_as is None:
+    if scheme is None:
         return Limit(None, identification.reason or str(identification).partition(": ")[2])
-    scheme = stepper_named(identification.identified_as)
-    about = rest_of_scheme(scheme, system, rest)
-    return about if isinstance(about, Limit) else stability_limit(scheme.scheme, about)
+    return limits.of(scheme)
 
 
-def _scheme_row(stepper: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Row:
-    about = equilibrium_of(stepper.equations, system) if stepper.on_rods else rest
-    predicted, measured = stability_limit(stepper.scheme, about), measured_mode_limit(stepper.scheme, about)
-    return Row(stepper.name, stepper.kind, system, predicted, measured)
+def _scheme_row(stepper: SchemeStepper, limits: _Limits) -> Row:
+    about, predicted = limits.about(stepper), limits.of(stepper)
+    if isinstance(about, Limit):
+        return Row(stepper.name, stepper.kind, limits.system, about, about)
+    measured = measured_mode_limit(stepper.scheme, about[0], predicted, about[1])
+    return Row(stepper.name, stepper.kind, limits.system, predicted, measured)
 
 
 def _engine_row(stepper: EngineStepper, system: MassSpringSystem, predicted: Limit, measured: Limit | Outcome) -> Row:

@@ -114,7 +114,9 @@ class Definiteness:
         """The dt [s] up to which S is not negative; infinite where that is beyond the last dt to look at [s]."""
         if self.in_proportion:
             rate = self._assembled(self.damping_part(self.unit)) / self.unit
-            return first_negative(lambda dt: self._with(dt * rate, dt), self._quadratic(0.0, None, rate), 0.0, self.unit)
+            return first_negative(
+                lambda dt: self._with(dt * rate, dt), self._quadratic(0.0, None, rate), 0.0, self.unit
+            )
         return self._march(last)
 
     def _march(self, last: float) -> float:

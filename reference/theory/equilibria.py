@@ -36,7 +36,9 @@ class Equilibrium:
 def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
     """Where a mesh of springs comes to rest. Raises SolverError if it never does."""
     free = ~system.fixed
-    return Equilibrium(SpringMotion(system), equilibrium(system), free, float(system.rest_lengths.min(initial=system.size or 1.0)))
+    return Equilibrium(
+        SpringMotion(system), equilibrium(system), free, float(system.rest_lengths.min(initial=system.size or 1.0))
+    )
 
 
 def pendulum_equilibrium(system: MassSpringSystem) -> Equilibrium:

@@ -30,12 +30,15 @@ from reference.theory.rates import fastest_rate as fastest_rate
 from reference.theory.runge_kutta import stability_polynomial, stable_steps
 from reference.theory.step_coefficients import is_quadratic
 from reference.theory.step_map import step_jacobian
-from reference.theory.strong_damping import drowned_from, limit_with_rods
 from reference.theory.step_spectrum import first_limit, unstable_at_any
+from reference.theory.strong_damping import drowned_from, limit_with_rods
 from reference.theory.windows import windows_of
 
 #: Schemes that stop their iteration early have, to what they leave, the limit of what they would come to.
 SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
+
+#: Of limits beyond steps in which damping is all but rigid.
+DROWNS = "in such steps the damping of springs drowns all else in rounding"
 
 #: The Runge-Kutta limit of a large system is one value where it is known so nearly from both sides.
 AS_GOOD_AS_ONE = 1e-8
@@ -84,8 +87,8 @@ def _by_definiteness(definite: Definiteness) -> Limit:
         return Limit(None, "stable at any dt", certainty="certified")
     with_rods = limit_with_rods(definite, last)
     if with_rods is None:
-        return Limit(last, "at least: with longer steps damping drowns all else in rounding", certainty="between")
-    return Limit(with_rods) if np.isfinite(with_rods) else Limit(None, "stable at any dt")
+        return Limit(last, certainty="between", note=f"at least {last:.4g} s: {DROWNS}")
+    return Limit(with_rods, note=DROWNS) if np.isfinite(with_rods) else Limit(None, "stable at any dt", note=DROWNS)
 
 
 def _by_polynomial(polynomial: tuple[float, ...], rest: Equilibrium, found: Rates) -> Limit:
@@ -96,7 +99,7 @@ def _by_polynomial(polynomial: tuple[float, ...], rest: Equilibrium, found: Rate
     if np.isinf(first):
         return Limit(None, "stable at any dt")
     limit = Limit(float(first), windows=tuple((float(a), float(b)) for a, b in others))
-    if found.all or found.least_decay == 0 and not found.values.real.any():
+    if found.all or (found.least_decay == 0 and not found.values.real.any()):
         return limit
     assert isinstance(rest.motion, SpringMotion)
     below = limit_from_below(polynomial, Linearisation(rest.motion.system, rest.state))

@@ -10,7 +10,9 @@ from reference.system import MassSpringSystem
 from reference.theory.step_map import LinearMotion
 
 
-def step_matrices(scheme: Scheme, dt: float, masses: Array, stiffness: Array, damping: Array, drag: float = 0.0) -> Array:
+def step_matrices(
+    scheme: Scheme, dt: float, masses: Array, stiffness: Array, damping: Array, drag: float = 0.0
+) -> Array:
     """The 2 x 2 matrices by which a step multiplies (x, dt v) of oscillators, shape (s, 2, 2); of springs at rest.
 
     Args:

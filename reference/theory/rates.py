@@ -144,7 +144,9 @@ def _by_euler(rest: Equilibrium) -> Rates:
             break
         # once more with a step that suits it, so that neither positions nor velocities drown in the other
         dt = 1 / fastest
-    return _without_rounding(values.astype(complex), 0, True)
+    # from differences: what is zero is known to their precision only
+    moving = np.abs(values) > 1e-6 * fastest
+    return _without_rounding(values[moving].astype(complex), int((~moving).sum()), True)
 
 
 def _without_rounding(values: Complex, unresisted: int, all_of_them: bool) -> Rates:

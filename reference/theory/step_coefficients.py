@@ -74,9 +74,7 @@ def _shared(values: Array) -> float:
     return round(middle, 12)
 
 
-def _leading(
-    scheme: Scheme, dt: float, masses: Array, damping: Array, drag: float, part: float
-) -> tuple[Array, Array]:
+def _leading(scheme: Scheme, dt: float, masses: Array, damping: Array, drag: float, part: float) -> tuple[Array, Array]:
     """A2 and A0 [kg], shape (s,), with springs of h^2 k = part x m: as soft as positions and velocities are alike."""
     step = step_matrices(scheme, dt, masses, part * masses / dt**2, damping, drag)
     trace, determinant = step[:, 0, 0] + step[:, 1, 1], step[:, 0, 0] * step[:, 1, 1] - step[:, 0, 1] * step[:, 1, 0]
@@ -138,7 +136,9 @@ def damping_in_step(scheme: Scheme, linear: Linearisation, dt: float) -> Damping
     system = linear.system
     nothing = np.zeros(len(system.springs))
     pairs, which = np.unique(np.stack([effective_masses(system), system.damping]), axis=1, return_inverse=True)
-    springs = coefficients(scheme, dt, pairs[0], pairs[1]) if len(nothing) else coefficients(scheme, dt, nothing, nothing)
+    springs = (
+        coefficients(scheme, dt, pairs[0], pairs[1]) if len(nothing) else coefficients(scheme, dt, nothing, nothing)
+    )
     masses, of_mass = np.unique(system.masses, return_inverse=True)
     drag = coefficients(scheme, dt, masses, np.zeros(len(masses)), system.drag)
     return DampingInStep(springs.of(which.ravel()), drag.of(of_mass.ravel()))

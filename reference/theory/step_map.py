@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from reference.assembly import DENSE_UP_TO, Blocks, assemble, spring_blocks
 from reference.forces import SpringMotion
@@ -18,6 +19,11 @@ from reference.schemes.catalogue import Scheme
 from reference.state import Array, Slope, State
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium
+
+Complex = npt.NDArray[np.complex128]
+
+#: How far rounding moves a pair of eigenvalues 1 apart.
+TORN_APART = 3e-6
 
 
 def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
@@ -128,6 +134,22 @@ class Layout:
     def _units(self) -> list[float]:
         """Of what is remembered nobody knows the unit, and none matters to eigenvalues."""
         return [1.0, *[self.dt] * (1 + self.remembered)]
+
+
+def resisted(values: Complex, unresisted: int, unit: float) -> Complex:
+    """The eigenvalues of a step without those of motion that nothing resists, which goes on as it is begun.
+
+    These are 1, in pairs that rounding tears apart by its own root. Others may lie near 1 too: a step that writes what
+    it still reads lets even such motion grow.
+
+    Args:
+        values: all of them.
+        unresisted: how many there are at most.
+        unit: dt over the fastest motion's 1/w.
+    """
+    by_distance = np.argsort(np.abs(values - 1), kind="stable")
+    nearest, others = values[by_distance[:unresisted]], values[by_distance[unresisted:]]
+    return np.concatenate([nearest[np.abs(nearest - 1) > TORN_APART * max(1.0, unit)], others])
 
 
 def layout_of(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:

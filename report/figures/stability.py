@@ -35,6 +35,9 @@ def _panel(axes: Any, case: str, rows: Sequence[Row], names: Sequence[str]) -> N
         y = names.index(row.stepper)
         if row.predicted.dt is not None:
             axes.plot([row.predicted.dt] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)
+        if row.predicted.dt is not None and row.predicted.at_most is not None:
+            axes.plot([row.predicted.at_most] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)
+            axes.plot([row.predicted.dt, row.predicted.at_most], [y, y], linewidth=1, **PREDICTED)
         if row.measured.dt is not None:
             axes.plot(row.measured.dt, y, color=COLOURS[1], markersize=5, **MEASURED)
         if row.measured.dt is None:
@@ -55,7 +58,7 @@ def _measured(row: Row) -> str:
     if row.outcome != "done":
         return row.outcome
     for word in ("unstable", "stable"):
-        if row.measured.reason.startswith(f"{word} at any dt"):
+        if row.measured.reason.startswith((f"{word} at any dt", f"{word} at all of")):
             return f"{word} at any dt tried"
     return "not measured"
 
