@@ -225,6 +225,11 @@ def _certified(matrix: Callable[[float], Any], x: float, dt: float) -> float:
     return low
 
 
+def lowest_eigenvector(matrix: Any) -> Array:
+    """Of a sparse symmetric matrix, to ROUGH of its largest eigenvalue where it is large."""
+    return _lowest(matrix)[1]
+
+
 def _lowest(matrix: Any) -> tuple[float, Array]:
     """The lowest eigenvalue and its eigenvector; of large matrices to ROUGH of the largest."""
     if matrix.shape[0] <= DENSE_UP_TO:

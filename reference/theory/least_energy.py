@@ -70,7 +70,7 @@ class _Search:
 
     def __init__(self, system: MassSpringSystem) -> None:
         self._system = system
-        self._motion = SpringMotion(system.with_parameter("gravity", np.zeros(system.dimension)))
+        self._motion = SpringMotion(system.with_parameter("gravity", [0.0] * system.dimension))
         self._free = ~system.fixed
         self._loads = loads(system, parts_of(system))[self._free].ravel()
         tension = np.abs(self._motion.acceleration(system.start, damping=False)) * system.masses[:, None]

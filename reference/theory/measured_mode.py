@@ -149,7 +149,7 @@ def fastest_mode_of_step(scheme: Scheme, rest: Equilibrium, dt: float, found: Ra
     if not np.isfinite(jacobian).all():
         return None
     values, modes = np.linalg.eig(jacobian)
-    kept = resisted(values, found.unresisted, dt * found.fastest)
+    kept = resisted(values.astype(complex), found.unresisted, dt * found.fastest)
     if not len(kept):
         return None
     fastest = int(np.flatnonzero(values == kept[np.argmax(np.abs(kept))])[0])

@@ -13,7 +13,7 @@ import numpy as np
 
 from reference.errors import SolverError
 from reference.state import Array
-from reference.system import IntArray, MassSpringSystem
+from reference.system import BoolArray, IntArray, MassSpringSystem
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,12 +26,12 @@ class Parts:
     """
 
     of_mass: IntArray
-    held: Array
+    held: BoolArray
 
     @property
     def loose(self) -> IntArray:
         """The masses of the parts that nothing holds, rising."""
-        return np.flatnonzero((self.of_mass >= 0) & ~self.held[self.of_mass].astype(bool))
+        return np.flatnonzero((self.of_mass >= 0) & ~self.held[self.of_mass])
 
 
 def parts_of(system: MassSpringSystem) -> Parts:

@@ -1,8 +1,8 @@
 """The stability polynomial of a Runge-Kutta method, from its own definition, and where it leaves the unit circle.
 
 On z' = m z a Runge-Kutta step is z -> R(h m) z with R a polynomial (Hairer and Wanner, *Solving Ordinary Differential
-Equations II* (1996), IV.2). R is found by running the method itself on v' = v with complex steps around the unit circle:
-its Fourier coefficients there are the coefficients of R.
+Equations II* (1996), IV.2). R is found by running the method itself on v' = v with complex steps around the unit
+circle: its Fourier coefficients there are the coefficients of R.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def stability_polynomial(scheme: Scheme) -> tuple[float, ...] | None:
 
 def _multiplied(scheme: Scheme, z: complex) -> complex:
     """R(z): by what a step of z multiplies the solution of v' = v."""
-    start = State(0.0, np.zeros((1, 1), dtype=complex), np.ones((1, 1), dtype=complex))  # type: ignore[arg-type]
+    start = State(0.0, np.zeros((1, 1), dtype=complex), np.ones((1, 1), dtype=complex))
     end = scheme.on(_Exponential())(start, z)  # type: ignore[arg-type]
     return complex(end.velocities[0, 0])
 

@@ -81,7 +81,7 @@ class LinearMotion:
 
 
 def _by_mass(system: MassSpringSystem, blocks: Blocks) -> Any:
-    """The derivatives of all coordinates' accelerations, shape (n d, n d); rows and columns of fixed masses are zero."""
+    """The derivatives of all coordinates' accelerations, shape (n d, n d); zero for fixed masses."""
     from scipy.sparse import coo_array, diags_array
 
     free = np.flatnonzero(np.repeat(~system.fixed, system.dimension))

@@ -174,7 +174,7 @@ def _excess(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -> float
         return np.inf
     if not np.isfinite(jacobian).all():
         return np.inf
-    values = resisted(np.linalg.eigvals(jacobian), found.unresisted, dt * found.fastest)
+    values = resisted(np.linalg.eigvals(jacobian).astype(complex), found.unresisted, dt * found.fastest)
     return float(np.abs(values).max(initial=0.0) - 1)
 
 
@@ -255,7 +255,7 @@ def past_minus_one(scheme: Scheme, rest: Equilibrium, dt: float, rounds: int) ->
 
 
 def _perturbed_step(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, Callable[[Array], Array]]:
-    """How a step answers a small perturbation: by the linearised motion where the scheme is linear, else differenced."""
+    """How a step answers a small perturbation: linearised where the scheme is linear, else differenced."""
     layout, settled = layout_of(scheme, rest, dt)
     if scheme.linear and isinstance(rest.motion, SpringMotion):
         linear = scheme.on(LinearMotion(rest.motion.system, rest.state))
