@@ -85,7 +85,7 @@ def _runs(scene: Scene, progress: Progress) -> Iterator[Run]:
     known = _known(tried, moved, setup)
     found = {s.name: identify_run(s.name, outcome, system, known) for s, outcome in outcomes}
     begun = [(s, _beginning(o)) for s, o in outcomes if o.trajectory is not None and found[s.name].error > NEAR]
-    short = candidates_for(begun, system, scene.dt, FIRST, changes) if begun else {}
+    short = candidates_for(begun, system, scene.dt, FIRST, changes).whole if begun else {}
     for stepper, outcome in begun:
         found[stepper.name] = identify_run(stepper.name, outcome, system, short)
     strangers = {stepper.name for stepper, _ in begun}

@@ -20,7 +20,7 @@ from experiments.runs.progress import Progress
 from experiments.runs.runner import current
 from reference.changes import whole_steps
 from reference.errors import InputError, SolverError
-from reference.identification import Identification, candidates_for, identify_run
+from reference.identification import Identification, identify_all
 from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.pendulum import why_no_pendulum
@@ -147,14 +147,17 @@ def _predicted(
     with current().threads() as pool:
         runs = list(pool.map(lambda engine: engine.run(system, dt, IDENTIFYING_STEPS), engines))
     seen = list(zip(engines, runs, strict=True))
-    known = candidates_for(seen, system, dt, IDENTIFYING_STEPS)
-    identified = {engine.name: identify_run(engine.name, run, system, known) for engine, run in seen}
-    limits: dict[str | None, Limit] = {None: Limit(None, "no scheme of the catalogue is this near")}
+    each = identify_all(seen, system, dt, IDENTIFYING_STEPS).each
+    identified = {found.stepper: found for found in each}
+    limits: dict[str, Limit] = {}
     for name in dict.fromkeys(found.identified_as for found in identified.values()):
         if name is not None:
             progress(f"predicted limit of {name}")
             limits[name] = predict(stepper_named(name), system, rest)
-    predicted = {name: limits[found.identified_as] for name, found in identified.items()}
+    predicted = {
+        found.stepper: limits.get(found.identified_as or "", Limit(None, f"not identified; {found.reason}"))
+        for found in each
+    }
     return identified, predicted
 
 

@@ -11,7 +11,7 @@ from experiments.limits.engine_limit import measure_engine
 from experiments.limits.perturbed import rest_of_scheme
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
-from reference.identification import Identification, candidates_for, identify_run
+from reference.identification import Identification, identify_all
 from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.stepper import SchemeStepper, Stepper, stepper_named
@@ -98,14 +98,13 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
 def _identified(engines: Sequence[EngineStepper], system: MassSpringSystem, dt: float) -> Mapping[str, Identification]:
     """Which scheme each engine is, from a run on the system with a dt [s]."""
     runs = [(engine, engine.run(system, dt, IDENTIFYING_STEPS)) for engine in engines]
-    known = candidates_for(runs, system, dt, IDENTIFYING_STEPS) if engines else {}
-    return {engine.name: identify_run(engine.name, run, system, known) for engine, run in runs}
+    return {found.stepper: found for found in identify_all(runs, system, dt, IDENTIFYING_STEPS).each}
 
 
 def _predicted(identification: Identification, system: MassSpringSystem, rest: Equilibrium) -> Limit:
     """The limit of the scheme an engine was identified with."""
     if identification.identified_as is None:
-        return Limit(None, identification.reason or str(identification).partition(": ")[2])
+        return Limit(None, f"not identified; {identification.reason}")
     scheme = stepper_named(identification.identified_as)
     about = rest_of_scheme(scheme, system, rest)
     return about if isinstance(about, Limit) else stability_limit(scheme.scheme, about)
