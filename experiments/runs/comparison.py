@@ -86,20 +86,6 @@ class Comparison:
         return WHY_NOT_EXACT if self.true is None else None
 
     @property
-    def remarks(self) -> list[str]:
-        """What ties with the schemes that are named, and how schemes were told apart that tie on the system itself."""
-        found = [run.identification for run in self.runs]
-        ties = {f"{f.identified_as}: {f.remark[0].lower()}{f.remark[1:]}": None for f in found if f.remark}
-        ways: dict[str, list[str]] = {}
-        for f in found:
-            if f.told_apart_by:
-                ways.setdefault(f.told_apart_by, []).append(f.stepper)
-            if f.compared == "single steps" and f.identified_as:
-                ways.setdefault("single steps, each from its own states", []).append(f.stepper)
-        whom = {way: ", ".join(names) if len(names) < len(found) else "all" for way, names in ways.items()}
-        return [*ties, *(f"Told apart by {way}: {names}." for way, names in whom.items())]
-
-    @property
     def document(self) -> dict[str, Any]:
         """The comparison as the command line's JSON has it; where the true motion is not known it says why."""
         setup = self.setup
@@ -171,6 +157,20 @@ def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:
         return None
     reason = f"left out: with more than {most} masses it takes long, here are {n}; --stepper {stepper.name} runs it"
     return Outcome("unsupported", reason)
+
+
+def remarks(runs: Sequence[Run]) -> list[str]:
+    """What ties with the schemes that are named, and how schemes were told apart that tie on the system itself."""
+    found = [run.identification for run in runs]
+    ties = {f"{f.identified_as}: {f.remark[0].lower()}{f.remark[1:]}": None for f in found if f.remark}
+    ways: dict[str, list[str]] = {}
+    for f in found:
+        if f.told_apart_by:
+            ways.setdefault(f"Told apart by {f.told_apart_by}", []).append(f.stepper)
+        if f.by_single_steps and f.identified_as:
+            ways.setdefault(f"Named by {f.compared}, each from a state of its own", []).append(f.stepper)
+    whom = {way: "all" if len(names) == len(found) else ", ".join(names) for way, names in ways.items()}
+    return [*ties, *(f"{way}: {names}." for way, names in whom.items())]
 
 
 def told(found: Identification) -> dict[str, Any]:

@@ -133,7 +133,7 @@ class _Naming:
         self._pushes = list(pushes(system, dt))
         self._few = FEWEST_STEPS if len(system.masses) > LARGE else FIRST_STEPS
         self._pushed: dict[tuple[int, str], Trajectory | None] = {}
-        self._same: dict[tuple[str, str], str | None] = {}
+        self._same: dict[tuple[str, str], str] = {}
 
     def of(self, stepper: Stepper, outcome: Outcome) -> Identification:
         """What a stepper is, from its run."""
@@ -152,7 +152,7 @@ class _Naming:
         by_steps = self._by_single_steps(stepper, outcome.trajectory)
         if by_steps.identified_as:
             return by_steps
-        words = f"; by single steps, {by_steps.reason}" if by_steps.ranking else ""
+        words = f"; by {by_steps.compared}, {by_steps.reason}" if by_steps.ranking else ""
         return found.without_name(found.reason + words)
 
     def _told_apart(self, stepper: Stepper, found: Identification) -> Identification:
@@ -179,8 +179,6 @@ class _Naming:
         catalogue = catalogue_with(getattr(stepper, "claims", ()))
         steps = steps_of(run, self._system, self._changes)
         found = identify_steps(stepper.name, steps, catalogue, precision)
-        if steps.touching and found.reason:
-            found = replace(found, reason=f"{found.reason}, where it touches no obstacle")
         if not found.matches or self._dt * fastest_rate_bound(self._system) >= LONG:
             return self._tied(found)
         catalogue = {match.scheme: catalogue[match.scheme] for match in found.matches}
@@ -189,7 +187,7 @@ class _Naming:
             if outcome.trajectory is None or not _has_step(outcome.trajectory, push.dt):
                 continue
             longer = identify_steps(stepper.name, steps_of(outcome.trajectory, push.system), catalogue, precision)
-            return self._tied(replace(longer, told_apart_by=push.words))
+            return self._tied(replace(longer, compared=found.compared, told_apart_by=push.words))
         return found.without_name("its steps are too short to tell schemes apart one by one")
 
     def _tied(self, found: Identification) -> Identification:
@@ -205,14 +203,14 @@ class _Naming:
         reasons = {tie: self._differ_by(named, tie, push) for tie in found.ties}
         return replace(found, same_without={tie: reason for tie, reason in reasons.items() if reason})
 
-    def _differ_by(self, one: str, other: str, push: Push) -> str | None:
+    def _differ_by(self, one: str, other: str, push: Push) -> str:
         if (one, other) not in self._same:
-            self._same[one, other] = None
+            lacks = []
             for lack, with_it in lacking(push):
                 runs = {name: run for name in (one, other) if (run := self._run(with_it, name)) is not None}
                 if len(runs) == 2 and not self._all_same(with_it, runs):
-                    self._same[one, other] = lack
-                    break
+                    lacks.append(lack)
+            self._same[one, other] = " and ".join(lacks)
         return self._same[one, other]
 
     def _on(self, push: Push, name: str) -> Trajectory | None:

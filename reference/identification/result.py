@@ -41,7 +41,8 @@ class Identification:
         reason: why there is no name; empty where there is one.
         told_apart_by: what was done to tell schemes apart that do the same on the system itself; empty where nothing
             was.
-        compared: "trajectories"; or "single steps", each from a state of the stepper's own: errors are then of a step.
+        compared: "trajectories"; or "single steps", each from a state of the stepper's own, perhaps "single steps away
+            from obstacles": errors are then of a step.
         same_without: of schemes that tie, what the system lacks that they differ in: "damping", "drag".
     """
 
@@ -70,6 +71,11 @@ class Identification:
         return names[1:] if self.identified_as else names
 
     @property
+    def by_single_steps(self) -> bool:
+        """Whether steps were compared one by one."""
+        return self.compared.startswith("single steps")
+
+    @property
     def error(self) -> float:
         """The nearest scheme's deviation [m]; infinite without a ranking."""
         return self.ranking[0].error if self.ranking else np.inf
@@ -96,6 +102,6 @@ class Identification:
         named = self.identified_as
         if named is None:
             return f"{self.stepper}: not identified; {self.reason}"
-        a_step = " a step" if self.compared == "single steps" else ""
+        a_step = f" a step (by {self.compared})" if self.by_single_steps else ""
         by = f", told apart by {self.told_apart_by}" if self.told_apart_by else ""
         return f"{self.stepper} is {named}, to {self.error:.2g} m{a_step}{by}"

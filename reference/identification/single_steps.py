@@ -89,14 +89,15 @@ def identify_steps(
     """
     start = steps.run.frames(slice(1))
     length = scale(next(iter(steps.systems.values())), start) if steps.systems else 1.0
+    compared = "single steps away from obstacles" if steps.touching else "single steps"
     tolerance = ROUNDINGS * ROUNDING[precision] * length
     if not steps.systems or not tells_velocities(steps.run):
         why = "it tells no velocities to begin single steps with" if steps.systems else "no single step can be compared"
-        return Identification(name, (), tolerance, why, compared="single steps")
+        return Identification(name, (), tolerance, why, compared=compared)
     found = [_match(scheme, stepper, steps, length) for scheme, stepper in catalogue.items()]
     matches = [match for match in found if match is not None]
     ranking = ranked(matches, tolerance, tolerance)
-    result = Identification(name, ranking, tolerance, compared="single steps")
+    result = Identification(name, ranking, tolerance, compared=compared)
     if result.matches:
         return result
     if not ranking:

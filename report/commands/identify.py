@@ -57,5 +57,5 @@ def _show(stepper: str, identification: Identification) -> None:
     if identification.remark:
         click.echo(identification.remark)
     rows = [[match.scheme, plain(finite(match.error)), match.steps] for match in identification.ranking]
-    deviation = "deviation in a step [m]" if identification.compared == "single steps" else "deviation [m]"
+    deviation = "deviation in a step [m]" if identification.by_single_steps else "deviation [m]"
     show_table("", ["scheme", deviation, "over [steps]"], rows)
