@@ -8,7 +8,7 @@ where the step is long for the system. A multistep scheme needs earlier steps, a
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,8 +29,9 @@ ROUNDINGS = 32
 #: A step is long enough to tell schemes apart where it is at least this part of 1 / the fastest rate.
 LONG = 0.25
 
-#: From so many states of a run at most, evenly spread; on large systems from fewer.
-STATES, FEW_STATES, FEW_ABOVE = 40, 5, 1000
+#: All schemes are tried from so many states at most, evenly spread; the nearest from all, up to so many masses times
+#: states.
+STATES, ALL_UP_TO = 40, 1_000_000
 
 #: A mass this near to an obstacle, as a part of the scale, may have touched it.
 TOUCH = 1e-6
@@ -55,9 +56,15 @@ class Steps:
         """The step [s]."""
         return float(self.run.times[1] - self.run.times[0])
 
+    def spread(self, most: int) -> Steps:
+        """So many of them at most, evenly spread, the first and the last among them."""
+        numbers = list(self.systems)
+        chosen = np.unique(np.linspace(0, len(numbers) - 1, min(most, len(numbers))).astype(int)).tolist()
+        return replace(self, systems={numbers[i]: self.systems[numbers[i]] for i in chosen})
+
 
 def steps_of(run: Trajectory, system: MassSpringSystem, changes: Sequence[Change] = ()) -> Steps:
-    """Which steps of a run are compared.
+    """Which steps of a run can be compared.
 
     Those between states that are numbers, away from obstacles, and from where no mass moves further in a step than the
     system is large: of what turns faster than that, rounding leaves nothing.
@@ -68,13 +75,11 @@ def steps_of(run: Trajectory, system: MassSpringSystem, changes: Sequence[Change
         slow = dt * np.abs(run.velocities).max(axis=(1, 2)) <= system.scale
     near = _near_obstacles(run, system)
     usable = np.flatnonzero((slow & finite & ~near)[:-1] & (finite & ~near)[1:])
-    most = FEW_STATES if len(system.masses) > FEW_ABOVE else STATES
-    chosen = set(usable[np.unique(np.linspace(0, len(usable) - 1, min(most, len(usable))).astype(int))].tolist())
-    systems, pending = {}, changes_by_step(changes, dt)
-    for i in range(max(chosen, default=-1) + 1):
+    wanted, systems, pending = set(usable.tolist()), {}, changes_by_step(changes, dt)
+    for i in range(len(run) - 1):
         for change in pending.get(i, ()):
             system = system.with_parameter(change.parameter, change.value)
-        if i in chosen:
+        if i in wanted:
             systems[i] = system
     return Steps(run, systems, bool(near.any()))
 
@@ -94,9 +99,11 @@ def identify_steps(
     if not steps.systems or not tells_velocities(steps.run):
         why = "it tells no velocities to begin single steps with" if steps.systems else "no single step can be compared"
         return Identification(name, (), tolerance, why, compared=compared)
-    found = [_match(scheme, stepper, steps, length) for scheme, stepper in catalogue.items()]
-    matches = [match for match in found if match is not None]
-    ranking = ranked(matches, tolerance, tolerance)
+    some, whole = (steps.spread(most) for most in (STATES, max(STATES, ALL_UP_TO // steps.run.positions.shape[1])))
+    tried = {scheme: _match(scheme, stepper, some, length) for scheme, stepper in catalogue.items()}
+    near = [scheme for scheme, match in tried.items() if match is not None and match.error <= tolerance]
+    tried |= {scheme: _match(scheme, catalogue[scheme], whole, length) for scheme in near}
+    ranking = ranked([match for match in tried.values() if match is not None], tolerance, tolerance)
     result = Identification(name, ranking, tolerance, compared=compared)
     if result.matches:
         return result

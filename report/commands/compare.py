@@ -97,7 +97,9 @@ def _show(comparison: Comparison) -> None:
     from experiments.runs.comparison import remarks
 
     setup = comparison.setup
-    title = f"{setup.name}: dt = {setup.dt:g} s, {setup.steps} steps, {setup.run_duration:.6g} s"
+    title = f"{setup.name}: dt = {setup.dt:g} s, {setup.run_duration:.6g} s"
+    if abs(setup.run_duration - setup.duration) > 1e-9 * setup.duration:
+        title += f", which is {setup.steps} whole steps ({setup.duration:g} s were asked for)"
     columns = ["stepper", "outcome", "error [m]", "identified as", "deviation [m]", "reason"]
     keys = ["stepper", "outcome", "error_m", "identified_as", "identification_error_m"]
     show_table(title, columns, [[*(run.row[key] for key in keys), run.why] for run in comparison.runs])

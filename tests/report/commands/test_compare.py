@@ -70,7 +70,7 @@ def of_the_engines(*words: str) -> tuple[str, ...]:
 def test_the_json_has_exactly_the_promised_form() -> None:
     """Keys, types and order; a number that is none is null, a reason is a text, and is there unless all went well."""
     document = compared("string")
-    assert list(document) == ["scene", "dt_s", "duration_s", "runs"]
+    assert list(document) == ["scene", "dt_s", "duration_s", "steps", "run_duration_s", "runs"]
     assert (document["scene"], document["dt_s"], document["duration_s"]) == ("string", 1e-3, 0.5)
     assert [run["stepper"] for run in document["runs"]] == [stepper.name for stepper in default_steppers()]
     for run in document["runs"]:
