@@ -23,7 +23,7 @@ from reference.errors import InputError, SolverError
 from reference.identification import Identification, identify_all
 from reference.limit import Limit
 from reference.outcome import Outcome
-from reference.pendulum import why_no_pendulum
+from reference.pendulum import PendulumMotion, why_no_pendulum
 from reference.scenes import Setup
 from reference.schemes.catalogue import find
 from reference.stepper import SchemeStepper, stepper_named
@@ -215,10 +215,11 @@ def _run(engine: EngineStepper, setup: Setup, dt: float) -> Outcome:
 
 
 def _left_out(engine: EngineStepper, system: MassSpringSystem) -> Outcome | None:
-    """An engine that would take minutes, or puts rods where no rope is, is not asked."""
+    """An engine that would take minutes, or whose rods are a pendulum's where none hangs, is not asked."""
     slow = too_slow(engine, system)
     if slow:
         return replace(slow, reason=slow.reason.partition(";")[0])
     scheme = claimed(engine.engine)
-    reason = why_no_pendulum(replace(system, obstacles=())) if scheme is not None and scheme.on_rods else None
+    hangs = scheme is not None and scheme.equations is PendulumMotion
+    reason = why_no_pendulum(replace(system, obstacles=())) if hangs else None
     return Outcome("unsupported", f"{engine.name} puts rods for springs: {reason}") if reason else None
