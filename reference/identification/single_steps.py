@@ -97,7 +97,8 @@ def identify_steps(
     compared = "single steps away from obstacles" if steps.touching else "single steps"
     tolerance = ROUNDINGS * ROUNDING[precision] * length
     if not steps.systems or not tells_velocities(steps.run):
-        why = "it tells no velocities to begin single steps with" if steps.systems else "no single step can be compared"
+        tells = tells_velocities(steps.run)
+        why = "no single step can be compared" if tells else "it tells no velocities to begin single steps with"
         return Identification(name, (), tolerance, why, compared=compared)
     some, whole = (steps.spread(most) for most in (STATES, max(STATES, ALL_UP_TO // steps.run.positions.shape[1])))
     tried = {scheme: _match(scheme, stepper, some, length) for scheme, stepper in catalogue.items()}
@@ -107,10 +108,10 @@ def identify_steps(
     result = Identification(name, ranking, tolerance, compared=compared)
     if result.matches:
         return result
-    if not ranking:
-        return result.without_name("no scheme of the catalogue can take single steps here")
     memory = [scheme for scheme, stepper in catalogue.items() if not stepper.scheme.one_step]
-    words = f"nearest {ranking[0].scheme} at {ranking[0].error:.2g} m a step"
+    words = "no scheme of the catalogue can take single steps here"
+    if ranking:
+        words = f"nearest {ranking[0].scheme} at {ranking[0].error:.2g} m a step"
     return result.without_name(words + (f"; not comparable by single steps: {', '.join(memory)}" if memory else ""))
 
 
