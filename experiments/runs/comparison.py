@@ -62,9 +62,7 @@ class Run:
     @property
     def why(self) -> str:
         """What there is to say of how it ended, and where it has no name, why."""
-        found = self.identification
-        no_name = f"not identified; {found.reason}" if found.reason and found.reason != self.outcome.reason else ""
-        return "; ".join(words for words in (self.outcome.reason, no_name) if words)
+        return why(self.outcome, self.identification)
 
 
 @dataclass(frozen=True)
@@ -171,6 +169,12 @@ def remarks(runs: Sequence[Run]) -> list[str]:
             ways.setdefault(f"Named by {f.compared}, each from a state of its own", []).append(f.stepper)
     whom = {way: "all" if len(names) == len(found) else ", ".join(names) for way, names in ways.items()}
     return [*ties, *(f"{way}: {names}." for way, names in whom.items())]
+
+
+def why(outcome: Outcome, found: Identification) -> str:
+    """How a run ended, where not as it should, and why it has no name, where it has none."""
+    no_name = f"not identified; {found.reason}" if found.reason and found.reason != outcome.reason else ""
+    return "; ".join(words for words in (outcome.reason, no_name) if words)
 
 
 def told(found: Identification) -> dict[str, Any]:

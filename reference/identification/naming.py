@@ -152,7 +152,8 @@ class _Naming:
         by_steps = self._by_single_steps(stepper, outcome.trajectory)
         if by_steps.identified_as:
             return by_steps
-        words = f"; by {by_steps.compared}, {by_steps.reason}" if by_steps.ranking else ""
+        nothing = not by_steps.ranking and by_steps.compared == "single steps"
+        words = "" if nothing else f"; by {by_steps.compared}, {by_steps.reason}"
         return found.without_name(found.reason + words)
 
     def _told_apart(self, stepper: Stepper, found: Identification) -> Identification:
@@ -160,10 +161,8 @@ class _Naming:
         names = [match.scheme for match in found.matches]
         if len(names) == 1:
             return found
-        for push in self._pushes:
+        for push in [] if self._cannot_be_told(names) else self._pushes:
             runs = {name: run for name in names if (run := self._on(push, name)) is not None}
-            if len(runs) == len(names) and self._all_same(push, runs):
-                break
             outcome = self._again(stepper, push.system, push.dt, self._few)
             if not runs or outcome.trajectory is None:
                 continue
@@ -179,16 +178,18 @@ class _Naming:
         catalogue = catalogue_with(getattr(stepper, "claims", ()))
         steps = steps_of(run, self._system, self._changes)
         found = identify_steps(stepper.name, steps, catalogue, precision)
-        if not found.matches or self._dt * fastest_rate_bound(self._system) >= LONG:
+        long = self._dt * fastest_rate_bound(self._system) >= LONG
+        names = [match.scheme for match in found.matches]
+        if not names or (long and self._cannot_be_told(names)):
             return self._tied(found)
-        catalogue = {match.scheme: catalogue[match.scheme] for match in found.matches}
+        catalogue = {name: catalogue[name] for name in names}
         for push in self._pushes:
             outcome = self._again(stepper, push.system, push.dt, STATES)
             if outcome.trajectory is None or not _has_step(outcome.trajectory, push.dt):
                 continue
             longer = identify_steps(stepper.name, steps_of(outcome.trajectory, push.system), catalogue, precision)
             return self._tied(replace(longer, compared=found.compared, told_apart_by=push.words))
-        return found.without_name("its steps are too short to tell schemes apart one by one")
+        return self._tied(found) if long else found.without_name("its steps are too short to tell schemes apart")
 
     def _tied(self, found: Identification) -> Identification:
         if len(found.matches) > 1 and len(found.matches) == len(found.ranking):
@@ -221,6 +222,12 @@ class _Naming:
 
     def _run(self, push: Push, name: str) -> Trajectory | None:
         return stepper_named(name).run(push.system, push.dt, self._few).trajectory
+
+    def _cannot_be_told(self, names: Sequence[str]) -> bool:
+        """Whether these schemes do the same when the system is pushed, too."""
+        push = self._pushes[0]
+        runs = {name: run for name in names if (run := self._on(push, name)) is not None}
+        return len(runs) == len(names) and self._all_same(push, runs)
 
     def _all_same(self, push: Push, runs: Mapping[str, Trajectory]) -> bool:
         """Whether these schemes cannot be told apart."""

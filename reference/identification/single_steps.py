@@ -99,6 +99,7 @@ def identify_steps(
     if not steps.systems or not tells_velocities(steps.run):
         tells = tells_velocities(steps.run)
         why = "no single step can be compared" if tells else "it tells no velocities to begin single steps with"
+        why += ": a mass touches an obstacle in all of them, and contacts are its own" if steps.touching else ""
         return Identification(name, (), tolerance, why, compared=compared)
     some, whole = (steps.spread(most) for most in (STATES, max(STATES, ALL_UP_TO // steps.run.positions.shape[1])))
     tried = {scheme: _match(scheme, stepper, some, length) for scheme, stepper in catalogue.items()}
