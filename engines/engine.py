@@ -144,7 +144,7 @@ _NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
     "rest_lengths": lambda system: _differ(system.rest_lengths),
     "stiffnesses": lambda system: _differ(system.stiffness),
     "dampings": lambda system: _differ(system.damping),
-    "stretched": lambda system: _stretched(system),
+    "stretched": lambda system: system.off_rest_length.any(),
     "velocities": lambda system: system.velocities.any(),
     "damping": lambda system: system.damping.any(),
     "drag": lambda system: system.drag > 0,
@@ -227,10 +227,3 @@ def find(name: str) -> Engine:
 def _differ(values: Array) -> bool:
     """By more than rounding: equal members of a truss are as long as one another to an ulp or two."""
     return bool(len(values) and (abs(values - values[0]) > 1e-15 * abs(values[0])).any())
-
-
-def _stretched(system: MassSpringSystem) -> bool:
-    a, b = system.springs.T
-    separations = system.positions[b] - system.positions[a]
-    lengths = (separations**2).sum(axis=1) ** 0.5
-    return bool((abs(lengths - system.rest_lengths) > 1e-12 * lengths).any())

@@ -14,21 +14,16 @@ from engines.engine import Engine, Unsupported
 from engines.step_jacobian import step_jacobian
 from reference.growth_factor import growth_factor
 from reference.limit import Limit
-from reference.measured_stability import (
-    GROWN,
-    SEEN,
-    STEPS,
-    limit_near,
-    measured_limit,
-    mode_growth,
-    random_growth,
-)
+from reference.measured_stability import GROWN, SEEN, STEPS, measured_limit, mode_growth, random_growth
 from reference.outcome import Outcome
 from reference.state import Array
 from reference.system import BoolArray, MassSpringSystem
 
 #: Below and above its limit, as parts of it, an engine's step is looked at.
 BELOW, ABOVE = 0.99, 1.01
+
+#: The part of a limit at which perturbations are to grow.
+BEYOND = 1.1
 
 #: How many steps a mode is watched.
 MODE_STEPS = 300
@@ -46,46 +41,21 @@ def limit_of_engine(
         precision: as a part of the limit.
 
     Returns:
-        The limit, with the growth factors of the engine's step at BELOW and ABOVE of it where the engine can start
-        stretched and in motion.
+        The limit, and whether perturbations grow at BEYOND of it; with the growth factors of the engine's step at BELOW
+        and ABOVE of it where the engine can start stretched and in motion.
     """
-    try:
-        limit = measured_limit(lambda h, steps: growth_of_engine(engine, rest, perturbed, h, steps), dt, precision)
-        if limit.dt is None or not {"stretched", "velocities"} <= engine.capabilities:
-            return limit
-        below, above = (_growth_factor(engine, rest, perturbed, part * limit.dt) for part in (BELOW, ABOVE))
-        return replace(limit, factors=(below, above))
-    except Unsupported as error:
-        return Outcome("unsupported", str(error))
-
-
-def limit_of_engine_near(
-    engine: Engine,
-    rest: Array,
-    perturbed: MassSpringSystem,
-    expected: float | None,
-    dt: float,
-    precision: float,
-    beyond: float,
-) -> Limit | Outcome:
-    """As `limit_of_engine`, in a few runs where the limit is where theory expects it; and what is beyond it.
-
-    Args:
-        expected: the predicted limit [s]; None where there is none.
-        beyond: the part of the limit (over 1) at which it is looked whether perturbations grow.
-
-    Returns:
-        The limit, and whether perturbations grow beyond it.
-    """
-
     def growth(h: float, steps: int) -> float:
         return growth_of_engine(engine, rest, perturbed, h, steps)
 
     try:
-        limit = limit_near(growth, expected, dt, precision)
+        limit = measured_limit(growth, dt, precision)
         if limit.dt is None:
             return limit
-        return replace(limit, grows_beyond=growth(beyond * limit.dt, STEPS) > SEEN)
+        limit = replace(limit, grows_beyond=growth(BEYOND * limit.dt, STEPS) > SEEN)
+        if not {"stretched", "velocities"} <= engine.capabilities:
+            return limit
+        below, above = (_growth_factor(engine, rest, perturbed, part * limit.dt) for part in (BELOW, ABOVE))
+        return replace(limit, factors=(below, above))
     except Unsupported as error:
         return Outcome("unsupported", str(error))
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.comparison import Comparison, Run, compare, finite
+from experiments.runs.comparison import Comparison, Run, compare, finite, remarks
 from experiments.runs.progress import Progress
 from experiments.runs.steppers import default_steppers
 from reference.scenes import Setup, find
 from reference.state import Array
-from reference.stepper import catalogued
+from reference.stepper import stepper_named
 
 
 def setup() -> Setup:
@@ -33,21 +33,20 @@ def _findings(comparison: Comparison) -> list[str]:
     named = [r for r in engines if r.identification.identified_as]
     if not named:
         return ["No engine ran that could be identified."]
-    schemes = catalogued()
-    on_springs = [r for r in named if not schemes[str(r.identification.identified_as)].on_rods] or named
+    on_springs = [r for r in named if not stepper_named(str(r.identification.identified_as)).on_rods] or named
     furthest = max(on_springs, key=_error)
-    worst = max(named, key=lambda r: r.identification.error)
+    worst = max((r.identification.error for r in named if not r.identification.by_single_steps), default=0.0)
     sentences = [
         f"{len(named)} of {len(engines)} engine settings are identified: each follows a scheme of the catalogue to "
-        f"{worst.identification.error:.1e} m or better, though {furthest.stepper.name} is up to "
-        f"{_error(furthest):.1e} m from the true motion.",
+        f"{worst:.1e} m or better, though {furthest.stepper.name} is up to {_error(furthest):.1e} m from the true "
+        "motion.",
         "What separates an engine from the true motion is its scheme at this dt: rounding, and what else an engine "
-        f"might do, comes to {worst.identification.error:.1e} m at most.",
+        f"might do, comes to {worst:.1e} m at most.",
     ]
-    strangers = [r.stepper.name for r in engines if not r.identification.identified_as]
+    strangers = [f"{r.stepper.name} ({r.identification.reason})" for r in engines if not r.identification.identified_as]
     if strangers:
         sentences.append(f"Not identified: {', '.join(strangers)}.")
-    return sentences
+    return sentences + remarks(engines)
 
 
 def _error(run: Run) -> float:
@@ -55,9 +54,10 @@ def _error(run: Run) -> float:
 
 
 def _summary(comparison: Comparison) -> Table:
-    columns = ["stepper", "kind", "version", "outcome", "error [m]", "identified as", "deviation [m]", "reason"]
-    keys = ["stepper", "kind", "version", "outcome", "error_m", "identified_as", "identification_error_m", "reason"]
-    return Table("divergence", columns, [[run.row[key] for key in keys] for run in comparison.runs])
+    columns = ["stepper", "kind", "version", "outcome", "error [m]", "identified as", "deviation [m]"]
+    keys = ["stepper", "kind", "version", "outcome", "error_m", "identified_as", "identification_error_m"]
+    rows = [[*(run.row[key] for key in keys), ", ".join(run.identification.ties), run.why] for run in comparison.runs]
+    return Table("divergence", [*columns, "ties with", "reason"], rows)
 
 
 def _over_time(comparison: Comparison) -> Table:

@@ -3,29 +3,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.runs.comparison import finite
+from experiments.runs.comparison import finite, why
 from experiments.runs.progress import Progress
 from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import installed_engines
-from reference.identification import LARGE, Identification, candidates_for, identify_run
+from reference.identification import Identification, identify_all
 from reference.outcome import Outcome
 from reference.scenes import Scene, Setup, scenes
 from reference.schemes.catalogue import find as find_scheme
 from reference.simulate import simulate
 from reference.state import Trajectory
-from reference.stepper import Stepper, catalogued, stepper_named
+from reference.stepper import Stepper
 from reference.system import MassSpringSystem
 
-#: How many steps every engine takes of a scene, and how near a scheme must be for it to be identified [m].
-STEPS, NEAR = 100, 1e-9
-
-#: For how many steps a run that no engine's scheme is near to is compared with the whole catalogue: on a mesh of rods
-#: STEPS would take minutes.
-FIRST = 20
+#: How many steps every engine takes of a scene.
+STEPS = 100
 
 #: A mass this near to an obstacle, as a part of the system's size, touches it.
 TOUCH = 1e-6
@@ -36,14 +32,13 @@ SHOWN_BY, STATES = "heun", 60
 
 @dataclass(frozen=True)
 class Run:
-    """What an engine did on a scene, and which scheme it was there, compared over some steps."""
+    """What an engine did on a scene, and which scheme it was there."""
 
     scene: Scene
     system: MassSpringSystem
     stepper: Stepper
     outcome: Outcome
     identification: Identification
-    compared: int
 
     @property
     def met_obstacle(self) -> bool:
@@ -53,11 +48,6 @@ class Run:
             return False
         free = trajectory.positions[:, ~self.system.fixed]
         return any(float(o.signed_distances(free)[0].min()) <= TOUCH * self.system.size for o in self.system.obstacles)
-
-    @property
-    def is_identified(self) -> bool:
-        """Whether a scheme is as near as it should be."""
-        return self.identification.error <= NEAR
 
 
 def run(progress: Progress) -> Result:
@@ -77,42 +67,9 @@ def _runs(scene: Scene, progress: Progress) -> Iterator[Run]:
     system, changes = setup.system, setup.changes
     engines = installed_engines()
     outcomes = list(side_by_side(engines, lambda s: s.run(system, scene.dt, STEPS, changes), progress))
-    claimed = {name: stepper_named(name) for stepper in engines for name in stepper.claims}
-    large = len(system.masses) > LARGE
-    in_order = {**catalogued(), **claimed}
-    tried = [c for name, c in in_order.items() if name in claimed and not (large and c.on_rods)]
-    moved = [outcome for _, outcome in outcomes if outcome.trajectory is not None]
-    known = _known(tried, moved, setup)
-    found = {s.name: identify_run(s.name, outcome, system, known) for s, outcome in outcomes}
-    begun = [(s, _beginning(o)) for s, o in outcomes if o.trajectory is not None and found[s.name].error > NEAR]
-    short = candidates_for(begun, system, scene.dt, FIRST, changes) if begun else {}
-    for stepper, outcome in begun:
-        found[stepper.name] = identify_run(stepper.name, outcome, system, short)
-    strangers = {stepper.name for stepper, _ in begun}
-    for stepper, outcome in outcomes:
-        compared = FIRST if stepper.name in strangers else STEPS
-        yield Run(scene, system, stepper, outcome, found[stepper.name], compared)
-
-
-def _known(steppers: Sequence[Stepper], runs: Sequence[Outcome], setup: Setup) -> dict[str, Trajectory]:
-    """Of these schemes the trajectories that some run follows; which one does not is seen in the first steps."""
-    known: dict[str, Trajectory] = {}
-    system, changes = setup.system, setup.changes
-    for stepper in steppers:
-        runs = [run for run in runs if identify_run("", run, system, known).error > NEAR]
-        begun = stepper.run(system, setup.dt, FIRST, changes).trajectory if runs else None
-        if begun is None:
-            continue
-        if any(identify_run("", _beginning(run), system, {"": begun}).error <= NEAR for run in runs):
-            whole = stepper.run(system, setup.dt, STEPS, changes).trajectory
-            known |= {} if whole is None else {stepper.name: whole}
-    return known
-
-
-def _beginning(outcome: Outcome) -> Outcome:
-    """What there was of a run after the first steps."""
-    assert outcome.trajectory is not None
-    return replace(outcome, trajectory=outcome.trajectory.frames(slice(FIRST + 1)))
+    found = identify_all(outcomes, system, scene.dt, STEPS, changes).each
+    for (stepper, outcome), identification in zip(outcomes, found, strict=True):
+        yield Run(scene, system, stepper, outcome, identification)
 
 
 def motion(setup: Setup) -> Trajectory:
@@ -139,12 +96,13 @@ def result_of(runs: list[Run], motions: Mapping[str, tuple[MassSpringSystem, Tra
 
 def _table(runs: list[Run]) -> Table:
     columns = ["scene", "slides", "masses", "springs", "stepper", "outcome", "identified as", "deviation [m]"]
-    columns += ["over [steps]", "reason"]
+    columns += ["compared by", "ties with", "reason"]
     rows = [
         [
             *(r.scene.name, r.scene.slides, len(r.system.masses), len(r.system.springs), r.stepper.name),
-            *(r.outcome.ending, r.identification.ranking[0].scheme if r.is_identified else None),
-            *(finite(r.identification.error), None if r.outcome.trajectory is None else r.compared, r.outcome.reason),
+            *(r.outcome.ending, r.identification.identified_as, finite(r.identification.error)),
+            r.identification.compared if r.identification.ranking else None,
+            *(", ".join(r.identification.ties), why(r.outcome, r.identification)),
         ]
         for r in runs
     ]
@@ -154,26 +112,40 @@ def _table(runs: list[Run]) -> Table:
 def _findings(runs: list[Run]) -> list[str]:
     moved = [r for r in runs if r.outcome.trajectory is not None]
     free = [r for r in moved if not r.met_obstacle]
-    named = [r for r in free if r.is_identified]
+    named = [r for r in free if r.identification.identified_as]
     if not named:
         return ["No engine ran on any scene that could be identified."]
-    worst = max(named, key=lambda r: r.identification.error)
-    briefly = sum(r.compared < STEPS for r in named)
-    found = [
-        f"Of {len(free)} engine runs of {STEPS} steps that meet no obstacle, {len(named)} are a scheme of the "
-        f"catalogue to {NEAR:g} m; the worst of them, {worst.stepper.name} on {worst.scene.name}, is "
-        f"{worst.identification.error:.1e} m from {worst.identification.ranking[0].scheme}."
-        + (f" {briefly} of them were compared for {FIRST} steps only." if briefly else "")
-    ]
-    strangers = [r for r in free if not r.is_identified]
+    whole = [r for r in named if not r.identification.by_single_steps]
+    found = [f"Of {len(free)} engine runs of {STEPS} steps that meet no obstacle, {len(named)} are identified."]
+    if whole:
+        worst = max(whole, key=lambda r: r.identification.error)
+        found.append(
+            f"Of {len(whole)} of them the whole trajectory is that of a scheme of the catalogue; the worst, "
+            f"{worst.stepper.name} on {worst.scene.name}, is {worst.identification.error:.1e} m from "
+            f"{worst.identification.identified_as}."
+        )
+    if len(whole) < len(named):
+        stepwise = max((r for r in named if r.identification.by_single_steps), key=lambda r: r.identification.error)
+        found.append(
+            f"{len(named) - len(whole)} multiply rounding, and are identified by single steps from states of their "
+            f"own: each is the scheme's to {stepwise.identification.error:.1e} m."
+        )
+    tied = sum(bool(r.identification.ties) for r in named)
+    if tied:
+        found.append(
+            f"In {tied} of them other schemes do the same there: the simplest is named, and the table has all."
+        )
+    strangers = [r for r in free if not r.identification.identified_as]
     if strangers:
         found.append(f"Not identified: {', '.join(map(_stranger, strangers))}.")
     contact = [r for r in moved if r.met_obstacle]
     if contact:
-        alike = sum(r.is_identified and r.compared == STEPS for r in contact)
+        alike = sum(bool(r.identification.identified_as) and not r.identification.by_single_steps for r in contact)
+        away = sum(bool(r.identification.identified_as) and r.identification.by_single_steps for r in contact)
         found.append(
             f"Of {len(contact)} engine runs that meet an obstacle {alike} are a scheme with the reference's rule to "
-            "the end: engines have contacts of their own."
+            f"the end, and {away} a scheme in the steps in which they touch nothing: engines have contacts of their "
+            "own."
         )
     lacking = Counter(
         r.outcome.reason.removeprefix(f"{r.stepper.name} cannot do ") for r in runs if r.outcome.ending == "unsupported"

@@ -155,6 +155,10 @@ class RopeMotion:
         """The rate of change of the whole state: velocities and accelerations."""
         return Slope(1.0, state.velocities, self.acceleration(state))
 
+    def state_of(self, state: State) -> State:
+        """A state of the masses is one of its own."""
+        return state
+
     def trajectory(self, states: list[State]) -> Trajectory:
         """The states of a run as the trajectory of the masses."""
         return Trajectory.of(states)

@@ -160,6 +160,10 @@ class SpringMotion:
         """The derivatives of the forces by positions [N/m] and by velocities [N s/m], spring by spring."""
         return spring_blocks(self.system, state)
 
+    def state_of(self, state: State) -> State:
+        """A state of the masses is one of its own."""
+        return state
+
     def trajectory(self, states: list[State]) -> Trajectory:
         """The states of a run as the trajectory of the masses."""
         return Trajectory.of(states)

@@ -32,9 +32,6 @@ SEEN = float(np.log(2) / (0.75 * STEPS))
 #: How many times as long a run below a limit is: in it, growth is seen that is smaller by the same factor.
 LONGER = 6
 
-#: How near to where it is expected a limit is looked for first, in parts as large as the precision.
-NEAR = 4
-
 
 def random_growth(offsets: Array) -> float:
     """Growth in a step, from the mean squares of offsets in the first and the last quarter of a run.
@@ -93,27 +90,3 @@ def measured_limit(growth: Callable[[float, int], float], dt: float, precision: 
     if growth(0.9 * low, LONGER * STEPS) > SEEN / LONGER:
         return Limit(None, f"unstable at any dt that was tried: in longer runs at {0.9 * low:.3g} s too")
     return Limit(low)
-
-
-def limit_near(growth: Callable[[float, int], float], expected: float | None, dt: float, precision: float) -> Limit:
-    """As `measured_limit`, in a few runs where the limit is where it is expected, and by its own way where it is not.
-
-    The steps that are tried are whole powers of 1 + precision: where to look is expected, what is found is not.
-
-    Args:
-        expected: the limit that theory predicts [s]; None where it knows of none.
-    """
-
-    def unstable(h: float) -> bool:
-        return growth(h, STEPS) > SEEN
-
-    if expected is not None:
-        middle = round(np.log(expected) / np.log1p(precision))
-        low, high = middle - NEAR, middle + NEAR
-        if not unstable((1 + precision) ** low) and unstable((1 + precision) ** high):
-            power, _ = bisect(lambda n: unstable((1 + precision) ** n), low, high, lambda low, high: high - low <= 1)
-            return Limit((1 + precision) ** power)
-    if unstable(dt / 10):
-        tenth = f"{dt / 10:.3g} s, a tenth of what the fastest motion lasts"
-        return Limit(None, f"unstable at {tenth}; no shorter step was tried")
-    return measured_limit(growth, dt, precision)

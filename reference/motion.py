@@ -76,6 +76,9 @@ class Equations(Motion, Protocol):
     def start(self) -> State:
         """The state at time zero."""
 
+    def state_of(self, state: State, /) -> State:
+        """The state in its own coordinates, from positions and velocities of the masses."""
+
     def trajectory(self, states: list[State], /) -> Trajectory:
         """The states of a run, told as positions and velocities of the masses."""
 

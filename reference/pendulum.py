@@ -33,17 +33,13 @@ class PendulumMotion:
         if reason:
             raise InputError(f"no pendulum: {reason}")
         self.system = system
-        separation = np.diff(system.positions, axis=0)
         self._anchor = system.positions[0]
         self._lengths = system.rest_lengths
         self._masses = system.masses[1:]
         hanging = np.cumsum(self._masses[::-1])[::-1]
         longest = np.maximum.outer(np.arange(len(hanging)), np.arange(len(hanging)))
         self._inertia = np.outer(self._lengths, self._lengths) * hanging[longest]
-        angles = np.arctan2(separation[:, 0], -separation[:, 1])
-        across = np.stack([np.cos(angles), np.sin(angles)], axis=1)
-        rates = (np.diff(system.velocities, axis=0) * across).sum(axis=1) / self._lengths
-        self.start = State(0.0, angles, rates)
+        self.start = self.state_of(system.start)
 
     def acceleration(self, state: State) -> Array:
         """Angular accelerations [rad/s^2], shape (n,)."""
@@ -59,6 +55,14 @@ class PendulumMotion:
     def slope(self, state: State) -> Slope:
         """The rate of change of the whole state: angular velocities and accelerations."""
         return Slope(1.0, state.velocities, self.acceleration(state))
+
+    def state_of(self, state: State) -> State:
+        """The angles [rad] and their rates [rad/s], from masses on their rods."""
+        separation = np.diff(state.positions, axis=0)
+        angles = np.arctan2(separation[:, 0], -separation[:, 1])
+        across = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+        rates = (np.diff(state.velocities, axis=0) * across).sum(axis=1) / self._lengths
+        return State(state.time, angles, rates)
 
     def trajectory(self, states: list[State]) -> Trajectory:
         """Positions and velocities of the masses, the anchor first, from the angles."""
@@ -85,7 +89,7 @@ def why_no_pendulum(system: MassSpringSystem) -> str | None:
         return "expected no obstacles: a pendulum that meets one is something else"
     separation = np.diff(system.positions, axis=0)
     length = np.linalg.norm(separation, axis=1)
-    if (np.abs(length - system.rest_lengths) > 1e-12 * length).any():
+    if system.off_rest_length.any():
         return "expected every spring to start at its rest length"
     stretching = (separation * np.diff(system.velocities, axis=0)).sum(axis=1) / length
     if (np.abs(stretching) > 1e-12 * np.abs(system.velocities).max()).any():

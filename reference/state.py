@@ -115,10 +115,22 @@ class Trajectory:
 
         Where one ends before the other (it blew up), or is not a number, the distance is infinite.
         """
-        m = max(len(self), len(other))
-        result = np.full(m, np.inf)
-        both = min(len(self), len(other))
-        with np.errstate(over="ignore", invalid="ignore"):
-            apart = np.linalg.norm(self.positions[:both] - other.positions[:both], axis=2).max(axis=1)
-        result[:both] = np.where(np.isfinite(apart), apart, np.inf)
-        return result
+        return _apart(self.positions, other.positions)
+
+    def velocity_difference(self, other: Trajectory) -> Array:
+        """How far apart their velocities are at each time: the largest difference of any mass [m/s], shape (m,).
+
+        Infinite as `distance` is.
+        """
+        return _apart(self.velocities, other.velocities)
+
+
+def _apart(one: Array, other: Array) -> Array:
+    """The largest distance of any mass in each frame; infinite where one has ended, or is not a number."""
+    m = max(len(one), len(other))
+    result = np.full(m, np.inf)
+    both = min(len(one), len(other))
+    with np.errstate(over="ignore", invalid="ignore"):
+        apart = np.linalg.norm(one[:both] - other[:both], axis=2).max(axis=1)
+    result[:both] = np.where(np.isfinite(apart), apart, np.inf)
+    return result

@@ -117,11 +117,24 @@ class MassSpringSystem:
         return max(extent, float(self.rest_lengths.max(initial=0.0)))
 
     @property
+    def scale(self) -> float:
+        """A length [m] that rounding is a part of, never zero: size or largest coordinate; 1 m where both are zero."""
+        return max(self.size, float(np.abs(self.positions).max())) or 1.0
+
+    @property
     def is_string(self) -> bool:
         """Whether it is the lecture's string: spring j joins masses j and j + 1, and mass 0 alone is fixed."""
         n = len(self.positions)
         chain = [set(pair) for pair in self.springs.tolist()] == [{j, j + 1} for j in range(n - 1)]
         return chain and n >= 2 and bool(self.fixed[0]) and not self.fixed[1:].any()
+
+    @property
+    def off_rest_length(self) -> BoolArray:
+        """Which springs start off their rest length by more than 1e-12 of it and what positions round, shape (s,)."""
+        a, b = self.springs.T
+        lengths = np.linalg.norm(self.positions[b] - self.positions[a], axis=1)
+        rounding = 4 * np.finfo(np.float64).eps * np.abs(self.positions).max()
+        return np.asarray(np.abs(lengths - self.rest_lengths) > 1e-12 * lengths + rounding)
 
     @property
     def start(self) -> State:

@@ -55,6 +55,11 @@ class MujocoCable:
     )
 
     @property
+    def interactive_up_to(self) -> int:
+        """See Engine: MuJoCo compiles and steps the cable in times that grow with the cube of its segments."""
+        return 500
+
+    @property
     def settings(self) -> Mapping[str, object]:
         """What was chosen, and what of MuJoCo's step is switched off."""
         return {"integrator": self.integrator, "composite": "cable", "masses": "at the tips", "disabled": list(OFF)}

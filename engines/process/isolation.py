@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from engines.engine import Engine, version
+from engines.engine import Engine, Precision, precision, version
 from engines.process.supervisor import supervisor
 from reference.changes import Change, changes_by_step
 from reference.errors import Unsupported
@@ -82,6 +82,11 @@ class EngineStepper:
     def claims(self) -> tuple[str, ...]:
         """The schemes that the engine claims to step by: identification tries them too."""
         return tuple(dict.fromkeys(self.engine.identified_as.values()))
+
+    @property
+    def precision(self) -> Precision:
+        """In which floating-point numbers the engine keeps its state: how far rounding goes."""
+        return precision(self.engine)
 
     @property
     def interactive_up_to(self) -> int | None:

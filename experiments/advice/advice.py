@@ -7,44 +7,41 @@ it, and with a step a tenth above the limit the perturbations have to grow.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import floor, log10
+from math import ceil, floor, log10
 
-from engines.measured_limit import limit_of_engine_near
 from engines.process.isolation import EngineStepper
-from experiments.limits.perturbed import perturbed, rest_of_engine, rest_of_scheme
+from experiments.advice.reasons import Reasons, reasons_of
+from experiments.limits.engine_limit import measure_engine
+from experiments.limits.predictions import Predictions, named
 from experiments.runs.claims import claimed
 from experiments.runs.comparison import too_slow
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
 from reference.changes import whole_steps
 from reference.errors import InputError, SolverError
-from reference.identification import Identification, candidates_for, identify_run
+from reference.identification import Identification
 from reference.limit import Limit
 from reference.outcome import Outcome
-from reference.pendulum import why_no_pendulum
+from reference.pendulum import PendulumMotion, why_no_pendulum
 from reference.scenes import Setup
-from reference.schemes.catalogue import find
-from reference.stepper import SchemeStepper, stepper_named
+from reference.stepper import stepper_named
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
-from reference.theory.limits import fastest_rate, find_limit, growth
+from reference.theory.rates import fastest_rate
 
 #: The advised step, and the one that is to be unstable, as parts of the limit.
 ADVISED, REFUTED = 0.9, 1.1
+
+#: Frames in a second.
+FRAMES = 60
 
 #: How often the step is halved where the scene itself needs shorter ones than perturbations of its rest do.
 HALVINGS = 6
 
 #: How many steps an engine is identified from, at a tenth of what the fastest mode allows.
 IDENTIFYING_STEPS = 40
-
-#: Limits are predicted and measured to this part of themselves.
-PREDICTION, MEASUREMENT = 1e-4, 1e-3
-
-#: What is solved to 1e-8 m/s only has the limits of what is solved to the end.
-SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
 
 
 @dataclass(frozen=True)
@@ -59,6 +56,7 @@ class Advice:
         own: how the scene ended with the dt it was given.
         advised: the step to use [s]; None where there is none.
         confirmed: how the scene ended with it.
+        reasons: why the limit is where it is, by theory; None where no scheme is known.
     """
 
     engine: str
@@ -68,11 +66,22 @@ class Advice:
     own: Outcome
     advised: float | None = None
     confirmed: Outcome | None = None
+    reasons: Reasons | None = None
 
     @property
     def limit(self) -> float | None:
-        """The largest stable step [s], measured."""
-        return self.measured.dt
+        """The largest stable step [s]: measured, or what is predicted where that is shorter; None where not measured.
+
+        Perturbations may grow too slowly to be seen, and where no limit was measured but one is certified, it holds.
+        """
+        if self.measured.dt is None:
+            return self.predicted.dt if self.predicted.certainty == "certified" else None
+        return min(self.measured.dt, self.predicted.dt or self.measured.dt)
+
+    @property
+    def substeps(self) -> int | None:
+        """How many steps a frame of 1/60 s takes, each at most ADVISED of the limit; None without a limit."""
+        return None if self.limit is None else ceil(1 / (FRAMES * ADVISED * self.limit))
 
     @property
     def grows(self) -> bool | None:
@@ -101,14 +110,19 @@ def advise(setup: Setup, engines: Sequence[EngineStepper], progress: Progress) -
         except (SolverError, InputError) as error:
             return [_without_limit(engine.name, own[engine.name], str(error)) for engine in engines]
         able = [engine for engine in engines if own[engine.name].ending != "unsupported"]
-        identified, predicted = _predicted(rest, able, progress)
+        predictions = Predictions(replace(setup.system, obstacles=()), rest)
+        progress("identification")
+        identified = predictions.identified(able, IDENTIFYING_STEPS)
+        for name, found in identified.items():
+            progress(f"predicted limit of {name}")
+            predictions.of_engine(found)
         progress("measured limits, and advised steps tried")
 
         def advised(e: EngineStepper) -> Advice:
-            return _advice(e, setup, rest, identified[e.name].identified_as, predicted[e.name], own[e.name])
+            return _advice(e, setup, predictions, identified[e.name], own[e.name])
 
-        found = {advice.engine: advice for advice in pool.map(advised, able)}
-    return [found.get(e.name) or _without_limit(e.name, own[e.name], own[e.name].reason) for e in engines]
+        told = {advice.engine: advice for advice in pool.map(advised, able)}
+    return [told.get(e.name) or _without_limit(e.name, own[e.name], own[e.name].reason) for e in engines]
 
 
 def _without_limit(engine: str, own: Outcome, reason: str) -> Advice:
@@ -116,16 +130,15 @@ def _without_limit(engine: str, own: Outcome, reason: str) -> Advice:
 
 
 def rest_of(system: MassSpringSystem) -> Equilibrium:
-    """Where a system is at rest: without obstacles, and without weight where nothing holds it.
+    """Where a system is at rest: without obstacles; what nothing holds, in the frame that falls with it.
 
     Raises:
         SolverError: if it comes to no rest.
         InputError: if there is nothing in it that could be unstable.
     """
-    if not len(system.springs) or system.fixed.all():
-        raise InputError("there is no spring that could move a mass, and so any step is stable")
-    alone = replace(system, obstacles=())
-    rest = spring_equilibrium(alone if system.fixed.any() else replace(alone, gravity=0 * system.gravity))
+    if system.fixed.all():
+        raise InputError("no mass can move, and so any step is stable")
+    rest = spring_equilibrium(replace(system, obstacles=()))
     if fastest_rate(rest) == 0:
         raise InputError("no spring and no drag moves a mass, and so any step is stable")
     return rest
@@ -137,55 +150,23 @@ def rounded_down(dt: float) -> float:
     return float(f"{floor(dt / unit * (1 + 1e-12)) * unit:.2g}")
 
 
-def _predicted(
-    rest: Equilibrium, engines: Sequence[EngineStepper], progress: Progress
-) -> tuple[Mapping[str, Identification], Mapping[str, Limit]]:
-    """What engines are identified as on the system at rest, and the limits that follow; each scheme's once."""
-    system = rest.motion.system  # type: ignore[attr-defined]
-    dt = 0.1 / fastest_rate(rest)
-    progress("identification")
-    with current().threads() as pool:
-        runs = list(pool.map(lambda engine: engine.run(system, dt, IDENTIFYING_STEPS), engines))
-    seen = list(zip(engines, runs, strict=True))
-    known = candidates_for(seen, system, dt, IDENTIFYING_STEPS)
-    identified = {engine.name: identify_run(engine.name, run, system, known) for engine, run in seen}
-    limits: dict[str | None, Limit] = {None: Limit(None, "no scheme of the catalogue is this near")}
-    for name in dict.fromkeys(found.identified_as for found in identified.values()):
-        if name is not None:
-            progress(f"predicted limit of {name}")
-            limits[name] = predict(stepper_named(name), system, rest)
-    predicted = {name: limits[found.identified_as] for name, found in identified.items()}
-    return identified, predicted
-
-
-def predict(named: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Limit:
-    """A scheme's limit about a rest, or why it is not known."""
-    scheme = find(SOLVED[named.name]) if named.name in SOLVED else named.scheme
-    about = rest_of_scheme(named, system, rest)
-    if isinstance(about, Limit):
-        return about
-    unit = 1 / fastest_rate(about)
-    return find_limit(lambda dt: growth(scheme, about, dt) - 1, unit, precision=PREDICTION)
-
-
 def _advice(
-    engine: EngineStepper, setup: Setup, rest: Equilibrium, scheme: str | None, predicted: Limit, own: Outcome
+    engine: EngineStepper, setup: Setup, predictions: Predictions, found: Identification, own: Outcome
 ) -> Advice:
-    system = rest.motion.system  # type: ignore[attr-defined]
-    about = rest_of_engine(engine.engine, system, rest)
-    if isinstance(about, Outcome):
-        return Advice(engine.name, scheme, predicted, Limit(None, about.reason), own)
-    asked = (predicted.dt, 1 / fastest_rate(about), MEASUREMENT, REFUTED)
-    measured = engine.isolate(
-        limit_of_engine_near, engine.engine, *perturbed(system, about), *asked, time_limit=2 * engine.time_limit
-    )
-    if isinstance(measured, Outcome):
-        return Advice(engine.name, scheme, predicted, Limit(None, measured.reason), own)
-    if measured.dt is None:
-        return Advice(engine.name, scheme, predicted, measured, own)
-    limit = min(measured.dt, predicted.dt or measured.dt)  # perturbations may grow too slowly to be seen
+    scheme, predicted = named(found), predictions.of_engine(found)
+    measured = measure_engine(engine, predictions, scheme, predicted)
+    known = Advice(engine.name, found.identified_as, predicted, _limit(measured), own)
+    if scheme is not None and not scheme.on_rods:
+        known = replace(known, reasons=reasons_of(scheme.scheme, predictions, predicted, setup.dt))
+    limit = known.limit
+    if limit is None:
+        return known
     dt, confirmed = _tried(engine, setup, own, rounded_down(ADVISED * limit))
-    return Advice(engine.name, scheme, predicted, measured, own, dt, confirmed)
+    return replace(known, advised=dt, confirmed=confirmed)
+
+
+def _limit(measured: Limit | Outcome) -> Limit:
+    return Limit(None, measured.reason) if isinstance(measured, Outcome) else measured
 
 
 def _tried(engine: EngineStepper, setup: Setup, own: Outcome, dt: float) -> tuple[float | None, Outcome]:
@@ -212,10 +193,11 @@ def _run(engine: EngineStepper, setup: Setup, dt: float) -> Outcome:
 
 
 def _left_out(engine: EngineStepper, system: MassSpringSystem) -> Outcome | None:
-    """An engine that would take minutes, or puts rods where no rope is, is not asked."""
+    """An engine that would take minutes, or whose rods are a pendulum's where none hangs, is not asked."""
     slow = too_slow(engine, system)
     if slow:
         return replace(slow, reason=slow.reason.partition(";")[0])
     scheme = claimed(engine.engine)
-    reason = why_no_pendulum(replace(system, obstacles=())) if scheme is not None and scheme.on_rods else None
+    hangs = scheme is not None and scheme.equations is PendulumMotion
+    reason = why_no_pendulum(replace(system, obstacles=())) if hangs else None
     return Outcome("unsupported", f"{engine.name} puts rods for springs: {reason}") if reason else None

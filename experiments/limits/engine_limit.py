@@ -17,6 +17,7 @@ from engines.engine import precision as precision_of
 from engines.measured_limit import ModeRun, growths_along_modes, limit_of_engine
 from engines.process.isolation import EngineStepper
 from experiments.limits.perturbed import perturbed, rest_of_engine
+from experiments.limits.predictions import Predictions
 from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.limit import Limit
@@ -44,35 +45,27 @@ SIZE = {"double": PERTURBATION, "single": 1e-3}
 
 
 def measure_engine(
-    stepper: EngineStepper,
-    system: MassSpringSystem,
-    rest: Equilibrium,
-    dt: float,
-    precision: float = PRECISION,
-    scheme: SchemeStepper | None = None,
-    predicted: Limit | None = None,
-    found: Rates | None = None,
+    stepper: EngineStepper, predictions: Predictions, scheme: SchemeStepper | None, predicted: Limit
 ) -> Limit | Outcome:
     """An engine's limit about the equilibrium it can have; or the outcome that says why not.
 
     Args:
-        rest: of the system's springs.
-        dt: about as long as the fastest mode lasts [s].
-        precision: as a part of the limit, of a blind search.
-        scheme, predicted: what the engine was identified as, and its limit; None where it was not.
-        found: the eigenvalues of the motion at rest.
+        predictions: of the system.
+        scheme, predicted: what the engine was identified as, None where it was not; and its limit.
     """
     if stepper.version is None:
         return Outcome("unsupported", f"{stepper.engine.package} is not installed")
-    own_rest = rest_of_engine(stepper.engine, system, rest)
+    system = predictions.system
+    own_rest = rest_of_engine(stepper.engine, system, predictions.rest)
     if isinstance(own_rest, Outcome):
         return own_rest
-    if scheme is not None and predicted is not None and found is not None:
-        along = _along_modes(stepper, system, own_rest, scheme, predicted, found)
+    if scheme is not None:
+        along = _along_modes(stepper, system, own_rest, scheme, predicted, predictions.rates)
         if along is not None:
             return along
-    start = perturbed(system, own_rest)
-    return stepper.isolate(limit_of_engine, stepper.engine, *start, dt, precision, time_limit=2 * stepper.time_limit)
+    at_rest, start = perturbed(system, own_rest)
+    asked = (stepper.engine, at_rest, start, predictions.unit, PRECISION)
+    return stepper.isolate(limit_of_engine, *asked, time_limit=2 * stepper.time_limit)
 
 
 def _along_modes(
@@ -102,7 +95,7 @@ def _along_modes(
     if isinstance(answer, Outcome):
         return answer
     first = _first_unstable(answer["growth"].tolist(), MARGIN[precision_of(engine)])
-    return None if first is None else Limit(sqrt(steps[first - 1] * steps[first]))
+    return None if first is None else Limit(sqrt(steps[first - 1] * steps[first]), grows_beyond=True)
 
 
 def _mode_run(scheme: SchemeStepper, rest: Equilibrium, dt: float, size: float, found: Rates) -> ModeRun | None:

@@ -2,27 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from engines.process.isolation import EngineStepper
-from experiments.limits.engine_limit import PRECISION, measure_engine
-from experiments.limits.perturbed import rest_of_scheme
+from experiments.limits.engine_limit import measure_engine
+from experiments.limits.predictions import Predictions, named
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
-from reference.identification import Identification, candidates_for, identify_run
 from reference.limit import Limit
 from reference.outcome import Outcome
-from reference.stepper import SchemeStepper, Stepper, stepper_named
+from reference.stepper import SchemeStepper, Stepper
 from reference.system import MassSpringSystem
-from reference.theory.equilibria import Equilibrium, spring_equilibrium
-from reference.theory.limits import stability_limit
+from reference.theory.equilibria import spring_equilibrium
 from reference.theory.measured_mode import measured_mode_limit
-from reference.theory.rates import Rates, rates
-
-#: An engine is identified from this many steps, at a tenth of what the fastest mode allows.
-IDENTIFYING_STEPS = 200
 
 
 @dataclass(frozen=True)
@@ -79,24 +73,20 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
     Raises:
         SolverError: if the system has no equilibrium.
     """
-    rest = spring_equilibrium(system)
-    found = rates(rest)
-    dt = 1 / (found.fastest or 1.0)
+    predictions = Predictions(system, spring_equilibrium(system))
     engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
+    identified = predictions.identified(engines)
+    predicted = {name: predictions.of_engine(found) for name, found in identified.items()}
     rows = []
-    identified = _identified(engines, system, 0.1 * dt)
-    known = {engine.name: _named(identified[engine.name]) for engine in engines}
-    limits = _Limits(system, rest, found)
-    predicted = {name: _predicted(identified[name], scheme, limits) for name, scheme in known.items()}
     with current().threads() as pool:
         measured = {
-            e.name: pool.submit(measure_engine, e, system, rest, dt, PRECISION, known[e.name], predicted[e.name], found)
+            e.name: pool.submit(measure_engine, e, predictions, named(identified[e.name]), predicted[e.name])
             for e in engines
         }
         for stepper in steppers:
             progress(stepper.name)
             if isinstance(stepper, SchemeStepper):
-                rows.append(_scheme_row(stepper, limits))
+                rows.append(_scheme_row(stepper, predictions))
             elif isinstance(stepper, EngineStepper):
                 rows.append(_engine_row(stepper, system, predicted[stepper.name], measured[stepper.name].result()))
             else:
@@ -105,59 +95,12 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
     return rows
 
 
-def _identified(engines: Sequence[EngineStepper], system: MassSpringSystem, dt: float) -> Mapping[str, Identification]:
-    """Which scheme each engine is, from a run on the system with a dt [s]."""
-    runs = [(engine, engine.run(system, dt, IDENTIFYING_STEPS)) for engine in engines]
-    known = candidates_for(runs, system, dt, IDENTIFYING_STEPS) if engines else {}
-    return {engine.name: identify_run(engine.name, run, system, known) for engine, run in runs}
-
-
-def _named(identification: Identification) -> SchemeStepper | None:
-    """The scheme that an engine was identified with."""
-    return None if identification.identified_as is None else stepper_named(identification.identified_as)
-
-
-class _Limits:
-    """The predicted limits of schemes on one system, each looked for once.
-
-    Args:
-        rest: of the springs.
-        found: the eigenvalues of the motion there.
-    """
-
-    def __init__(self, system: MassSpringSystem, rest: Equilibrium, found: Rates) -> None:
-        self.system, self._rest, self._found = system, rest, found
-        self._known: dict[str, Limit] = {}
-
-    def about(self, stepper: SchemeStepper) -> tuple[Equilibrium, Rates] | Limit:
-        """Where a scheme's system is at rest, and how it moves there; where there is no rest, no limit and why."""
-        rest = rest_of_scheme(stepper, self.system, self._rest)
-        if isinstance(rest, Limit):
-            return rest
-        return rest, rates(rest) if stepper.on_rods else self._found
-
-    def of(self, stepper: SchemeStepper) -> Limit:
-        """A scheme's."""
-        if stepper.name not in self._known:
-            about = self.about(stepper)
-            limit = about if isinstance(about, Limit) else stability_limit(stepper.scheme, *about)
-            self._known[stepper.name] = limit
-        return self._known[stepper.name]
-
-
-def _predicted(identification: Identification, scheme: SchemeStepper | None, limits: _Limits) -> Limit:
-    """The limit of the scheme an engine was identified with."""
-    if scheme is None:
-        return Limit(None, identification.reason or str(identification).partition(": ")[2])
-    return limits.of(scheme)
-
-
-def _scheme_row(stepper: SchemeStepper, limits: _Limits) -> Row:
-    about, predicted = limits.about(stepper), limits.of(stepper)
+def _scheme_row(stepper: SchemeStepper, predictions: Predictions) -> Row:
+    about, predicted = predictions.about(stepper), predictions.of(stepper)
     if isinstance(about, Limit):
-        return Row(stepper.name, stepper.kind, limits.system, about, about)
+        return Row(stepper.name, stepper.kind, predictions.system, about, about)
     measured = measured_mode_limit(stepper.scheme, about[0], predicted, about[1])
-    return Row(stepper.name, stepper.kind, limits.system, predicted, measured)
+    return Row(stepper.name, stepper.kind, predictions.system, predicted, measured)
 
 
 def _engine_row(stepper: EngineStepper, system: MassSpringSystem, predicted: Limit, measured: Limit | Outcome) -> Row:

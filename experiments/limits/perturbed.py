@@ -43,7 +43,7 @@ def rest_of_engine(engine: Engine, system: MassSpringSystem, rest: Equilibrium) 
         return rest
     reason = why_no_pendulum(system)
     if reason:
-        return Outcome("unsupported", f"{engine.name} cannot hang at rest: {reason}")
+        return Outcome("unsupported", f"{engine.name} puts rods for springs, whose rest is not known here: {reason}")
     return pendulum_equilibrium(system)
 
 

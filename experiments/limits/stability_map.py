@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from engines.process.isolation import EngineStepper
-from experiments.limits.limit_rows import IDENTIFYING_STEPS
+from experiments.limits.predictions import IDENTIFYING_STEPS
 from experiments.limits.measured_growth import engine_growth, stepped_growth, swept_growth
 from experiments.limits.plane import Axis, Plane, SystemAt
 from experiments.limits.predicted_limits import predicted_boundary, predicted_field

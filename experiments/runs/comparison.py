@@ -13,9 +13,8 @@ from engines.engine import demands
 from engines.process.isolation import EngineStepper
 from experiments.runs.progress import Progress
 from experiments.runs.side_by_side import side_by_side
-from reference.changes import whole_steps
 from reference.errors import InputError
-from reference.identification import Identification, candidates_for, identify_by_rounding
+from reference.identification import Identification, identify_all
 from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
@@ -51,10 +50,19 @@ class Run:
             "version": self.stepper.version,
             "outcome": self.outcome.ending,
             "reason": self.outcome.reason,
-            "error_m": finite(None if self.error is None else float(self.error.max())),
-            "identified_as": self.identification.identified_as,
-            "identification_error_m": finite(self.identification.error),
+            "error_m": finite(self.largest_error),
+            **told(self.identification),
         }
+
+    @property
+    def largest_error(self) -> float | None:
+        """The largest distance from the true motion [m]; None where that is not known, or the run has no end."""
+        return float(self.error.max()) if self.error is not None and self.outcome.ending == "done" else None
+
+    @property
+    def why(self) -> str:
+        """What there is to say of how it ended, and where it has no name, why."""
+        return why(self.outcome, self.identification)
 
 
 @dataclass(frozen=True)
@@ -68,7 +76,7 @@ class Comparison:
     @property
     def times(self) -> Array:
         """Of all steps [s], shape (m,)."""
-        return np.array([i * self.setup.dt for i in range(whole_steps(self.setup.dt, self.setup.duration) + 1)])
+        return np.array([i * self.setup.dt for i in range(self.setup.steps + 1)])
 
     @property
     def why_no_true_motion(self) -> str | None:
@@ -80,7 +88,13 @@ class Comparison:
         """The comparison as the command line's JSON has it; where the true motion is not known it says why."""
         setup = self.setup
         rows = [run.row for run in self.runs]
-        asked = {"scene": setup.name, "dt_s": setup.dt, "duration_s": setup.duration}
+        asked = {
+            "scene": setup.name,
+            "dt_s": setup.dt,
+            "duration_s": setup.duration,
+            "steps": setup.steps,
+            "run_duration_s": setup.run_duration,
+        }
         why = {"why_no_true_motion": self.why_no_true_motion} if self.why_no_true_motion else {}
         return {**asked, **why, "runs": rows}
 
@@ -96,7 +110,7 @@ def compare(
     Raises:
         InputError: for a dt or duration that makes no sense; where the trajectories would not fit into the memory.
     """
-    steps = whole_steps(setup.dt, setup.duration)
+    steps = setup.steps
     _check_room([s for s in steppers if patient or not too_slow(s, setup.system)], setup.system, steps)
     progress("true motion")
     true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
@@ -107,16 +121,14 @@ def compare(
 
     outcomes = list(side_by_side(steppers, task, progress))
     progress("catalogue of schemes")
-    known = candidates_for(outcomes, setup.system, setup.dt, steps, setup.changes)
+    identified = identify_all(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []
-    for stepper, outcome in outcomes:
-        identification = identify_by_rounding(
-            stepper.name, outcome, setup.system, known, setup.dt, steps, setup.changes
-        )
+    for (stepper, outcome), identification in zip(outcomes, identified.each, strict=True):
         named = identification.identified_as
         trajectory = outcome.trajectory
         error = None if trajectory is None or true is None else trajectory.distance(true)
-        deviation = None if trajectory is None or named is None else trajectory.distance(known[named])
+        scheme = identified.known.get(named or "")
+        deviation = None if trajectory is None or scheme is None else trajectory.distance(scheme)
         runs.append(Run(stepper, outcome, identification, error, deviation))
     return Comparison(setup, true, tuple(runs))
 
@@ -143,6 +155,38 @@ def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:
         return None
     reason = f"left out: with more than {most} masses it takes long, here are {n}; --stepper {stepper.name} runs it"
     return Outcome("unsupported", reason)
+
+
+def remarks(runs: Sequence[Run]) -> list[str]:
+    """What ties with the schemes that are named, and how schemes were told apart that tie on the system itself."""
+    found = [run.identification for run in runs]
+    ties = {f"{f.identified_as}: {f.remark[0].lower()}{f.remark[1:]}": None for f in found if f.remark}
+    ways: dict[str, list[str]] = {}
+    for f in found:
+        if f.told_apart_by:
+            ways.setdefault(f"Told apart by {f.told_apart_by}", []).append(f.stepper)
+        if f.by_single_steps and f.identified_as:
+            ways.setdefault(f"Named by {f.compared}, each from a state of its own", []).append(f.stepper)
+    whom = {way: "all" if len(names) == len(found) else ", ".join(names) for way, names in ways.items()}
+    return [*ties, *(f"{way}: {names}." for way, names in whom.items())]
+
+
+def why(outcome: Outcome, found: Identification) -> str:
+    """How a run ended, where not as it should, and why it has no name, where it has none."""
+    no_name = f"not identified; {found.reason}" if found.reason and found.reason != outcome.reason else ""
+    return "; ".join(words for words in (outcome.reason, no_name) if words)
+
+
+def told(found: Identification) -> dict[str, Any]:
+    """An identification in plain numbers and words: what ties with the scheme that is named, or why none is."""
+    return {
+        "identified_as": found.identified_as,
+        "identification_error_m": finite(found.error),
+        "ties": list(found.ties),
+        "told_apart_by": found.told_apart_by,
+        "compared_by": found.compared if found.ranking else "",
+        "why_not_identified": found.reason,
+    }
 
 
 def finite(value: float | None) -> float | None:

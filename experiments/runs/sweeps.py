@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from math import isfinite
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
 from engines.engine import Engine
-from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT, EngineStepper, run_engine
+from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT, EngineStepper
 from experiments.runs.task import Task
 from reference.changes import Change, whole_steps
 from reference.errors import InputError
@@ -20,6 +20,8 @@ from reference.files.setup import setup_for
 from reference.outcome import Outcome
 from reference.stepper import Stepper
 from reference.system import MassSpringSystem
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -99,26 +101,27 @@ def judged(
         identify: whether to say which scheme it is.
         keep: whether to return the trajectory.
     """
-    from experiments.runs.comparison import finite
+    from experiments.runs.comparison import finite, told
     from experiments.runs.steppers import find_steppers
-    from reference.identification import candidates_for, identify_by_rounding
+    from reference.identification import identify_all
     from reference.theory.exact import exact
 
-    made_by = find_steppers([stepper])[0] if engine is None else EngineStepper(engine)
-    if engine is None:
-        outcome = made_by.run(system, dt, steps, changes)
-    else:
-        outcome = run_engine(engine, system, dt, steps, changes)
+    made_by = find_steppers([stepper])[0] if engine is None else EngineStepper(engine, isolate=_here)
+    outcome = made_by.run(system, dt, steps, changes)
     answer: dict[str, Any] = {"outcome": outcome if keep else replace(outcome, trajectory=None)}
-    if outcome.trajectory is not None and not system.obstacles:
+    if outcome.ending == "done" and outcome.trajectory is not None and not system.obstacles:
         frames = len(outcome.trajectory)
         distance = outcome.trajectory.distance(exact(system, dt, frames - 1, changes))
         answer["error_m"] = finite(float(distance.max()))
     if identify:
-        known = candidates_for([(made_by, outcome)], system, dt, steps, changes)
-        found = identify_by_rounding(stepper, outcome, system, known, dt, steps, changes)
-        answer |= {"identified_as": found.identified_as, "identification_error_m": finite(found.error)}
+        (found,) = identify_all([(made_by, outcome)], system, dt, steps, changes).each
+        answer |= {**told(found), "ties": ", ".join(found.ties)}
     return answer
+
+
+def _here(function: Callable[..., T], *arguments: Any, time_limit: float = TIME_LIMIT) -> T | Outcome:
+    """What a function returns, called in this very process: it is the run's own."""
+    return function(*arguments)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from reference.changes import Change
-from reference.identification.ranking import identify_run
+from reference.identification.ranking import TOLERANCE, identify_run
 from reference.outcome import outcome_of
 from reference.state import Trajectory
 from reference.stepper import Stepper
@@ -33,13 +33,14 @@ def amplified(
 ) -> float:
     """How far a perturbation of all free masses, in random directions, takes a stepper from its trajectory.
 
-    Both the perturbation, up to PERTURBATION, and the distance are parts of the system's size. A stable scheme takes it
+    Both the perturbation, up to PERTURBATION, and the distance are parts of the run's scale. A stable scheme takes it
     2e-14 to 6e-13 far in some hundred steps on the default string; RK4 that blows up multiplies it by 2e7 in ten steps
     of 0.02 s.
     """
-    aside = PERTURBATION * system.size * np.random.default_rng(0).uniform(-1, 1, system.positions.shape)
+    aside = PERTURBATION * system.scale * np.random.default_rng(0).uniform(-1, 1, system.positions.shape)
     perturbed = replace(system, positions=system.positions + np.where(system.fixed[:, None], 0.0, aside))
     other = stepper.run(perturbed, dt, steps, changes).trajectory
     if other is None:
         return 0.0
-    return identify_run(stepper.name, outcome_of(system, trajectory), system, {"perturbed": other}).error / system.size
+    found = identify_run(stepper.name, outcome_of(system, trajectory), system, {"perturbed": other})
+    return TOLERANCE * found.error / found.tolerance

@@ -2,42 +2,74 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
+
+import numpy as np
 
 from reference.identification.result import Identification, Match
+from reference.identification.scale import scale
 from reference.outcome import Outcome, first_diverged_frame
 from reference.state import Trajectory
 from reference.system import MassSpringSystem
 
-#: A deviation counts as rounding up to this part of the system's size.
+#: A deviation counts as rounding up to this part of the run's scale.
 TOLERANCE = 1e-12
 
-#: Deviations below this part of the size are one as good as the other: the simpler scheme is named.
+#: Deviations below this part of the scale are one as good as the other: the simpler scheme is named.
 NOISE = 1e-14
 
 #: A run that blows up is compared while no spring is longer than this many times its length.
 STRETCH = 3.0
 
+#: Trajectories that were begun only, with the number of steps they were asked for.
+Begun = Mapping[str, tuple[int, Trajectory]]
+
 
 def identify_run(
-    name: str, outcome: Outcome, system: MassSpringSystem, known: Mapping[str, Trajectory], tolerance: float = TOLERANCE
+    name: str,
+    outcome: Outcome,
+    system: MassSpringSystem,
+    known: Mapping[str, Trajectory],
+    tolerance: float = TOLERANCE,
+    begun: Begun = MappingProxyType({}),
 ) -> Identification:
     """Rank the known trajectories by their distance from a run's, and name the nearest if it is within the tolerance.
+
+    Positions and velocities are compared, the latter times the step: what a scheme makes of the same positions with
+    other velocities is another scheme.
 
     Args:
         name: of the stepper that made the run.
         known: trajectories by scheme, the simplest first: of several that are as good as the best, that one is named.
-        tolerance: as a part of the system's size.
+        tolerance: as a part of the run's scale (`scale`).
+        begun: trajectories of the first steps only, of schemes that are not among the known; they are ranked behind.
     """
-    limit = tolerance * system.size
+    limit = tolerance * system.scale
     if outcome.trajectory is None:
         return Identification(name, (), limit, outcome.reason)
     frames = comparable_frames(outcome, system)
     if frames < 2:
         return Identification(name, (), limit, "it blew up in its first step")
-    errors = {scheme: largest_distance(outcome.trajectory, run, frames) for scheme, run in known.items()}
-    return Identification(name, ranked(errors, limit, NOISE * system.size), limit)
+    run = outcome.trajectory
+    length = scale(system, run.frames(slice(frames)))
+    limit = tolerance * length
+    whole = ranked([match(n, run, other, frames) for n, other in known.items()], limit, NOISE * length)
+    first = [match(n, run.frames(slice(m + 1)), t, min(m + 1, frames)) for n, (m, t) in begun.items() if n not in known]
+    found = Identification(name, whole + ranked(first, limit, NOISE * length), limit)
+    return found if found.matches else found.without_name(why_none(found))
+
+
+def why_none(found: Identification) -> str:
+    """What there is to say where nothing is within the tolerance."""
+    if not found.ranking:
+        return "no scheme of the catalogue can step this system"
+    nearest = found.ranking[0]
+    words = f"nearest {nearest.scheme} at {nearest.error:.2g} m"
+    if nearest.positions <= found.tolerance:
+        words += f", by its velocities times the step; its positions are the same to {nearest.positions:.2g} m"
+    return words
 
 
 def identify_beginning(
@@ -52,23 +84,36 @@ def identify_beginning(
 
 def comparable_frames(outcome: Outcome, system: MassSpringSystem) -> int:
     """How many frames of a run are compared: all, or those before it blew up."""
-    assert outcome.trajectory is not None
+    run = outcome.trajectory
+    assert run is not None
     if outcome.ending != "diverged":
-        return len(outcome.trajectory)
-    return first_diverged_frame(system, outcome.trajectory, STRETCH)
+        return len(run)
+    frames = first_diverged_frame(system, run, STRETCH)
+    lost = ~np.isfinite(run.velocities).all(axis=(1, 2))
+    return min(frames, int(np.argmax(lost))) if tells_velocities(run) and lost.any() else frames
 
 
-def largest_distance(one: Trajectory, other: Trajectory, frames: int) -> float:
-    """Of any mass at any of the first frames [m]."""
-    return float(one.distance(other)[:frames].max())
+def tells_velocities(run: Trajectory) -> bool:
+    """Whether there are any after the start: an engine that does not tell gives what is not a number."""
+    return len(run) < 2 or not bool(np.isnan(run.velocities[1:]).all())
 
 
-def ranked(errors: Mapping[str, float], limit: float, noise: float) -> tuple[Match, ...]:
+def match(scheme: str, run: Trajectory, other: Trajectory, frames: int) -> Match:
+    """How far a scheme's trajectory is from a run's in the first frames; velocities as far as they are told."""
+    positions = float(run.distance(other)[:frames].max())
+    if not tells_velocities(run) or len(run) < 2:
+        return Match(scheme, positions, 0.0, frames - 1)
+    dt = float(run.times[1] - run.times[0])
+    velocities = dt * float(run.velocity_difference(other)[:frames].max())
+    return Match(scheme, positions, velocities, frames - 1)
+
+
+def ranked(matches: Iterable[Match], limit: float, noise: float) -> tuple[Match, ...]:
     """Schemes by their errors [m], nearest first; those within noise of the best stay in their order.
 
-    >>> ranked({"euler": 2.0, "heun": 3e-15, "rk4": 1e-15}, 1e-12, 1e-14)[0].scheme
+    >>> ranked([Match("euler", 2.0), Match("heun", 3e-15), Match("rk4", 1e-15)], 1e-12, 1e-14)[0].scheme
     'heun'
     """
-    as_good_as_best = min(limit, max(noise, 10 * min(errors.values(), default=0.0)))
-    nearest_first = sorted(errors, key=lambda scheme: 0.0 if errors[scheme] <= as_good_as_best else errors[scheme])
-    return tuple(Match(scheme, errors[scheme]) for scheme in nearest_first)
+    listed = list(matches)
+    as_good_as_best = min(limit, max(noise, 10 * min((m.error for m in listed), default=0.0)))
+    return tuple(sorted(listed, key=lambda m: 0.0 if m.error <= as_good_as_best else m.error))

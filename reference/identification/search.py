@@ -1,22 +1,28 @@
-"""Which of the catalogue's trajectories a run is compared with: all of them, or on a large system those it can be."""
+"""Which of the catalogue's trajectories a run is compared with: all begin, and those a run is still with go on."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field
 
 from reference.changes import Change
-from reference.identification.ranking import identify_run
+from reference.identification.ranking import Begun, identify_run
+from reference.identification.result import Identification
+from reference.identification.scale import precision_of
 from reference.outcome import Outcome
 from reference.state import Trajectory
 from reference.stepper import SchemeStepper, Stepper, catalogued, stepper_named
 from reference.system import MassSpringSystem
 
-#: Systems of more masses than that are large: not every scheme is followed on them to the end.
+#: Systems of more masses than that are large: there two steps decide which schemes go on, and of those that tie in
+#: their first steps the simplest alone is followed to the end.
 LARGE = 50
 
 #: Schemes that differ at all differ by far more than rounding after this many steps.
 FIRST_STEPS = 10
+
+#: Most differ by as much after so many.
+FEWEST_STEPS = 2
 
 
 def candidates(
@@ -27,8 +33,25 @@ def candidates(
     Args:
         claims: schemes with parameters, by name, that are to be among them: what an engine says it is.
     """
-    outcomes = {name: stepper.run(system, dt, steps, changes) for name, stepper in _catalogue(claims).items()}
+    outcomes = {name: stepper.run(system, dt, steps, changes) for name, stepper in catalogue_with(claims).items()}
     return {name: outcome.trajectory for name, outcome in outcomes.items() if outcome.trajectory is not None}
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """What is known of the catalogue, the simplest scheme first.
+
+    Attributes:
+        whole: the trajectories that were made to the end, by scheme.
+        begun: those of first steps, of all schemes that can step the system, with the number of steps.
+    """
+
+    whole: dict[str, Trajectory] = field(default_factory=dict)
+    begun: Begun = field(default_factory=dict)
+
+    def identify(self, name: str, outcome: Outcome, system: MassSpringSystem) -> Identification:
+        """A run among all of them: nearest those that were made to the end, then those that were only begun."""
+        return identify_run(name, outcome, system, self.whole, begun=self.begun)
 
 
 def candidates_for(
@@ -37,78 +60,87 @@ def candidates_for(
     dt: float,
     steps: int,
     changes: Sequence[Change] = (),
-) -> dict[str, Trajectory]:
-    """The catalogue's trajectories that these runs can be identified with, the simplest scheme first.
+) -> Candidates:
+    """The catalogue's trajectories that these runs can be identified with.
 
-    All of them; but the whole catalogue would take minutes on a large system. There a scheme is tried for a few steps
-    and followed to the end only if some run is still with it, and once every run has its scheme the search ends. A run
-    that has none gets the one that is nearest in those first steps.
+    Every scheme is tried for a few steps, and followed to the end if some run is still with it. On a large system, of
+    those that a run is with the simplest is followed first, and the others only where the run then leaves that one. A
+    run that none is with gets the scheme that is nearest in those first steps.
 
     Args:
         runs: each with who made it; what the catalogue's own schemes have made is not made again.
     """
     claims = [claim for stepper, _ in runs for claim in getattr(stepper, "claims", ())]
-    if len(system.masses) <= LARGE:
-        return candidates(system, dt, steps, changes, claims)
-    catalogue = _catalogue(claims)
+    catalogue = catalogue_with(claims)
     own = {s.name: run.trajectory for s, run in runs if catalogue.get(s.name) == s and run.trajectory is not None}
-    unknown = [run for stepper, run in runs if stepper.name not in own and run.trajectory is not None]
-    search = _Search(system, own, lambda name, n: catalogue[name].run(system, dt, min(steps, n), changes).trajectory)
-    for name in catalogue:
-        unknown = [run for run in unknown if not search.has(run)]
-        if not unknown:
-            break
-        search.try_first_steps(name, unknown, steps)
+    unknown = [run for stepper, run in runs if run.trajectory is not None and precision_of(stepper) == "double"]
+
+    def make(name: str, n: int) -> Trajectory | None:
+        if name in own:
+            return own[name] if n == steps else own[name].frames(slice(n + 1))
+        return catalogue[name].run(system, dt, n, changes).trajectory
+
+    search = _Search(system, steps, list(catalogue), make)
+    search.try_first_steps(unknown)
     for run in unknown:
-        search.follow_nearest(run, steps)
-    return {name: search.followed[name] for name in catalogue if name in search.followed}
+        search.follow(run)
+    in_order = {name: search.followed[name] for name in catalogue if name in search.followed}
+    return Candidates(in_order, search.begun)
 
 
 class _Search:
-    """What is known of the catalogue on a large system, while it is being found out.
+    """What is known of the catalogue, while it is being found out.
 
     Args:
-        followed: the trajectories that have been made to the end, by scheme.
-        make: the trajectory of a scheme for a number of steps at most; None where it cannot step the system.
+        make: the trajectory of a scheme for a number of steps; None where it cannot step the system.
     """
 
     def __init__(
-        self,
-        system: MassSpringSystem,
-        followed: Mapping[str, Trajectory],
-        make: Callable[[str, int], Trajectory | None],
+        self, system: MassSpringSystem, steps: int, names: Sequence[str], make: Callable[[str, int], Trajectory | None]
     ) -> None:
-        self._system, self._make = system, make
-        self.followed = dict(followed)
-        self._begun: dict[str, Trajectory] = {}
+        self._system, self._steps, self._names, self._make = system, steps, names, make
+        self.followed: dict[str, Trajectory] = {}
+        self.begun: dict[str, tuple[int, Trajectory]] = {}
 
-    def has(self, run: Outcome) -> bool:
-        """Whether a run is one of those that were followed."""
-        return _is_one_of(self.followed, run, self._system)
+    def try_first_steps(self, runs: Sequence[Outcome]) -> None:
+        """Every scheme for the fewest steps, and for some more if a run is with it then, or a run is with none."""
+        large = len(self._system.masses) > LARGE
+        for n in (FEWEST_STEPS, FIRST_STEPS) if large else (FIRST_STEPS,):
+            strangers = not all(self._with(run) for run in runs) if self.begun else True
+            going_on = self._names if strangers else {name for run in runs for name in self._with(run)}
+            for name in self._names if runs else ():
+                begun = self._make(name, min(n, self._steps)) if name in going_on else None
+                if begun is not None:
+                    self.begun[name] = (min(n, self._steps), begun)
 
-    def try_first_steps(self, name: str, runs: Sequence[Outcome], steps: int) -> None:
-        """Run a scheme for a few steps, and to the end if some run is still with it."""
-        begun = None if name in self.followed else self._make(name, FIRST_STEPS)
-        if begun is None:
+    def follow(self, run: Outcome) -> None:
+        """Make to the end what a run is with: all of that, on a large system the simplest; else what is nearest."""
+        within = self._with(run)
+        large = len(self._system.masses) > LARGE
+        for name in within:
+            self._follow(name)
+            if large and _is_one_of({name: self.followed[name]}, run, self._system):
+                return
+        if not within and not _is_one_of(self.followed, run, self._system):
+            nearest = identify_run("run", run, self._system, {}, begun=self.begun).ranking[:1]
+            for match in nearest:
+                self._follow(match.scheme)
+
+    def _with(self, run: Outcome) -> list[str]:
+        """The schemes a run is with in the first steps, the simplest first."""
+        found = identify_run("run", run, self._system, {}, begun=self.begun)
+        within = {match.scheme for match in found.matches}
+        return [name for name in self._names if name in within]
+
+    def _follow(self, name: str) -> None:
+        if name in self.followed:
             return
-        self._begun[name] = begun
-        if any(_is_one_of({name: begun}, _beginning(run), self._system) for run in runs):
-            self._follow(name, steps)
-
-    def follow_nearest(self, run: Outcome, steps: int) -> None:
-        """Run the scheme to the end that is nearest to a run in its first steps."""
-        nearest = identify_run("run", _beginning(run), self._system, self._begun).ranking[:1]
-        for match in nearest:
-            if match.scheme not in self.followed:
-                self._follow(match.scheme, steps)
-
-    def _follow(self, name: str, steps: int) -> None:
-        whole = self._make(name, steps)
-        if whole is not None:
-            self.followed[name] = whole
+        steps, trajectory = self.begun[name]
+        whole = trajectory if steps == self._steps else self._make(name, self._steps)
+        self.followed[name] = trajectory if whole is None else whole
 
 
-def _catalogue(claims: Iterable[str]) -> dict[str, SchemeStepper]:
+def catalogue_with(claims: Iterable[str]) -> dict[str, SchemeStepper]:
     """The catalogue, and after it the schemes with parameters that somebody claims to be."""
     known = dict(catalogued())
     return known | {name: stepper_named(name) for name in claims if name not in known}
@@ -116,9 +148,3 @@ def _catalogue(claims: Iterable[str]) -> dict[str, SchemeStepper]:
 
 def _is_one_of(known: Mapping[str, Trajectory], run: Outcome, system: MassSpringSystem) -> bool:
     return identify_run("run", run, system, known).identified_as is not None
-
-
-def _beginning(run: Outcome) -> Outcome:
-    """What a run had done after the first steps."""
-    assert run.trajectory is not None
-    return replace(run, trajectory=run.trajectory.frames(slice(FIRST_STEPS + 1)))

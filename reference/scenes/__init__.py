@@ -118,11 +118,24 @@ class Setup:
     duration: float
     changes: tuple[Change, ...] = ()
 
+    @property
+    def steps(self) -> int:
+        """The whole number of steps nearest to the duration. Raises InputError as `whole_steps` does."""
+        return whole_steps(self.dt, self.duration)
+
+    @property
+    def run_duration(self) -> float:
+        """How long these steps truly take [s], up to half a step from the duration."""
+        return self.steps * self.dt
+
     def check(self) -> None:
-        """Refuse now what would only be met midway in a run. Raises InputError."""
-        whole_steps(self.dt, self.duration)
+        """Refuse now what would only be met midway in a run, or never. Raises InputError."""
+        steps = self.steps
         changes_by_step(self.changes, self.dt)
         for change in self.changes:
+            if change.step(self.dt) >= steps:
+                last = f"{(steps - 1) * self.dt:.6g} s, when the last step begins"
+                raise InputError(f"change of {change.parameter} at {change.time:g} s: expected at most {last}")
             self.system.with_parameter(change.parameter, change.value)
 
 

@@ -84,7 +84,7 @@ def exact(
             system = system.with_parameter(change.parameter, change.value)
             motion = equations(system)
         times = np.array([dt * i for i in range(begin, end + 1)])
-        states += _solve(motion, states[-1], times, system.size)
+        states += _solve(motion, states[-1], times, system.size or system.scale)
     return motion.trajectory(states)
 
 

@@ -23,25 +23,29 @@ if TYPE_CHECKING:
 def identify_command(stepper: str, setup: Setup, as_json: bool) -> None:
     """Say which scheme of the catalogue reproduces STEPPER on SCENE to rounding."""
     from experiments.runs.steppers import find_steppers
-    from reference.changes import whole_steps
     from reference.identification import identify
 
     (found,) = find_steppers([stepper])
     with progress("identify") as tell:
         tell(stepper)
-        steps = whole_steps(setup.dt, setup.duration)
-        identification = identify(found, setup.system, setup.dt, steps, setup.changes)
+        identification = identify(found, setup.system, setup.dt, setup.steps, setup.changes)
     (_print_json if as_json else _show)(stepper, identification)
 
 
 def _print_json(stepper: str, identification: Identification) -> None:
-    from experiments.runs.comparison import finite
+    from experiments.runs.comparison import finite, told
 
+    said = told(identification)
     document = {
         "stepper": stepper,
-        "identified_as": identification.identified_as,
-        "error_m": finite(identification.error),
-        "ranking": [{"scheme": match.scheme, "error_m": finite(match.error)} for match in identification.ranking],
+        "identified_as": said.pop("identified_as"),
+        "error_m": said.pop("identification_error_m"),
+        **said,
+        "same_without": dict(identification.same_without),
+        "ranking": [
+            {"scheme": match.scheme, "error_m": finite(match.error), "steps": match.steps}
+            for match in identification.ranking
+        ],
     }
     click.echo(json.dumps(document, indent=2))
 
@@ -50,8 +54,8 @@ def _show(stepper: str, identification: Identification) -> None:
     from experiments.runs.comparison import finite
 
     click.echo(str(identification))
-    also = [match.scheme for match in identification.matches[1:]]
-    if also:
-        click.echo(f"On this scene it cannot be told from {', '.join(also)}.")
-    rows = [[match.scheme, plain(finite(match.error))] for match in identification.ranking]
-    show_table("", ["scheme", "deviation [m]"], rows)
+    if identification.remark:
+        click.echo(identification.remark)
+    rows = [[match.scheme, plain(finite(match.error)), match.steps] for match in identification.ranking]
+    deviation = "deviation in a step [m]" if identification.by_single_steps else "deviation [m]"
+    show_table("", ["scheme", deviation, "over [steps]"], rows)

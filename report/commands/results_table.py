@@ -15,6 +15,10 @@ HEADINGS = {
     "error_m": "error [m]",
     "identified_as": "identified as",
     "identification_error_m": "deviation [m]",
+    "ties": "ties with",
+    "told_apart_by": "told apart by",
+    "compared_by": "compared by",
+    "why_not_identified": "why not identified",
 }
 
 #: What is left out first where there is no room, and what never is.

@@ -60,7 +60,8 @@ def _apart(one: Outcome, other: Outcome) -> float:
 
 def _caption(run: Run) -> str:
     if run.identification.identified_as is not None:
-        return f"identified as {run.identification.identified_as}"
+        ties = len(run.identification.ties)
+        return f"identified as {run.identification.identified_as}" + (f", or {ties} that do the same" if ties else "")
     nearest = f"; nearest {run.identification.ranking[0].scheme}" if run.identification.ranking else ""
     return f"not identified{nearest}"
 

@@ -47,7 +47,8 @@ class Reproduction:
 
 def reproduction(segment: Segment) -> Reproduction:
     """The commands that come to the present state, and the files they need."""
-    changes = [Change(step * segment.dt, name, value) for step, name, value in segment.changes]
+    acted = max(1, segment.steps)  # what was changed after the last step is not seen yet
+    changes = [Change(step * segment.dt, name, value) for step, name, value in segment.changes if step < acted]
     on_one_line = len(changes) <= ON_ONE_LINE and all(isinstance(c.value, int | float) for c in changes)
     note = "" if segment.steps else "Nothing has moved yet: the command takes one step."
     if segment.settings is None:

@@ -233,11 +233,11 @@ def test_ranking_is_by_distance_and_rounding_ties_go_to_the_simpler(
 
 
 def test_the_tolerance_grows_with_the_systems_size() -> None:
-    """1e-12 of the string's length."""
+    """1e-12 of the string's length, or of how far a push takes it, a tenth of a spring at most."""
     for length in (0.01, 100.0):
         system = find_scene("string").system({"masses": 2, "rest_length": length})
         found = identify(SchemeStepper(find("heun")), system, DT, 5)
-        assert found.tolerance == pytest.approx(1e-12 * 2 * length)
+        assert found.tolerance == pytest.approx(1e-12 * 2 * length, rel=0.1)
 
 
 # --- What is said ---
@@ -265,7 +265,7 @@ def test_a_run_that_blew_up_at_once_is_not_identified() -> None:
     """One frame is no motion."""
     system, _ = known("plain")
     found = identify(Recorded(Outcome("diverged", "gone", shifted(system, 1e9))), system, DT, STEPS)
-    assert str(found) == "recorded: not identified; it blew up in its first step"
+    assert str(found).startswith("recorded: not identified; it blew up in its first step; by single steps, nearest ")
 
 
 def test_changes_on_the_fly_are_given_to_stepper_and_catalogue() -> None:

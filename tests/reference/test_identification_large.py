@@ -43,8 +43,8 @@ def test_on_large_systems_only_what_a_run_can_be_is_followed() -> None:
     system, _ = known("plain")
     stepper = SchemeStepper(find("heun"))
     outcome = stepper.run(system, DT, STEPS)
-    assert list(candidates_for([(Recorded(outcome), outcome)], system, DT, STEPS)) == ["heun"]
-    own = candidates_for([(stepper, outcome)], system, DT, STEPS)
+    assert list(candidates_for([(Recorded(outcome), outcome)], system, DT, STEPS).whole) == ["heun"]
+    own = candidates_for([(stepper, outcome)], system, DT, STEPS).whole
     assert own["heun"] is outcome.trajectory
 
 

@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reference.errors import InputError
+from reference.scenes import find as find_scene
 from reference.system import FIELDS, PARAMETERS, MassSpringSystem
 from tests.reference.systems import meshes, property_test, random_mesh, seeds
 
@@ -348,3 +349,22 @@ def test_unknown_parameters_are_refused_with_a_suggestion() -> None:
     """By the names of PARAMETERS, not of the fields."""
     with pytest.raises(InputError, match=r"^unknown parameter 'stifness': did you mean 'stiffness'\?$"):
         system().with_parameter("stifness", 1.0)
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0, 77.0])
+def test_springs_of_a_long_string_are_at_their_rest_lengths(angle: float) -> None:
+    """At 1,250 m positions round by 1e-13 m, a part in 1e12 of a spring; a spring off by 1e-9 of it is seen."""
+    system = find_scene("string").system({"masses": 10_000, "angle": angle})
+    assert not system.off_rest_length.any()
+    lengths = system.rest_lengths.copy()
+    lengths[[0, 9_999]] *= 1 + 1e-10, 1 - 1e-10
+    assert np.flatnonzero(dataclasses.replace(system, rest_lengths=lengths).off_rest_length).tolist() == [0, 9_999]
+
+
+def test_a_scale_is_never_zero() -> None:
+    """The size, the largest coordinate, or 1 m."""
+    string = find_scene("string").system({"masses": 2, "rest_length": 0.5})
+    assert string.scale == string.size == 1.0
+    assert dataclasses.replace(string, positions=string.positions - [7.0, 0.0]).scale == 7.0
+    alone = {"springs": np.zeros((0, 2), dtype=int), "rest_lengths": np.zeros(0), "stiffness": np.zeros(0)}
+    assert MassSpringSystem(positions=np.zeros((1, 2)), masses=np.ones(1), **alone).scale == 1.0

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from engines.engine import registry
 from engines.measured_limit import limit_of_engine_near
 from engines.process.isolation import EngineStepper, run_engine
-from experiments.advice.advice import ADVISED, REFUTED, advise, rest_of, rounded_down
+from experiments.advice.advice import ADVISED, REFUTED, _left_out, advise, rest_of, rounded_down
 from experiments.advice.wording import result_of
 from experiments.limits.perturbed import perturbed
 from reference.limit import Limit
@@ -170,3 +171,19 @@ def test_an_engine_that_crashes_is_told_with_its_reason() -> None:
 def test_steps_are_rounded_down_to_two_figures() -> None:
     """Never up."""
     assert [rounded_down(dt) for dt in (0.0129, 0.1, 0.00099999, 3.0)] == [0.012, 0.1, 0.00099, 3.0]
+
+
+def test_a_rope_is_asked_on_any_mesh_and_a_pendulum_on_strings_only() -> None:
+    """Rods in the masses' own coordinates take a triangle; the angles of a cable do not."""
+    triangle = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [3.0, 0.0], [3.0, 4.0]]),
+        springs=np.array([[0, 1], [1, 2], [0, 2]]),
+        masses=np.ones(3),
+        rest_lengths=np.array([3.0, 4.0, 5.0]),
+        stiffness=np.full(3, 100.0),
+        fixed=np.array([True, False, False]),
+    )
+    assert _left_out(EngineStepper(registry()["mujoco_rope"]), triangle) is None
+    left_out = _left_out(EngineStepper(registry()["mujoco_cable"]), triangle)
+    assert left_out is not None
+    assert "expected a string in 2D" in left_out.reason

@@ -39,7 +39,8 @@ def ran(name: str, scheme: str | None, error: float | None = None, deviation: fl
     ranking = (Match(scheme or "kick_drift", deviation if scheme else 1e-6),)
     errors = (ERRORS[scheme] if error is None else error) * times
     apart = None if scheme is None else deviation * np.sqrt(times)
-    return Run(Named(name), Outcome("done"), Identification(name, ranking, 1e-12), errors, apart)
+    why = "" if scheme else "nearest kick_drift at 1e-06 m"
+    return Run(Named(name), Outcome("done"), Identification(name, ranking, 1e-12, why), errors, apart)
 
 
 def failed(name: str, outcome: Outcome) -> Run:

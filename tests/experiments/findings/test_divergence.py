@@ -18,6 +18,7 @@ def test_the_table_has_both_distances_in_their_columns() -> None:
     assert (stranger["error [m]"], stranger["identified as"], stranger["deviation [m]"]) == (ERRORS[None], None, 1e-6)
     assert (crashed["outcome"], crashed["error [m]"], crashed["deviation [m]"]) == ("crashed", None, None)
     assert crashed["reason"].startswith("killed by SIGSEGV")
+    assert stranger["reason"] == "not identified; nearest kick_drift at 1e-06 m"
 
 
 def test_the_table_over_time_has_both_at_every_time() -> None:
@@ -37,7 +38,7 @@ def test_the_first_sentence_counts_and_has_the_worst_of_both() -> None:
     first = finding(divergence.full(), "are identified")
     assert numbers(first) == pytest.approx([15, 16, DEVIATION, ERRORS["euler"]])
     assert "exudyn_springs_euler is up to" in first
-    assert finding(divergence.full(), "Not identified").endswith(": stranger.")
+    assert finding(divergence.full(), "Not identified").endswith(": stranger (nearest kick_drift at 1e-06 m).")
 
 
 def test_the_worst_of_identified_engines_is_said() -> None:

@@ -19,9 +19,10 @@ def test_the_json_has_exactly_the_promised_form() -> None:
     said = springlab("identify", "heun", "--duration", "0.1", "--json")
     assert said.code == 0
     document = json.loads(said.out)
-    assert list(document) == ["stepper", "identified_as", "error_m", "ranking"]
+    more = ["ties", "told_apart_by", "compared_by", "why_not_identified", "same_without"]
+    assert list(document) == ["stepper", "identified_as", "error_m", *more, "ranking"]
     assert (document["stepper"], document["identified_as"], document["error_m"]) == ("heun", "heun", 0.0)
-    assert all(list(match) == ["scheme", "error_m"] for match in document["ranking"])
+    assert all(list(match) == ["scheme", "error_m", "steps"] for match in document["ranking"])
     assert {match["scheme"] for match in document["ranking"]} == set(catalogued())
     errors = [match["error_m"] for match in document["ranking"]]
     assert errors == sorted(errors)

@@ -134,3 +134,13 @@ def test_a_forgotten_change_is_seen(labs: list[Lab], tmp_path: Path) -> None:
     lab.advance(40)
     forgetful: Segment = replace(lab.timeline.segment, changes=())
     assert apart(lab.timeline.lanes[0].state, ends(reproduction(forgetful), tmp_path)["kick_drift"]) > 1e-6
+
+
+def test_what_was_changed_after_the_last_step_is_not_in_the_command(labs: list[Lab]) -> None:
+    """It has done nothing yet, and a run that ends before a change is refused; after a step it is there."""
+    lab = open_lab(labs, "string", ["heun"])
+    lab.advance(5)
+    lab.set_parameter("stiffness", 150.0)
+    assert "--change" not in lab.reproduction().commands[0]
+    lab.advance(1)
+    assert "--change=0.005:stiffness=150.0" in lab.reproduction().commands[0]

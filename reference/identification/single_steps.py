@@ -1,0 +1,162 @@
+"""Single steps: each from a state that the stepper itself came to, and compared with the state it came to next.
+
+Where a motion multiplies rounding, or a stepper rounds to single precision, whole trajectories part though the scheme
+is the same. One step multiplies nothing: it is off by the rounding of that step, and another scheme is off by far more
+where the step is long for the system. A multistep scheme needs earlier steps, and cannot be compared so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from reference.changes import Change, changes_by_step
+from reference.errors import InputError, SolverError, Unsupported
+from reference.identification.ranking import ranked, tells_velocities
+from reference.identification.result import Identification, Match
+from reference.identification.scale import ROUNDING, Precision, fastest_rate_bound, scale
+from reference.motion import Equations
+from reference.simulate import projected
+from reference.state import State, Trajectory
+from reference.stepper import SchemeStepper
+from reference.system import BoolArray, MassSpringSystem
+
+#: A step may be off by so many roundings of its largest coordinate; where h w > 1, of what a force makes of them.
+ROUNDINGS = 32
+
+#: A step is long enough to tell schemes apart where it is at least this part of 1 / the fastest rate.
+LONG = 0.25
+
+#: All schemes are tried from so many states at most, evenly spread; the nearest from all, up to so many masses times
+#: states.
+STATES, ALL_UP_TO = 40, 1_000_000
+
+#: A mass this near to an obstacle, as a part of the scale, may have touched it.
+TOUCH = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class Steps:
+    """Steps of a stepper to be compared.
+
+    Attributes:
+        run: its trajectory.
+        systems: the system at each step compared, by the number of the step.
+        touching: whether steps were left out, as a mass touches an obstacle in them.
+    """
+
+    run: Trajectory
+    systems: Mapping[int, MassSpringSystem]
+    touching: bool
+
+    @property
+    def dt(self) -> float:
+        """The step [s]."""
+        return float(self.run.times[1] - self.run.times[0])
+
+    def spread(self, most: int) -> Steps:
+        """So many of them at most, evenly spread, the first and the last among them."""
+        numbers = list(self.systems)
+        chosen = np.unique(np.linspace(0, len(numbers) - 1, min(most, len(numbers))).astype(int)).tolist()
+        return replace(self, systems={numbers[i]: self.systems[numbers[i]] for i in chosen})
+
+
+def steps_of(run: Trajectory, system: MassSpringSystem, changes: Sequence[Change] = ()) -> Steps:
+    """Which steps of a run can be compared.
+
+    Those between states that are numbers, away from obstacles, and from where no mass moves further in a step than the
+    system is large: of what turns faster than that, rounding leaves nothing.
+    """
+    dt = float(run.times[1] - run.times[0])
+    finite = np.isfinite(run.positions).all(axis=(1, 2)) & np.isfinite(run.velocities).all(axis=(1, 2))
+    with np.errstate(invalid="ignore"):
+        slow = dt * np.abs(run.velocities).max(axis=(1, 2)) <= system.scale
+    near = _near_obstacles(run, system)
+    usable = np.flatnonzero((slow & finite & ~near)[:-1] & (finite & ~near)[1:])
+    wanted, systems, pending = set(usable.tolist()), {}, changes_by_step(changes, dt)
+    for i in range(len(run) - 1):
+        for change in pending.get(i, ()):
+            system = system.with_parameter(change.parameter, change.value)
+        if i in wanted:
+            systems[i] = system
+    return Steps(run, systems, bool(near.any()))
+
+
+def identify_steps(
+    name: str, steps: Steps, catalogue: Mapping[str, SchemeStepper], precision: Precision
+) -> Identification:
+    """Rank schemes by how far one step of theirs is from the stepper's, at most; errors are those at the start's scale.
+
+    Args:
+        catalogue: the schemes, the simplest first; those that cannot step the system so are left out.
+    """
+    start = steps.run.frames(slice(1))
+    length = scale(next(iter(steps.systems.values())), start) if steps.systems else 1.0
+    compared = "single steps away from obstacles" if steps.touching else "single steps"
+    tolerance = ROUNDINGS * ROUNDING[precision] * length
+    if not steps.systems or not tells_velocities(steps.run):
+        tells = tells_velocities(steps.run)
+        why = "no single step can be compared" if tells else "it tells no velocities to begin single steps with"
+        why += ": a mass touches an obstacle in all of them, and contacts are its own" if steps.touching else ""
+        return Identification(name, (), tolerance, why, compared=compared)
+    some, whole = (steps.spread(most) for most in (STATES, max(STATES, ALL_UP_TO // steps.run.positions.shape[1])))
+    tried = {scheme: _match(scheme, stepper, some, length) for scheme, stepper in catalogue.items()}
+    near = [scheme for scheme, match in tried.items() if match is not None and match.error <= tolerance]
+    tried |= {scheme: _match(scheme, catalogue[scheme], whole, length) for scheme in near}
+    ranking = ranked([match for match in tried.values() if match is not None], tolerance, tolerance)
+    result = Identification(name, ranking, tolerance, compared=compared)
+    if result.matches:
+        return result
+    memory = [scheme for scheme, stepper in catalogue.items() if not stepper.scheme.one_step]
+    words = "no scheme of the catalogue can take single steps here"
+    if ranking:
+        words = f"nearest {ranking[0].scheme} at {ranking[0].error:.2g} m a step"
+    return result.without_name(words + (f"; not comparable by single steps: {', '.join(memory)}" if memory else ""))
+
+
+def _match(name: str, stepper: SchemeStepper, steps: Steps, length: float) -> Match | None:
+    """How far single steps of a scheme are off, relative to each step's scale; None where it cannot take them."""
+    if not stepper.scheme.one_step:
+        return None
+    x, v = steps.run.positions, steps.run.velocities
+    off = (0.0, 0.0)
+    try:
+        for i, state in _stepped(stepper, steps):
+            # a force rounds as its springs' lengths do: k / m times as much, in a step times h^2
+            stiff = max(1.0, (steps.dt * fastest_rate_bound(steps.systems[i])) ** 2)
+            with np.errstate(over="ignore", invalid="ignore"):
+                own = max(float(np.abs(x[i : i + 2]).max()), steps.dt * float(np.abs(v[i + 1]).max()), length) * stiff
+                apart = np.abs(state.positions - x[i + 1]).max(), steps.dt * np.abs(state.velocities - v[i + 1]).max()
+            here = [length * float(a) / own if np.isfinite(a) else np.inf for a in apart]
+            off = (max(off[0], here[0]), max(off[1], here[1]))
+    except (InputError, SolverError, Unsupported, np.linalg.LinAlgError):
+        return None
+    return Match(name, *off, len(steps.systems))
+
+
+def _stepped(stepper: SchemeStepper, steps: Steps) -> Iterator[tuple[int, State]]:
+    """One step of a scheme from each of the states, by the state's number."""
+    motion: Equations | None = None
+    before: MassSpringSystem | None = None
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        for i, system in steps.systems.items():
+            if motion is None or system is not before:
+                motion, before = stepper.equations(system), system
+                step = stepper.scheme.on(motion)
+            time = float(steps.run.times[i])
+            state = motion.state_of(State(time, steps.run.positions[i], steps.run.velocities[i]))
+            end = projected(system, step(state, steps.dt), time + steps.dt)
+            yield i, motion.trajectory([end]).states()[0]
+
+
+def _near_obstacles(run: Trajectory, system: MassSpringSystem) -> BoolArray:
+    """In which frames a free mass touches an obstacle."""
+    near = np.zeros(len(run), dtype=bool)
+    reach = TOUCH * system.scale
+    for obstacle in system.obstacles:
+        with np.errstate(all="ignore"):
+            distance = obstacle.signed_distances(run.positions[:, ~system.fixed])[0]
+        near |= (distance <= reach).any(axis=(1, 2))
+    return near
