@@ -44,6 +44,7 @@ def limit_of_engine(
         The limit, and whether perturbations grow at BEYOND of it; with the growth factors of the engine's step at BELOW
         and ABOVE of it where the engine can start stretched and in motion.
     """
+
     def growth(h: float, steps: int) -> float:
         return growth_of_engine(engine, rest, perturbed, h, steps)
 
@@ -51,11 +52,11 @@ def limit_of_engine(
         limit = measured_limit(growth, dt, precision)
         if limit.dt is None:
             return limit
-        limit = replace(limit, grows_beyond=growth(BEYOND * limit.dt, STEPS) > SEEN)
-        if not {"stretched", "velocities"} <= engine.capabilities:
-            return limit
-        below, above = (_growth_factor(engine, rest, perturbed, part * limit.dt) for part in (BELOW, ABOVE))
-        return replace(limit, factors=(below, above))
+        found, factors = limit.dt, None
+        if {"stretched", "velocities"} <= engine.capabilities:
+            below, above = (_growth_factor(engine, rest, perturbed, part * found) for part in (BELOW, ABOVE))
+            factors = (below, above)
+        return replace(limit, factors=factors, grows_beyond=growth(BEYOND * found, STEPS) > SEEN)
     except Unsupported as error:
         return Outcome("unsupported", str(error))
 

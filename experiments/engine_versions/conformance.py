@@ -12,7 +12,7 @@ from functools import cache
 from engines.capability_cases import for_each_capability
 from engines.engine import demands
 from engines.process.isolation import EngineStepper
-from experiments.limits.engine_limit import measure_engine
+from experiments.limits.engine_limit import measure_at_random
 from reference.identification import Identification, candidates, identify_run
 from reference.outcome import Outcome
 from reference.scenes import find
@@ -79,7 +79,7 @@ def _identity(stepper: EngineStepper, case: str) -> str:
 def _limit(stepper: EngineStepper, case: str) -> Value:
     """Its largest stable dt [s]; else why there is none."""
     system, rest = _hanging(case)
-    limit = measure_engine(stepper, system, rest, 1 / fastest_rate(rest), PRECISION)
+    limit = measure_at_random(stepper, system, rest, 1 / fastest_rate(rest), PRECISION)
     if isinstance(limit, Outcome):
         return f"{limit.ending}: {limit.reason}"
     return limit.reason if limit.dt is None else float(f"{limit.dt:.{FIGURES}g}")

@@ -55,28 +55,35 @@ def measure_engine(
     """
     if stepper.version is None:
         return Outcome("unsupported", f"{stepper.engine.package} is not installed")
-    system = predictions.system
-    own_rest = rest_of_engine(stepper.engine, system, predictions.rest)
+    own_rest = rest_of_engine(stepper.engine, predictions.system, predictions.rest)
     if isinstance(own_rest, Outcome):
         return own_rest
-    if scheme is not None:
-        along = _along_modes(stepper, system, own_rest, scheme, predicted, predictions.rates)
-        if along is not None:
-            return along
-    at_rest, start = perturbed(system, own_rest)
-    asked = (stepper.engine, at_rest, start, predictions.unit, PRECISION)
+    along = _along_modes(stepper, predictions, own_rest, scheme, predicted) if scheme is not None else None
+    return along or measure_at_random(stepper, predictions.system, predictions.rest, predictions.unit)
+
+
+def measure_at_random(
+    stepper: EngineStepper, system: MassSpringSystem, rest: Equilibrium, dt: float, precision: float = PRECISION
+) -> Limit | Outcome:
+    """The same from random perturbations and from short steps on, with nothing of the theory in it but the rest.
+
+    Args:
+        rest: of the system's springs.
+        dt: about as long as the fastest mode lasts [s].
+        precision: as a part of the limit.
+    """
+    own_rest = rest_of_engine(stepper.engine, system, rest)
+    if isinstance(own_rest, Outcome):
+        return own_rest
+    asked = (stepper.engine, *perturbed(system, own_rest), dt, precision)
     return stepper.isolate(limit_of_engine, *asked, time_limit=2 * stepper.time_limit)
 
 
 def _along_modes(
-    stepper: EngineStepper,
-    system: MassSpringSystem,
-    rest: Equilibrium,
-    scheme: SchemeStepper,
-    predicted: Limit,
-    found: Rates,
+    stepper: EngineStepper, predictions: Predictions, rest: Equilibrium, scheme: SchemeStepper, predicted: Limit
 ) -> Limit | Outcome | None:
     """From runs along modes at steps around the predicted limit; None where these do not tell."""
+    system, found = predictions.system, predictions.rates
     engine = stepper.engine
     able = isinstance(rest.motion, SpringMotion) and {"stretched", "velocities"} <= engine.capabilities
     if not able or scheme.on_rods or not predicted.exact or predicted.note or predicted.dt is None:

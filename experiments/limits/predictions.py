@@ -57,7 +57,9 @@ class Predictions:
         scheme = named(found)
         return Limit(None, f"not identified; {found.reason}") if scheme is None else self.of(scheme)
 
-    def identified(self, engines: Sequence[EngineStepper], steps: int = IDENTIFYING_STEPS) -> Mapping[str, Identification]:
+    def identified(
+        self, engines: Sequence[EngineStepper], steps: int = IDENTIFYING_STEPS
+    ) -> Mapping[str, Identification]:
         """Which scheme each engine is, from a run on the system in short steps."""
         dt = 0.1 * self.unit
         with current().threads() as pool:

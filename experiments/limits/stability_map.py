@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from engines.process.isolation import EngineStepper
-from experiments.limits.predictions import IDENTIFYING_STEPS
 from experiments.limits.measured_growth import engine_growth, stepped_growth, swept_growth
 from experiments.limits.plane import Axis, Plane, SystemAt
 from experiments.limits.predicted_limits import predicted_boundary, predicted_field
+from experiments.limits.predictions import IDENTIFYING_STEPS
 from experiments.runs.progress import Progress
 from reference.compiled.tracing import why_not_compiled
 from reference.errors import InputError

@@ -1,8 +1,6 @@
-"""Small oscillations about an equilibrium: frequencies, in closed form where there is one, and the fastest mode."""
+"""Small oscillations about an equilibrium: frequencies, in closed form where there is one."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 import numpy as np
 
@@ -50,32 +48,3 @@ def laguerre_frequencies(links: int, length: float, gravity: float) -> Array:
 def string_mode(masses: int) -> float:
     """Lambda of the fastest mode of a string along itself, w^2 = (k/m) lambda: 4 sin^2((2n-1) pi / (4n+2))."""
     return float(4 * np.sin((2 * masses - 1) * np.pi / (4 * masses + 2)) ** 2)
-
-
-def fastest_mode(system: MassSpringSystem) -> MassSpringSystem:
-    """One mass of 1 kg on one spring that moves as the fastest mode of a system about its start.
-
-    With K phi = w^2 M phi, phi M phi = 1: its stiffness is w^2, its damping phi C phi, its drag Cd phi phi.
-    """
-    from scipy.sparse import diags_array
-    from scipy.sparse.linalg import eigsh
-
-    by_position, by_velocity = spring_blocks(system, system.start)
-    # Drag is told apart from the damping of springs.
-    by_velocity = replace(by_velocity, masses=0 * by_velocity.masses)
-    stiffness, damping = (-assemble(system, blocks, sparse=True) for blocks in (by_position, by_velocity))
-    scale = diags_array(np.repeat(system.masses[~system.fixed], system.dimension) ** -0.5)
-    start = np.random.default_rng(0).normal(size=stiffness.shape[0])
-    square, mode = eigsh(scale @ stiffness @ scale, 1, which="LA", v0=start, tol=1e-9)
-    phi = scale @ mode[:, 0]
-    return MassSpringSystem(
-        positions=np.array([[0.0, 0.0], [1.0, 0.0]]),
-        springs=np.array([[0, 1]]),
-        masses=np.array(1.0),
-        rest_lengths=np.array(1.0),
-        stiffness=np.array(max(float(square[0]), 0.0)),
-        damping=np.array(max(float(phi @ (damping @ phi)), 0.0)),
-        drag=system.drag * float(phi @ phi),
-        gravity=np.array(0.0),
-        fixed=np.array([True, False]),
-    )

@@ -1,8 +1,6 @@
 """The largest stable dt that theory predicts, for a page that must not wait: the last question asked is answered.
 
-Of small systems the whole Jacobian of a step about their equilibrium is taken (`reference.theory.step_map`). Of large
-ones the fastest mode about their start is taken alone, as one mass on one spring with the same frequency and damping:
-what limits a step is the fastest mode, and where damping is spread as masses or stiffness are, that is exact.
+The same limit that `stability` and the report give (`reference.theory.limits`), about the equilibrium of the scene.
 """
 
 from __future__ import annotations
@@ -14,15 +12,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reference.errors import SolverError
-from reference.schemes.catalogue import Scheme
 from reference.system import MassSpringSystem
-from reference.theory.equilibria import Equilibrium, spring_equilibrium
+from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import growth, stability_limit
-from reference.theory.modes import fastest_mode
 from report.live.stepping import scheme_behind
 
-#: Up to this number of coordinates the whole Jacobian takes less than a tenth of a second.
-WHOLE_UP_TO = 60
+#: Up to this number of coordinates growth at the page's dt is told too: it takes the whole Jacobian of a step.
+GROWTH_UP_TO = 120
+
+#: The most coordinates of which a page looks for a limit: those of larger scenes take many seconds.
+MOST = 4_000
 
 
 @dataclass(frozen=True)
@@ -60,27 +59,19 @@ def percent(part: float) -> str:
 
 
 def predict(name: str, system: MassSpringSystem, dt: float) -> Prediction:
-    """The prediction for a stepper on a system, without its obstacles; in free fall without its weight."""
+    """The prediction for a stepper on a system, without its obstacles; in free fall in the frame that falls with it."""
     scheme = scheme_behind(name, system)
     alone = replace(system, obstacles=(), velocities=np.zeros_like(system.velocities))
-    if not alone.fixed.any():
-        alone = replace(alone, gravity=0 * alone.gravity)
+    coordinates = int((~system.fixed).sum()) * system.dimension
+    if coordinates > MOST:
+        return Prediction(None, f"not looked for, of {coordinates} coordinates; `stability` does", np.nan, scheme.name)
     try:
-        rest = _rest(scheme, alone)
+        rest = spring_equilibrium(alone)
         limit = stability_limit(scheme, rest)
-        return Prediction(limit.dt, limit.reason, growth(scheme, rest, dt), scheme.name)
+        grows = growth(scheme, rest, dt) if coordinates <= GROWTH_UP_TO else np.nan
+        return Prediction(limit.dt if limit.exact else None, limit.remark, grows, scheme.name)
     except (SolverError, np.linalg.LinAlgError) as error:
         return Prediction(None, str(error), np.nan, scheme.name)
-
-
-def _rest(scheme: Scheme, system: MassSpringSystem) -> Equilibrium:
-    """What is perturbed: the system at rest, or its fastest mode alone."""
-    coordinates = int((~system.fixed).sum()) * system.dimension
-    if coordinates <= WHOLE_UP_TO:
-        return spring_equilibrium(system)
-    if scheme.kind == "in_place":
-        raise SolverError(f"not predicted: it depends on the order of {coordinates} coordinates")
-    return spring_equilibrium(fastest_mode(system))
 
 
 class Predictor:
