@@ -94,8 +94,8 @@ def limited_by(advice: Advice) -> str:
     a, b = system.springs[mode.spring]
     share = mode.shares[mode.spring]
     return (
-        f"spring {mode.spring} (masses {a} and {b}, {system.stiffness[mode.spring]:g} N/m): {share:.0%} of the energy of "
-        f"a swing at {mode.frequency:.3g} Hz"
+        f"spring {mode.spring} (masses {a} and {b}, {system.stiffness[mode.spring]:g} N/m): {share:.0%} of the energy "
+        f"of a swing at {mode.frequency:.3g} Hz"
     )
 
 

@@ -1,7 +1,7 @@
 """A scheme's stability limit, measured: it is run from rest perturbed along one mode, and that mode is watched.
 
-Theory says which mode it is, the eigenvector of the step's Jacobian whose eigenvalue is largest, and where to look; what
-becomes of it is seen in a run of the scheme itself, a little below the predicted limit, a little above, and between. In
+Theory says which mode it is, the eigenvector of the step's Jacobian whose eigenvalue is largest, and where to look.
+What becomes of it is seen in a run of the scheme itself, a little below the predicted limit, a little above, and between. In
 one mode alone growth of a millionth in a step shows within some hundred steps.
 """
 
@@ -88,7 +88,7 @@ def measured_mode_limit(scheme: Scheme, rest: Equilibrium, predicted: Limit, fou
 
 
 def _around(unstable: Callable[[float], bool], dt: float) -> tuple[float | None, float | None]:
-    """A stable dt and an unstable one above it, PRECISION apart, around an expected limit; None for what is not there."""
+    """A stable dt and an unstable one above it, PRECISION apart, around an expected limit; None for a missing one."""
     part = NEAR
     low: float | None = None
     high: float | None = None

@@ -55,6 +55,7 @@ class StepCoefficients:
         return replace(self, implicit=self.implicit[which], all=self.all[which])
 
 
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
 def coefficients(scheme: Scheme, dt: float, masses: Array, damping: Array, drag: float = 0.0) -> StepCoefficients:
     """Of masses [kg] on springs of their own with damping [N s/m], both shape (s,); or of each with a drag [N s/m].
 

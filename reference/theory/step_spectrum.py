@@ -80,7 +80,9 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             # up to near the limit of what it comes to, it does as that does
             converged = _of_converged(scheme, Linearisation(rest.motion.system, rest.state), unit)
             start = NEARLY * converged if np.isfinite(converged) else start
-        return _scan(excess, start, unit, margin, FARTHEST / float(np.abs(found.values).min()))
+        limit = _scan(excess, start, unit, margin, FARTHEST / float(np.abs(found.values).min()))
+        phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
+        return _of_unresisted_motion(scheme, rest, found, unit) if phantom else limit
     if scheme.needs == "accelerations of one mass" or not isinstance(rest.motion, SpringMotion):
         reason = f"{size} positions and velocities, which this scheme does not step alike; up to {WHOLE_UP_TO} it is"
         return Limit(None, f"not computed for {reason}")
@@ -115,6 +117,19 @@ def _undamped_modes_grow(scheme: Scheme, rest: Equilibrium, found: Rates, margin
         _falls_as_a_power([_growth_of_mode(scheme, rest, mu, part * unit) for part in SHORT], margin)
         for mu, unit in looked_at
     )
+
+
+def _is_of_unresisted_motion(scheme: Scheme, rest: Equilibrium, found: Rates, dt: float) -> bool:
+    """Whether what grows above a limit is motion that nothing resists: it does below, too, hidden by rounding."""
+    values = np.linalg.eigvals(step_jacobian(scheme, rest, 1.001 * dt))
+    others = values[np.argsort(np.abs(values - 1), kind="stable")[found.unresisted :]]
+    return bool(np.abs(others).max(initial=0.0) < 1 + TORN_APART)
+
+
+def _of_unresisted_motion(scheme: Scheme, rest: Equilibrium, found: Rates, dt: float) -> Limit:
+    values = np.linalg.eigvals(step_jacobian(scheme, rest, dt))
+    rate = float(np.abs(values[np.argsort(np.abs(values - 1), kind="stable")[: found.unresisted]]).max() - 1)
+    return Limit(None, f"{unstable_at_any(rate, dt)}; it is motion that nothing resists", rate)
 
 
 def _unresisted_motion_grows(scheme: Scheme, rest: Equilibrium, found: Rates) -> bool:

@@ -13,7 +13,6 @@ from reference.measured_stability import (
     PERTURBATION,
     SEEN,
     STEPS,
-    limit_near,
     measured_limit,
     mode_growth,
     random_growth,
@@ -124,14 +123,6 @@ def test_random_perturbations_find_no_limit_where_there_is_none() -> None:
     assert limit.reason.startswith("unstable")
 
 
-@pytest.mark.parametrize("expected", [2.0, 2.0004, 3.0, 0.5, None])
-def test_a_limit_is_the_same_wherever_it_is_expected(expected: float | None) -> None:
-    """Kick-drift's 2, to the precision of 1e-3: where to look is expected, what is found is not."""
-    limit = limit_near(lambda h, n: growth_of_map(np.array([[1 - h * h, h], [-h, 1.0]]), n), expected, 1.0, 1e-3)
-    assert limit.reason == ""
-    assert limit.dt == pytest.approx(2, rel=2e-3)
-
-
 def test_slow_growth_beside_fast_decay_is_seen_in_longer_runs() -> None:
     """Euler of a string with damped springs: fast modes decay, slow ones grow at any dt (predicted), by 1e-4 in a step.
 
@@ -179,37 +170,3 @@ def test_a_scheme_that_is_never_stable_is_not_given_a_limit() -> None:
     found = measured_limit(lambda dt, steps: growth_of(find("heun"), dt, steps, drag=0.0), 0.01, 1e-2)
     assert found.dt is None
     assert "longer runs" in found.reason
-
-
-@pytest.mark.parametrize("part", [None, 0.5, 0.9, 0.985, 1.0, 1.015, 1.1, 2.0])
-def test_a_limit_is_found_wherever_it_is_expected(part: float | None) -> None:
-    """Growth jumps at 0.0123 s: what is found is below, by less than the precision; and soon, if it is expected near.
-
-    Of NEAR steps of the precision to either side bisection leaves one in three rounds.
-    """
-    limit, precision, asked = 0.0123, 0.01, []
-
-    def growth(dt: float, steps: int) -> float:
-        asked.append(dt)
-        return -1.0 if dt <= limit else 1.0
-
-    found = limit_near(growth, None if part is None else part * limit, 0.01, precision)
-    assert found.reason == ""
-    assert found.dt is not None
-    assert found.dt <= limit < found.dt * (1 + precision)
-    if part is not None and abs(part - 1) < 0.02:
-        assert len(asked) == 5
-
-
-def test_no_limit_is_looked_for_far_below_the_fastest_motion() -> None:
-    """A tenth of what it lasts is too long already: with a reason, after one look more."""
-    asked = []
-
-    def growth(dt: float, steps: int) -> float:
-        asked.append(dt)
-        return -1.0 if dt <= 1e-4 else 1.0
-
-    found = limit_near(growth, 0.01, 0.01, 0.01)
-    assert found.dt is None
-    assert "0.001 s" in found.reason
-    assert min(asked) == pytest.approx(0.001)

@@ -94,10 +94,18 @@ def test_a_string_hangs_along_gravity_whichever_way_that_is() -> None:
     assert np.abs(equilibrium(tilted).positions - expected).max() < 1e-11 * system.size
 
 
-def test_a_string_that_one_spring_does_not_hold_has_no_equilibrium() -> None:
-    """What hangs on a spring without stiffness falls."""
-    with pytest.raises(SolverError, match="no equilibrium"):
-        equilibrium(find_scene("string").system({"masses": 3, "stiffness": [200.0, 0.0, 200.0]}))
+def test_what_a_spring_without_stiffness_does_not_hold_is_at_rest_as_it_falls() -> None:
+    """The first mass hangs on its spring, L0 + m g / k; the two below fall with theirs at its rest length."""
+    rest = equilibrium(find_scene("string").system({"masses": 3, "stiffness": [200.0, 0.0, 200.0]}))
+    lengths = np.linalg.norm(np.diff(rest.positions, axis=0), axis=1)
+    assert lengths[0] == pytest.approx(0.125 + 0.02 * 9.81 / 200, abs=1e-12)
+    assert lengths[2] == pytest.approx(0.125, abs=1e-12)
+
+
+def test_a_damper_that_holds_nothing_creeps() -> None:
+    """A mass that hangs on a spring with damping and no stiffness never comes to rest."""
+    with pytest.raises(SolverError, match="spring 1 has damping and no stiffness"):
+        equilibrium(find_scene("string").system({"masses": 3, "stiffness": [200.0, 0.0, 200.0], "damping": 0.1}))
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -124,10 +132,76 @@ def test_equilibrium_between_two_anchors_by_hand() -> None:
     assert equilibrium(system).positions[1] == pytest.approx([0.4, -0.3], abs=1e-12)
 
 
-def test_a_falling_system_has_no_equilibrium() -> None:
-    """Nothing holds it."""
-    with pytest.raises(SolverError, match="no equilibrium: nothing holds the system"):
-        equilibrium(with_fields(find_scene("string").system({"masses": 2}), fixed=False))
+def test_a_falling_system_is_at_rest_in_the_frame_that_falls_with_it() -> None:
+    """No spring is stretched there."""
+    rest = equilibrium(with_fields(find_scene("string").system({"masses": 2}), fixed=False))
+    assert np.linalg.norm(np.diff(rest.positions, axis=0), axis=1) == pytest.approx([0.125, 0.125], abs=1e-12)
+
+
+def test_masses_that_drag_holds_back_unequally_stretch_their_spring_as_they_fall() -> None:
+    """Of masses m1 < m2 that fall for long at V = (m1 + m2) g / (2 Cd), the spring carries (m2 - m1) g / 2."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.0, -1.0]]),
+        springs=np.array([[0, 1]]),
+        masses=np.array([1.0, 3.0]),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(100.0),
+        drag=0.5,
+        gravity=np.array(10.0),
+    )
+    rest = equilibrium(system)
+    assert np.linalg.norm(rest.positions[1] - rest.positions[0]) == pytest.approx(
+        1.0 + 2.0 * 10.0 / 2 / 100.0, abs=1e-10
+    )
+
+
+@pytest.mark.parametrize("order", [[0, 1], [1, 0]])
+def test_a_mass_above_its_anchor_is_a_saddle_and_comes_down(order: list[int]) -> None:
+    """However it is numbered: it hangs at L0 + m g / k below, where pushes come back."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.0, 1.0]]),
+        springs=np.array([[0, 1]]),
+        masses=np.array(0.1),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(50.0),
+        fixed=np.array([True, False]),
+    ).renumbered(order)
+    rest = equilibrium(system)
+    assert rest.positions[~system.fixed][0] == pytest.approx([0.0, -1.0 - 0.1 * 9.81 / 50.0], abs=1e-9)
+
+
+def test_upward_gravity_turns_a_string_upside_down() -> None:
+    """By symmetry."""
+    down, up = (equilibrium(find_scene("string").system({"masses": 4, "gravity": g})) for g in (9.81, -9.81))
+    assert up.positions == pytest.approx(-down.positions * [-1, 1], abs=1e-12)
+
+
+def test_a_mass_pressed_between_two_springs_buckles() -> None:
+    """Two springs of 1 m in 1.8 m, no weight: straight, each in compression, is a saddle; aside, each has its length.
+
+    The mass is then sqrt(1 - 0.81) m off the line.
+    """
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.9, 0.0], [1.8, 0.0]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(100.0),
+        gravity=np.array(0.0),
+        fixed=np.array([True, False, True]),
+    )
+    assert abs(equilibrium(system).positions[1, 1]) == pytest.approx(np.sqrt(1 - 0.81), abs=1e-9)
+
+
+@pytest.mark.parametrize("gravity", [9.81, 0.0, -9.81])
+def test_strings_rest_in_three_dimensions(gravity: float) -> None:
+    """Along gravity, or where there is none at their rest lengths."""
+    flat = find_scene("string").system({"masses": 3, "gravity": gravity, "angle": 20.0})
+    deep = replace(flat, positions=np.pad(flat.positions, ((0, 0), (0, 1))), gravity=np.append(flat.gravity, 0.0),
+                   velocities=np.zeros((4, 3)))  # fmt: skip
+    lengths = np.linalg.norm(np.diff(equilibrium(deep).positions, axis=0), axis=1)
+    below = np.array([3, 2, 1]) * 0.02 * abs(gravity) / 200.0
+    assert lengths == pytest.approx(0.125 + below, abs=1e-10)
 
 
 def test_a_free_system_without_gravity_relaxes() -> None:
@@ -144,9 +218,9 @@ def test_a_free_system_without_gravity_relaxes() -> None:
         random_mesh(1, 5, 2),
         find_scene("string").system({"stiffness": 0.0}),
         replace(find_scene("string").system({"masses": 2}), fixed=np.array([True, False, True])),
-        replace(find_scene("string").system({"masses": 2}), gravity=np.array([1.0, -9.81])),
+        find_scene("string").system({"masses": 2, "gravity": 0.0}),
     ],
-    ids=["mesh", "no stiffness", "held at both ends", "tilted gravity"],
+    ids=["mesh", "no stiffness", "held at both ends", "no gravity"],
 )
 def test_only_strings_hang_straight(system: MassSpringSystem) -> None:
     """Any other system is refused."""
