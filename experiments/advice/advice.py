@@ -70,9 +70,14 @@ class Advice:
 
     @property
     def limit(self) -> float | None:
-        """The largest stable step [s]: measured, or what is predicted where that is shorter; None where not measured.
+        """The largest stable step [s], measured."""
+        return self.measured.dt
 
-        Perturbations may grow too slowly to be seen, and where no limit was measured but one is certified, it holds.
+    @property
+    def safe(self) -> float | None:
+        """The step [s] that advice is taken from: the measured limit, or the predicted one where that is shorter.
+
+        Perturbations may grow too slowly to be seen. Where no limit was measured and one is certified, it is that one.
         """
         if self.measured.dt is None:
             return self.predicted.dt if self.predicted.certainty == "certified" else None
@@ -81,7 +86,7 @@ class Advice:
     @property
     def substeps(self) -> int | None:
         """How many steps a frame of 1/60 s takes, each at most ADVISED of the limit; None without a limit."""
-        return None if self.limit is None else ceil(1 / (FRAMES * ADVISED * self.limit))
+        return None if self.safe is None else ceil(1 / (FRAMES * ADVISED * self.safe))
 
     @property
     def grows(self) -> bool | None:
@@ -158,10 +163,9 @@ def _advice(
     known = Advice(engine.name, found.identified_as, predicted, _limit(measured), own)
     if scheme is not None and not scheme.on_rods:
         known = replace(known, reasons=reasons_of(scheme.scheme, predictions, predicted, setup.dt))
-    limit = known.limit
-    if limit is None:
+    if known.safe is None:
         return known
-    dt, confirmed = _tried(engine, setup, own, rounded_down(ADVISED * limit))
+    dt, confirmed = _tried(engine, setup, own, rounded_down(ADVISED * known.safe))
     return replace(known, advised=dt, confirmed=confirmed)
 
 

@@ -107,7 +107,8 @@ def sentence(setup: Setup, advice: Advice) -> str:
     if limit is None:
         ended = "comes to the scene's end" if advice.own.ending == "done" else f"{_bad(advice)} ({advice.own.reason})"
         theory = f"; {advice.predicted.dt:.2g} s is predicted" if advice.predicted.dt else ""
-        return f"{name} at dt = {dt:g} s {ended}; no limit was measured ({advice.measured.reason}){theory}."
+        use = f": use dt = {advice.advised:g} s or less" if advice.advised else ""
+        return f"{name} at dt = {dt:g} s {ended}; no limit was measured ({advice.measured.reason}){theory}{use}."
     use = f"use dt = {advice.advised:g} s or less" if advice.advised else "no step is known to be safe"
     if dt > limit:
         ended = "comes to the scene's end, though" if advice.own.ending == "done" else f"{_bad(advice)}:"

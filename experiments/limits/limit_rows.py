@@ -54,13 +54,13 @@ class Row:
             "damping": float(self.system.damping.max()),
             "drag": self.system.drag,
             "predicted_dt_s": self.predicted.dt,
-            "predicted_certainty": self.predicted.certainty if self.predicted.dt is not None else None,
-            "predicted_at_most_s": self.predicted.at_most,
             "measured_dt_s": self.measured.dt,
             "relative_difference": self.relative_difference,
             "outcome": self.outcome,
-            "windows_s": [[low, high] for low, high in self.predicted.windows],
             "reason": "; ".join(f"{word}: {reason}" for word, reason in reasons.items() if reason),
+            "predicted_certainty": self.predicted.certainty if self.predicted.dt is not None else None,
+            "predicted_at_most_s": self.predicted.at_most,
+            "windows_s": [[low, high] for low, high in self.predicted.windows],
         }
 
 

@@ -31,22 +31,22 @@ def equilibrium(system: MassSpringSystem) -> State:
 def hanging_string(system: MassSpringSystem) -> State:
     """The equilibrium of a string under its own weight: straight, each spring carrying all that is below it.
 
-    It hangs along gravity, whichever way that points. The length of spring j is L0_j and the stretch under
-    (m_{j+1} + ... + m_n) |g|, which is that over k_j.
+    It hangs along gravity, whichever way that points; without any, downwards. The length of spring j is L0_j and the
+    stretch under (m_{j+1} + ... + m_n) |g|, which is that over k_j.
 
     Raises:
-        InputError: unless the system is a string with stiffness everywhere, under gravity.
+        InputError: unless the system is a string with stiffness everywhere.
     """
-    g = float(np.linalg.norm(system.gravity))
-    if not system.is_string or not system.stiffness.all() or g == 0:
+    if not system.is_string or not system.stiffness.all():
         raise InputError(
-            "system is no string that hangs: expected springs from each mass to the next, the first fixed, all with "
-            "stiffness > 0, under gravity"
+            "system is no string: expected springs from each mass to the next, the first fixed, all with stiffness > 0"
         )
+    g = float(np.linalg.norm(system.gravity))
+    downwards = -np.eye(system.dimension)[min(1, system.dimension - 1)]
     below = np.cumsum(system.masses[:0:-1])[::-1]
     lengths = system.rest_lengths[_in_order(system)] + stretch_under(system.stiffness[_in_order(system)], below * g)
     positions = np.tile(system.positions[0], (len(system.positions), 1))
-    positions[1:] += np.cumsum(lengths)[:, None] * (system.gravity / g)
+    positions[1:] += np.cumsum(lengths)[:, None] * (system.gravity / g if g else downwards)
     return State(0.0, positions, np.zeros_like(positions))
 
 

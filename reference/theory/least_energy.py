@@ -31,6 +31,9 @@ NEAR = 1e-6
 #: So many steps downhill; a cloth of 4,000 masses takes some hundred.
 MOST_STEPS = 2_000
 
+#: Up to so many coordinates, where that was not enough, L-BFGS goes on; and of these so many steps are enough to see.
+QUASI_NEWTON_UP_TO, MOST_STEPS_OF_SMALL = 600, 150
+
 #: An eigenvalue of K that is this little below zero, as a part of its largest entry, is zero but for rounding.
 FLAT = 1e-9
 
@@ -72,6 +75,7 @@ class _Search:
         self._system = system
         self._motion = SpringMotion(system.with_parameter("gravity", [0.0] * system.dimension))
         self._free = ~system.fixed
+        self._size = system.size or 1.0
         self._loads = loads(system, parts_of(system))[self._free].ravel()
         tension = np.abs(self._motion.acceleration(system.start, damping=False)) * system.masses[:, None]
         # what forces are small against: what is carried, what the start pulls with, a millionth of what springs can
@@ -98,9 +102,9 @@ class _Search:
 
     def downhill(self, q: Array) -> Array:
         """Coordinates where forces nearly balance, with less energy than those given."""
-        mu, height = self.weight / self._system.size, self.energy(q)
+        mu, height = self.weight / self._size, self.energy(q)
         near = max(NEAR * self.weight, force_tolerance(self._system, 0.0))
-        for _ in range(MOST_STEPS):
+        for _ in range(MOST_STEPS if len(q) > QUASI_NEWTON_UP_TO else MOST_STEPS_OF_SMALL):
             force = self.force(q)
             largest = np.abs(force).max(initial=0.0)
             if largest < near:
@@ -113,7 +117,25 @@ class _Search:
             if kept > 0.1:
                 q, height = q + step, there
             mu *= 0.25 if kept > 0.5 else 1.0 if kept > 0.1 else 4.0
-        raise SolverError(f"no equilibrium was reached in {MOST_STEPS} steps downhill: start the scene nearer to it")
+        if len(q) > QUASI_NEWTON_UP_TO:
+            raise SolverError(
+                f"no equilibrium was reached in {MOST_STEPS} steps downhill: start the scene nearer to it"
+            )
+        return self._by_quasi_newton(q)
+
+    def _by_quasi_newton(self, q: Array) -> Array:
+        """The same by L-BFGS, which creeps along valleys that are long and curved, as of strips that resist bending."""
+        from scipy.optimize import minimize
+
+        scale = self.weight * self._size
+        found = minimize(
+            lambda q: self.energy(q) / scale,
+            q,
+            jac=lambda q: -self.force(q) / scale,
+            method="L-BFGS-B",
+            options={"maxiter": 50_000, "maxfun": 100_000, "ftol": 1e-16, "gtol": 1e-9},
+        )
+        return np.asarray(found.x)
 
     def newton(self, q: Array) -> Array:
         """The same to rounding; a trace of mu lets what no force holds stay where it is."""
@@ -121,7 +143,7 @@ class _Search:
             stiffness = self._stiffness(q)
             change = _solve(stiffness, 1e-13 * (abs(stiffness).max() or 1.0), self.force(q))
             q = q + change
-            if np.abs(change).max(initial=0.0) < 1e-14 * self._system.size:
+            if np.abs(change).max(initial=0.0) < 1e-14 * self._size:
                 break
         return q
 
@@ -136,7 +158,7 @@ class _Search:
 
     def pushed(self, q: Array, away: Array) -> Array:
         """Off the ridge, along the direction and to the side where the energy is less."""
-        push = PUSH * self._system.size * away / np.abs(away).max()
+        push = PUSH * self._size * away / np.abs(away).max()
         return min(q + push, q - push, key=self.energy)
 
     def _stiffness(self, q: Array, tension_only: bool = False) -> Any:

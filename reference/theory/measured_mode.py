@@ -1,8 +1,8 @@
 """A scheme's stability limit, measured: it is run from rest perturbed along one mode, and that mode is watched.
 
 Theory says which mode it is, the eigenvector of the step's Jacobian whose eigenvalue is largest, and where to look.
-What becomes of it is seen in a run of the scheme itself, a little below the predicted limit, a little above, and between. In
-one mode alone growth of a millionth in a step shows within some hundred steps.
+What becomes of it is seen in a run of the scheme itself, a little below the predicted limit, a little above, and
+between. In one mode alone growth of a millionth in a step shows within some hundred steps.
 """
 
 from __future__ import annotations

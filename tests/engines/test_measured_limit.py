@@ -91,7 +91,7 @@ def along(dt: float) -> ModeRun:
     return ModeRun(dt, positions, velocities, np.array([0.0, left[0], 0.0, left[1]]))
 
 
-@pytest.mark.parametrize("part", [0.99, 1 - 1e-4, 1 + 1e-4, 1.01])
+@pytest.mark.parametrize("part", [1 - 1e-4, 1 + 1e-4, 1 + 1e-3])
 def test_growth_along_a_mode_is_its_eigenvalues(part: float) -> None:
     """Near the limit the eigenvalue -1 (1 + g): g of 1e-5 in a step is seen, to 2e-7, the perturbation's square."""
     rest = replace(SPRING, positions=REST)

@@ -139,12 +139,12 @@ def test_a_step_beyond_the_limit_is_said_to_blow_up() -> None:
     engine = engine_of("mujoco_tendons")
     (advice,) = advise(setup, [engine], lambda _: None)
     assert advice.limit is not None
-    assert "is stable with margin" in result_of(setup, [advice]).findings[1]
+    assert any("is stable with margin" in finding for finding in result_of(setup, [advice]).findings)
     beyond = replace(setup, dt=1.5 * advice.limit)
     (finding,) = [f for f in result_of(beyond, advise(beyond, [engine], lambda _: None)).findings if "blows up" in f]
     assert f"use dt = {advice.advised:g} s or less" in finding
     just = replace(setup, dt=0.97 * advice.limit)
-    assert "only just" in result_of(just, [advice]).findings[1]
+    assert any("only just" in finding for finding in result_of(just, [advice]).findings)
 
 
 def test_scenes_that_have_no_limit_are_told_in_a_sentence() -> None:

@@ -55,13 +55,13 @@ def test_where_one_has_no_step_the_others_are_counted() -> None:
 
 def test_each_engine_has_its_sentence() -> None:
     """With its margin, or by how much its dt is too long; its limit; what to use."""
-    stable = finding(usual(), "mujoco_tendons")
+    stable = finding(usual(), "mujoco_tendons at")
     assert numbers(stable) == pytest.approx([SETUP.dt, 4.4, 4.4e-3, 3.6e-3])
     assert in_order(stable, "margin 4.40", "limit is 0.0044 s", "dt = 0.0036 s still works")
-    beyond = finding(usual(), "pymunk_springs")
+    beyond = finding(usual(), "pymunk_springs at")
     assert numbers(beyond) == pytest.approx([SETUP.dt, 1.82, 0.55e-3, 0.45e-3])
     assert in_order(beyond, "blows up", "1.82 times the limit", "use dt = 0.00045 s")
-    just = finding(usual(), "bullet_softbody")
+    just = finding(usual(), "bullet_softbody at")
     assert numbers(just) == pytest.approx([SETUP.dt, 5.0, 0.94e-3])
     assert "only just" in just
 
@@ -75,7 +75,7 @@ def test_a_scene_that_ends_well_beyond_the_limit_is_not_said_to_blow_up() -> Non
 
 def test_who_has_no_measured_limit_is_told_with_the_predicted_one() -> None:
     """And how the scene ended."""
-    said = finding(usual(), "exudyn_springs")
+    said = finding(usual(), "exudyn_springs at")
     assert numbers(said) == pytest.approx([SETUP.dt, 2e-3])
     assert in_order(said, "no limit was measured (it has its own step)", "is predicted")
     crashed = finding(usual(), "Segfaults")
@@ -100,7 +100,7 @@ def test_a_step_that_fails_where_the_limit_would_allow_it_is_told_apart() -> Non
 
 def test_constraints_and_changes_are_told() -> None:
     """A cable has no springs; limits are those of the start."""
-    assert "mujoco_cable, which puts rods for springs," in finding(usual(), "mujoco_cable")
+    assert "mujoco_cable, which puts rods for springs," in finding(usual(), "mujoco_cable, which")
     changed = advice.only(STABLE, changes=(Change(0.1, "stiffness", 5.0),))
     assert "stiffness" in changed.findings[1]
 

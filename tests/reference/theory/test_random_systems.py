@@ -71,7 +71,8 @@ def check_limit(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) -
             assert limit.reason.startswith(("nothing moves", "no stable step"))
         return
     assert max(excess(scheme, rest, found, part * limit.dt) for part in BELOW) < rounding
-    assert max(excess(scheme, rest, found, part * limit.dt) for part in ABOVE) > 1e-13
+    if limit.dt * found.fastest > 1e-5:  # in shorter steps growth is below what a double has of digits beside 1
+        assert max(excess(scheme, rest, found, part * limit.dt) for part in ABOVE) > 1e-13
 
 
 def checked(seed: int) -> Iterator[tuple[Scheme, Equilibrium, Rates, Limit]]:
