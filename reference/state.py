@@ -131,6 +131,7 @@ def _apart(one: Array, other: Array) -> Array:
     result = np.full(m, np.inf)
     both = min(len(one), len(other))
     with np.errstate(over="ignore", invalid="ignore"):
-        apart = np.linalg.norm(one[:both] - other[:both], axis=2).max(axis=1)
+        difference = one[:both] - other[:both]
+        apart = np.sqrt((difference * difference).sum(axis=2).max(axis=1))
     result[:both] = np.where(np.isfinite(apart), apart, np.inf)
     return result

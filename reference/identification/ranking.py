@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from types import MappingProxyType
 
 import numpy as np
 
@@ -24,7 +23,7 @@ NOISE = 1e-14
 STRETCH = 3.0
 
 #: Trajectories that were begun only, with the number of steps they were asked for.
-Begun = Mapping[str, tuple[int, Trajectory]]
+Begun = Mapping[str, tuple[int | None, Trajectory]]
 
 
 def identify_run(
@@ -33,7 +32,6 @@ def identify_run(
     system: MassSpringSystem,
     known: Mapping[str, Trajectory],
     tolerance: float = TOLERANCE,
-    begun: Begun = MappingProxyType({}),
 ) -> Identification:
     """Rank the known trajectories by their distance from a run's, and name the nearest if it is within the tolerance.
 
@@ -44,8 +42,23 @@ def identify_run(
         name: of the stepper that made the run.
         known: trajectories by scheme, the simplest first: of several that are as good as the best, that one is named.
         tolerance: as a part of the run's scale (`scale`).
-        begun: trajectories of the first steps only, of schemes that are not among the known; they are ranked behind.
     """
+    return _identified(name, outcome, system, {n: (None, run) for n, run in known.items()}, tolerance)
+
+
+def identify_first_steps(name: str, outcome: Outcome, system: MassSpringSystem, begun: Begun) -> Identification:
+    """As `identify_run`, each by its first steps."""
+    return _identified(name, outcome, system, begun, TOLERANCE)
+
+
+def _identified(
+    name: str,
+    outcome: Outcome,
+    system: MassSpringSystem,
+    known: Mapping[str, tuple[int | None, Trajectory]],
+    tolerance: float,
+) -> Identification:
+    """By so many steps of each; None is by all there are."""
     limit = tolerance * system.scale
     if outcome.trajectory is None:
         return Identification(name, (), limit, outcome.reason)
@@ -55,9 +68,9 @@ def identify_run(
     run = outcome.trajectory
     length = scale(system, run.frames(slice(frames)))
     limit = tolerance * length
-    whole = ranked([match(n, run, other, frames) for n, other in known.items()], limit, NOISE * length)
-    first = [match(n, run.frames(slice(m + 1)), t, min(m + 1, frames)) for n, (m, t) in begun.items() if n not in known]
-    found = Identification(name, whole + ranked(first, limit, NOISE * length), limit)
+    parts = {steps: run if steps is None else run.frames(slice(steps + 1)) for steps, _ in known.values()}
+    matches = [match(n, parts[m], other, min(len(parts[m]), frames)) for n, (m, other) in known.items()]
+    found = Identification(name, ranked(matches, limit, NOISE * length), limit)
     return found if found.matches else found.without_name(why_none(found))
 
 

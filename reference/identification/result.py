@@ -57,7 +57,7 @@ class Identification:
     @property
     def identified_as(self) -> str | None:
         """The scheme, of several that match the simplest; None if none is within the tolerance, or all are."""
-        return self.ranking[0].scheme if self.matches and not self.reason else None
+        return self.matches[0].scheme if self.matches and not self.reason else None
 
     @property
     def matches(self) -> tuple[Match, ...]:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from reference.changes import Change
-from reference.identification.ranking import Begun, identify_run
+from reference.identification.ranking import Begun, identify_first_steps, identify_run
 from reference.identification.result import Identification
 from reference.identification.scale import precision_of
 from reference.outcome import Outcome
@@ -50,8 +50,15 @@ class Candidates:
     begun: Begun = field(default_factory=dict)
 
     def identify(self, name: str, outcome: Outcome, system: MassSpringSystem) -> Identification:
-        """A run among all of them: nearest those that were made to the end, then those that were only begun."""
-        return identify_run(name, outcome, system, self.whole, begun=self.begun)
+        """A run among all of them: those it is with in the first steps, to the end, or the nearest; then the others."""
+        first = identify_first_steps(name, outcome, system, self.begun)
+        within = {match.scheme for match in first.matches or first.ranking[:1]}
+        found = identify_run(name, outcome, system, {n: run for n, run in self.whole.items() if n in within})
+        if not found.ranking:
+            return first
+        seen = {match.scheme for match in found.ranking}
+        whole = replace(found, ranking=found.ranking + tuple(m for m in first.ranking if m.scheme not in seen))
+        return replace(whole, reason="") if whole.matches else whole
 
 
 def candidates_for(
@@ -100,7 +107,8 @@ class _Search:
     ) -> None:
         self._system, self._steps, self._names, self._make = system, steps, names, make
         self.followed: dict[str, Trajectory] = {}
-        self.begun: dict[str, tuple[int, Trajectory]] = {}
+        self.begun: dict[str, tuple[int | None, Trajectory]] = {}
+        self._within: dict[int, list[str]] = {}
 
     def try_first_steps(self, runs: Sequence[Outcome]) -> None:
         """Every scheme for the fewest steps, and for some more if a run is with it then, or a run is with none."""
@@ -112,6 +120,7 @@ class _Search:
                 begun = self._make(name, min(n, self._steps)) if name in going_on else None
                 if begun is not None:
                     self.begun[name] = (min(n, self._steps), begun)
+            self._within = {}
 
     def follow(self, run: Outcome) -> None:
         """Make to the end what a run is with: all of that, on a large system the simplest; else what is nearest."""
@@ -122,15 +131,17 @@ class _Search:
             if large and _is_one_of({name: self.followed[name]}, run, self._system):
                 return
         if not within and not _is_one_of(self.followed, run, self._system):
-            nearest = identify_run("run", run, self._system, {}, begun=self.begun).ranking[:1]
+            nearest = identify_first_steps("run", run, self._system, self.begun).ranking[:1]
             for match in nearest:
                 self._follow(match.scheme)
 
     def _with(self, run: Outcome) -> list[str]:
         """The schemes a run is with in the first steps, the simplest first."""
-        found = identify_run("run", run, self._system, {}, begun=self.begun)
-        within = {match.scheme for match in found.matches}
-        return [name for name in self._names if name in within]
+        if id(run) not in self._within:
+            found = identify_first_steps("run", run, self._system, self.begun)
+            matches = {match.scheme for match in found.matches}
+            self._within[id(run)] = [name for name in self._names if name in matches]
+        return self._within[id(run)]
 
     def _follow(self, name: str) -> None:
         if name in self.followed:
