@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from engines.engine import Engine, Unsupported
+from engines.line import started
 from engines.step_jacobian import step_jacobian
 from reference.growth_factor import growth_factor
 from reference.limit import Limit
@@ -91,7 +92,7 @@ def growths_of_engine(
 
 def growth_of_engine(engine: Engine, rest: Array, perturbed: MassSpringSystem, dt: float, steps: int) -> float:
     """What becomes of a perturbation in an engine, per step."""
-    simulation = engine.start(perturbed, dt)
+    simulation = started(engine, perturbed, dt)
     offsets = [perturbed.positions - rest]
     far = GROWN * np.linalg.norm(offsets[0])
     for _ in range(steps):

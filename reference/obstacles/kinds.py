@@ -86,12 +86,12 @@ class Plane(Obstacle):
     normal: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "point", _vector("point", self.point, (2, 3)))
+        object.__setattr__(self, "point", _vector("point", self.point, (1, 2, 3)))
         object.__setattr__(self, "normal", _direction("normal", self.normal, (self.dimension,)))
 
     @property
     def dimension(self) -> int:
-        """2 or 3, as its point has it."""
+        """1, 2 or 3, as its point has it."""
         return len(self.point)
 
     def signed_distance(self, place: Axes) -> tuple[Any, Axes]:

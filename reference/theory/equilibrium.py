@@ -27,7 +27,8 @@ def equilibrium(system: MassSpringSystem) -> State:
         raise SolverError(
             "no equilibrium: with obstacles the forces need not balance, and a small perturbation may meet one"
         )
-    if system.is_string and system.stiffness.all() and not system.gravity[0] and not system.gravity[2:].any():
+    flat = system.dimension > 1
+    if flat and system.is_string and system.stiffness.all() and not system.gravity[0] and not system.gravity[2:].any():
         return hanging_string(system)
     from scipy.optimize import minimize
 
