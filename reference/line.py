@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from reference.obstacles import Obstacle, Plane
-from reference.state import Array
+from reference.state import Array, Trajectory
 from reference.system import MassSpringSystem, Value
 
 
@@ -44,6 +44,11 @@ def system_on_line(system: MassSpringSystem) -> MassSpringSystem:
     """The reverse: of a system of the plane without obstacles, what is up and down."""
     along = {name: on_line(getattr(system, name)) for name in ("positions", "velocities", "gravity")}
     return replace(system, **along)
+
+
+def trajectory_on_line(trajectory: Trajectory) -> Trajectory:
+    """Of a trajectory in the plane, what is up and down."""
+    return Trajectory(trajectory.times, on_line(trajectory.positions), on_line(trajectory.velocities))
 
 
 def obstacle_in_plane(obstacle: Obstacle) -> Obstacle:

@@ -45,7 +45,8 @@ def stability_command(
 ) -> None:
     """Predict and measure the largest stable dt of steppers on SCENE, about its equilibrium; or map growth.
 
-    Without --set damping or drag, in the cases the report shows: undamped, damping 0.1 and 0.5, drag 0.1 N s/m.
+    Without --set damping or drag, as it is, and in the cases the report shows, where SCENE has such a parameter:
+    damping 0.1 and 0.5, drag 0.1 N s/m.
     --dt is the step of a map that has no dt axis.
     """
     if axes:
@@ -60,11 +61,14 @@ def _limits(scene: str, settings: Mapping[str, str], names: Sequence[str]) -> li
     from experiments.runs.steppers import all_steppers, find_steppers
     from experiments.stability import CASES
     from reference.files.setup import is_file, setup_for
+    from reference.scenes import find
 
     known = all_steppers().values()
     steppers = find_steppers(names) if names else [s for s in known if s.kind not in ("lecture", "pendulum")]
     as_shown = not is_file(scene) and not {"damping", "drag"} & settings.keys()
-    cases = [{key: str(value) for key, value in case.items()} for case in CASES] if as_shown else [{}]
+    # Not every scene has a drag, or a damping, that could be set.
+    own = [case for case in CASES if case.keys() <= find(scene).parameters.keys()] if as_shown else [{}]
+    cases = [{key: str(value) for key, value in case.items()} for case in own]
     rows = []
     with progress("stability") as tell:
         for case in cases:
