@@ -42,8 +42,12 @@ def system_in_plane(system: MassSpringSystem) -> MassSpringSystem:
 
 def system_on_line(system: MassSpringSystem) -> MassSpringSystem:
     """The reverse: of a system of the plane without obstacles, what is up and down."""
-    along = {name: on_line(getattr(system, name)) for name in ("positions", "velocities", "gravity")}
-    return replace(system, **along)
+    return replace(
+        system,
+        positions=on_line(system.positions),
+        velocities=on_line(system.velocities),
+        gravity=on_line(system.gravity),
+    )
 
 
 def trajectory_on_line(trajectory: Trajectory) -> Trajectory:

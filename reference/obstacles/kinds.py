@@ -166,7 +166,8 @@ def _first(values: Axes, largest: Any) -> Axes:
 def _vector(name: str, value: Any, dimensions: tuple[int, ...]) -> tuple[float, ...]:
     numbers = list(value) if isinstance(value, list | tuple | np.ndarray) else []
     if len(numbers) not in dimensions or not all(map(_is_number, numbers)):
-        raise InputError(f"{name} = {value!r}: expected {' or '.join(map(str, dimensions))} finite numbers [m]")
+        what = "number" if dimensions == (1,) else "numbers"
+        raise InputError(f"{name} = {value!r}: expected {' or '.join(map(str, dimensions))} finite {what} [m]")
     return tuple(map(float, numbers))
 
 
