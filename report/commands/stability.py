@@ -59,21 +59,27 @@ def _limits(scene: str, settings: Mapping[str, str], names: Sequence[str]) -> li
     """The limits of steppers of these names, or of all that theory knows on springs."""
     from experiments.limits.limit_rows import stability_rows
     from experiments.runs.steppers import all_steppers, find_steppers
-    from experiments.stability import CASES
-    from reference.files.setup import is_file, setup_for
-    from reference.scenes import find
+    from reference.files.setup import setup_for
 
     known = all_steppers().values()
     steppers = find_steppers(names) if names else [s for s in known if s.kind not in ("lecture", "pendulum")]
-    as_shown = not is_file(scene) and not {"damping", "drag"} & settings.keys()
-    # Not every scene has a drag, or a damping, that could be set.
-    own = [case for case in CASES if case.keys() <= find(scene).parameters.keys()] if as_shown else [{}]
-    cases = [{key: str(value) for key, value in case.items()} for case in own]
     rows = []
     with progress("stability") as tell:
-        for case in cases:
+        for case in cases(scene, settings):
             rows += stability_rows(setup_for(scene, settings={**settings, **case}).system, steppers, tell)
     return rows
+
+
+def cases(scene: str, settings: Mapping[str, str]) -> list[dict[str, str]]:
+    """What is set besides: damping and drag as the report has them, as far as a scene has parameters of that name."""
+    from experiments.stability import CASES
+    from reference.files.setup import is_file
+    from reference.scenes import find
+
+    if is_file(scene) or {"damping", "drag"} & settings.keys():
+        return [{}]
+    known = find(scene).parameters.keys()
+    return [{key: str(value) for key, value in case.items()} for case in CASES if case.keys() <= known]
 
 
 def _write_limits(rows: Sequence[Row], as_json: bool, out: Path) -> None:

@@ -77,7 +77,7 @@ def test_arrays_are_taken_as_they_are() -> None:
     ],
 )
 def test_one_number_for_gravity_means_downwards(dimension: int, gravity: Any, expected: list[float]) -> None:
-    """Along the second axis, or the one there is. There a list of one number is a vector, as in two dimensions of two."""
+    """Along the second axis, or the one there is; there a list of one number is a vector already."""
     positions = np.arange(3.0 * dimension).reshape(3, dimension)
     assert system(positions=positions, gravity=gravity).gravity.tolist() == expected
 
