@@ -32,6 +32,7 @@ OBSTACLES = {
 
 #: What a system may ask of an engine, and how the lack of it is said.
 CAPABILITIES = {
+    "1d": "motion along a line",
     "3d": "motion in three dimensions",
     "mesh": "systems other than a string hung at its first mass",
     "masses": "masses that differ from one another",
@@ -42,7 +43,7 @@ CAPABILITIES = {
     "velocities": "a start in motion",
     "damping": "damping along the springs",
     "drag": "drag on the masses",
-    "tilted gravity": "gravity along any axis but the second",
+    "tilted gravity": "gravity along any axis but the vertical",
     "no fixed mass": "a system with no fixed mass",
     **OBSTACLES,
 }
@@ -138,6 +139,7 @@ def _needed(capability: str, system: MassSpringSystem) -> bool:
 
 #: By capability, whether a system asks for it: looked at one by one, as parameters may change at every step.
 _NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
+    "1d": lambda system: system.dimension == 1,
     "3d": lambda system: system.dimension == 3,
     "mesh": lambda system: not system.is_string,
     "masses": lambda system: _differ(system.masses[~system.fixed]),
@@ -148,7 +150,7 @@ _NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
     "velocities": lambda system: system.velocities.any(),
     "damping": lambda system: system.damping.any(),
     "drag": lambda system: system.drag > 0,
-    "tilted gravity": lambda system: system.gravity[0] or system.gravity[2:].any(),
+    "tilted gravity": lambda system: system.gravity[: system.vertical_axis].any() or system.gravity[2:].any(),
     "no fixed mass": lambda system: not system.fixed.any(),
 }
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from engines.engine import Engine, Unsupported
+from engines.line import started
 from engines.step_jacobian import step_jacobian
 from reference.growth_factor import growth_factor
 from reference.limit import Limit
@@ -92,8 +93,8 @@ def growths_along_modes(engine: Engine, rest: MassSpringSystem, runs: Sequence[M
 
 def _growth_along(engine: Engine, rest: MassSpringSystem, run: ModeRun) -> float:
     positions, velocities = rest.positions + run.positions, run.velocities
-    moved = engine.start(replace(rest, positions=positions, velocities=velocities), run.dt)
-    still = engine.start(rest, run.dt) if not rest.fixed.any() else None
+    moved = started(engine, replace(rest, positions=positions, velocities=velocities), run.dt)
+    still = started(engine, rest, run.dt) if not rest.fixed.any() else None
     free, size = ~rest.fixed, float(np.abs(run.positions).max())
     offsets = [_offset(run.positions, run.velocities, run.dt, free)]
     for _ in range(MODE_STEPS):
@@ -125,7 +126,7 @@ def growths_of_engine(
 
 def growth_of_engine(engine: Engine, rest: Array, perturbed: MassSpringSystem, dt: float, steps: int) -> float:
     """What becomes of a perturbation in an engine, per step."""
-    simulation = engine.start(perturbed, dt)
+    simulation = started(engine, perturbed, dt)
     offsets = [perturbed.positions - rest]
     far = GROWN * np.linalg.norm(offsets[0])
     for _ in range(steps):

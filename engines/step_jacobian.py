@@ -12,6 +12,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from engines.engine import Engine
+from engines.line import started
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -42,7 +43,7 @@ def step_jacobian(engine: Engine, system: MassSpringSystem, dt: float) -> Array:
         x, v = system.positions.copy(), system.velocities.copy()
         x[free] += z[:count].reshape(-1, system.dimension)
         v[free] += z[count:].reshape(-1, system.dimension) / dt
-        simulation = engine.start(replace(system, positions=x, velocities=v), dt)
+        simulation = started(engine, replace(system, positions=x, velocities=v), dt)
         simulation.step()
         x, v = simulation.state()
         return np.concatenate([x[free], dt * v[free]], axis=None)
@@ -53,5 +54,5 @@ def step_jacobian(engine: Engine, system: MassSpringSystem, dt: float) -> Array:
 
 def own_jacobian(engine: Engine, system: MassSpringSystem, dt: float) -> Array | None:
     """J by the engine's own derivatives, in its own coordinates (its eigenvalues are the same in any); None without."""
-    simulation = engine.start(system, dt)
+    simulation = started(engine, system, dt)
     return simulation.jacobian() if isinstance(simulation, KnowsItsJacobian) else None

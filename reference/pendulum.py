@@ -83,6 +83,8 @@ class PendulumMotion:
 
 def why_no_pendulum(system: MassSpringSystem) -> str | None:
     """Why a system's stiff limit is not a pendulum hung at its first mass, or None if it is."""
+    if system.dimension == 1:
+        return "along a line rods leave nothing that could move, expected a string in 2D"
     if system.dimension != 2 or not system.is_string:
         return "expected a string in 2D, fixed at its first mass only"
     if system.obstacles:

@@ -46,14 +46,14 @@ class MassSpringSystem:
     Where an array of one number per mass or per spring is expected, a single number does for all of them.
 
     Attributes:
-        positions: where every mass starts [m], shape (n, d) with d = 2 or 3.
+        positions: where every mass starts [m], shape (n, d) with d = 1, 2 or 3.
         springs: the two masses each spring joins, shape (s, 2).
         masses: [kg], shape (n,), each > 0 (a fixed mass has one too: engines want it).
         rest_lengths: [m], shape (s,), each > 0.
         stiffness: k [N/m], shape (s,), each >= 0.
         damping: c [N s/m] along each spring, shape (s,), each >= 0.
         drag: Cd [N s/m] on every mass, >= 0 (lecture slide 10).
-        gravity: [m/s^2], shape (d,); a single number g means downwards, along the second axis.
+        gravity: [m/s^2], shape (d,); a single number g means downwards, along the vertical axis (`vertical_axis`).
         velocities: [m/s], shape (n, d); zero unless given.
         fixed: which masses never move, shape (n,).
         obstacles: what free masses may not enter; they are projected out at the end of every step, in this order.
@@ -76,8 +76,8 @@ class MassSpringSystem:
 
     def __post_init__(self) -> None:
         positions = _finite("positions", self.positions, "m")
-        if positions.ndim != 2 or positions.shape[1] not in (2, 3) or len(positions) == 0:
-            raise InputError(f"positions has shape {positions.shape}: expected (n, 2) or (n, 3) with n >= 1")
+        if positions.ndim != 2 or positions.shape[1] not in (1, 2, 3) or len(positions) == 0:
+            raise InputError(f"positions has shape {positions.shape}: expected (n, 1), (n, 2) or (n, 3) with n >= 1")
         n, d = positions.shape
         springs = _springs(self.springs, positions)
         s = len(springs)
@@ -107,8 +107,13 @@ class MassSpringSystem:
 
     @property
     def dimension(self) -> int:
-        """d, 2 or 3."""
+        """d: 1 along a line, 2 in the plane, 3 in space."""
         return int(self.positions.shape[1])
+
+    @property
+    def vertical_axis(self) -> int:
+        """The axis that points upwards: the second; along a line, the one there is."""
+        return _vertical_axis(self.dimension)
 
     @property
     def size(self) -> float:
@@ -237,8 +242,19 @@ def _refuse_below(name: str, array: Array, unit: str, above_zero: bool) -> None:
 
 
 def _downwards(gravity: Array, dimension: int) -> Array:
-    """A single number g [m/s^2] as a vector along the second axis; others as they are."""
-    return np.array([0.0, -float(gravity.item()), 0.0][:dimension]) if gravity.size == 1 else gravity
+    """A single number g [m/s^2] as a vector along the vertical axis; others as they are.
+
+    Along a line a list of one number is such a vector already, and points upwards where it is positive.
+    """
+    if gravity.size != 1 or (dimension == 1 and gravity.ndim == 1):
+        return gravity
+    vector = np.zeros(dimension)
+    vector[_vertical_axis(dimension)] = -float(gravity.item())
+    return vector
+
+
+def _vertical_axis(dimension: int) -> int:
+    return min(1, dimension - 1)
 
 
 def _truths(name: str, value: npt.ArrayLike) -> BoolArray:

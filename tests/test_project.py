@@ -29,12 +29,16 @@ BARE_REFERENCE = (
     "errors",
     "growth_factor",
     "limit",
+    "line",
     "measured_stability",
     *(f"obstacles.{name}" for name in ("kinds", "obstacle", "validation")),
     "obstacles",
     "outcome",
     "registry",
-    *(f"scenes.{name}" for name in ("barrier", "cloths", "drape", "lattices", "parameters", "strings", "trusses")),
+    *(
+        f"scenes.{name}"
+        for name in ("barrier", "cloths", "drape", "lattices", "line", "parameters", "strings", "trusses")
+    ),
     "scenes",
     "state",
     "system",

@@ -26,6 +26,7 @@ class BulletSoftbody:
     settings: Mapping[str, object] = field(default_factory=lambda: {"world": "deformable", "apex": APEX})
     capabilities: frozenset[str] = frozenset(
         {
+            "1d",
             "3d",
             "mesh",
             "rest_lengths",

@@ -10,6 +10,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from engines.engine import Engine, Precision, precision, version
+from engines.line import started
 from engines.process.supervisor import supervisor
 from reference.changes import Change, changes_by_step
 from reference.errors import Unsupported
@@ -106,7 +107,7 @@ def run_engine(
     """Run an engine in this very process, ending early once its state is not a number."""
     pending = changes_by_step(changes, dt)
     try:
-        simulation = engine.start(system, dt)
+        simulation = started(engine, system, dt)
         states = [system.start]
         for step in range(steps):
             for change in pending.get(step, ()):

@@ -12,6 +12,7 @@ from typing import Any
 from weakref import WeakSet
 
 from engines.engine import Engine, Simulation
+from engines.line import started
 from engines.process.worker import NoAnswerError, Worker
 from reference.errors import InputError, Unsupported
 from reference.outcome import Outcome
@@ -112,7 +113,7 @@ def begin(engine: Engine, system: MassSpringSystem, dt: float) -> Outcome | None
     """Start a simulation, in place of the one before."""
     _under_way.clear()
     try:
-        _under_way.append(engine.start(system, dt))
+        _under_way.append(started(engine, system, dt))
     except (Unsupported, InputError) as error:
         return Outcome("unsupported", str(error))
     return None

@@ -38,8 +38,8 @@ class PymunkSprings:
     backward_euler: bool = False
     package: str = "pymunk"
     capabilities: frozenset[str] = frozenset(
-        {"mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping", "drag"}
-        | {"tilted gravity", "no fixed mass", "circle", "plane", "box"}
+        {"1d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
+        | {"drag", "tilted gravity", "no fixed mass", "circle", "plane", "box"}
     )
 
     @property

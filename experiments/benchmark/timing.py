@@ -9,6 +9,7 @@ from math import log
 from time import perf_counter
 
 from engines.engine import Engine, Simulation
+from engines.line import started
 from reference.errors import Unsupported
 from reference.outcome import Outcome
 from reference.state import Array
@@ -91,7 +92,7 @@ def engine_cost(
 
 
 def _engine_run(engine: Engine, system: MassSpringSystem, dt: float, steps: int) -> Timing:
-    simulation = engine.start(system, dt)
+    simulation = started(engine, system, dt)
     seconds = seconds_of(partial(_advance, simulation, steps))
     return Timing(seconds, simulation.state()[0])
 
@@ -107,7 +108,7 @@ def engine_speeds(engine: Engine, systems: Sequence[MassSpringSystem], dt: float
         if expected > LIMIT:
             return Speeds(steps, f"the next start or step, of {size} masses, would take some {expected:.1g} s")
         begin = perf_counter()
-        simulation = engine.start(system, dt)
+        simulation = started(engine, system, dt)
         starts.append(perf_counter() - begin)
         steps.append(seconds_per_step(partial(_advance, simulation)))
         sizes.append(size)
@@ -134,7 +135,7 @@ def adapter_overhead(engine: Engine, system: MassSpringSystem, dt: float) -> tup
     some per cent; of each way the least of many tries is kept.
     """
     try:
-        simulation = engine.start(system, dt)
+        simulation = started(engine, system, dt)
     except Unsupported as error:
         return Outcome("unsupported", str(error))
     loops = (_loop(simulation.step), _loop(simulation.bare_step()))

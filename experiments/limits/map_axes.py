@@ -64,7 +64,7 @@ def _usual_range(name: str, system: MassSpringSystem) -> tuple[float, float]:
         "mass": float(system.masses[-1]),
         "rest_length": float(system.rest_lengths[0]),
         "stiffness": float(system.stiffness[0]),
-        "gravity": float(-system.gravity[1]) or 9.81,
+        "gravity": float(-system.gravity[system.vertical_axis]) or 9.81,
         # As much as damps the fastest mode critically: 2 m w of one mass.
         "damping": 0.5 * float(system.masses[-1]) * fastest,
         "drag": 0.5 * float(system.masses[-1]) * fastest,

@@ -127,7 +127,7 @@ def _varied(systems: Sequence[MassSpringSystem]) -> dict[str, Array]:
         "stiffness": np.array([system.stiffness[0] for system in systems]),
         "damping": np.array([system.damping[0] for system in systems]),
         "drag": np.array([system.drag for system in systems]),
-        "gravity": np.array([-system.gravity[1] for system in systems]),
+        "gravity": np.array([-system.gravity[system.vertical_axis] for system in systems]),
     }
     return {name: values for name, values in parameters.items() if np.ptp(values) > 0}
 

@@ -134,7 +134,8 @@ def _weights(system: MassSpringSystem, given: Mapping[str, Array], m: int) -> di
     if "mass" in given:
         masses = _for_each(given["mass"], len(system.masses))
     if "gravity" in given:
-        gravity = np.outer(given["gravity"], [0.0, -1.0, 0.0][: system.dimension])
+        gravity = np.zeros((m, system.dimension))
+        gravity[:, system.vertical_axis] = -given["gravity"]
     weights = {f"weight{i}": masses * gravity[:, i, None] for i in range(system.dimension)}
     return {"divisor": np.where(system.fixed, np.inf, masses), **weights}
 

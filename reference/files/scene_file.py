@@ -26,7 +26,8 @@
 
 In place of `scene` and [parameters], a table [system] has the fields of `MassSpringSystem`: positions, springs, masses,
 rest_lengths (left out: as long as the springs are at the start), stiffness, damping, drag, gravity, velocities, fixed
-(the indices of the fixed masses).
+(the indices of the fixed masses). Positions and velocities have one, two or three numbers for each mass: along a line
+they may be written [0.0, 0.5] or [[0.0], [0.5]], and a single number of gravity acts against the line's direction.
 
 Or a table [mesh] takes masses and springs from a mesh file, an OBJ or a VTK file (`reference.files.mesh_file`).
 Vertices are masses, in the file's order and counted from 0; edges of elements are springs, each once, unstretched at
@@ -64,13 +65,16 @@ from reference.system import MassSpringSystem
 
 Numbers = float | list[float]
 
+#: One for each mass: its numbers along the axes, or along a line its number.
+Vectors = list[float | list[float]]
+
 T = TypeVar("T")
 
 
 class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
     """The table [system]."""
 
-    positions: list[list[float]]
+    positions: Vectors
     springs: list[list[int]]
     masses: Numbers
     stiffness: Numbers
@@ -78,7 +82,7 @@ class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
     damping: Numbers = 0.0
     drag: float = 0.0
     gravity: Numbers = 9.81
-    velocities: list[list[float]] | None = None
+    velocities: Vectors | None = None
     fixed: list[int] = []
 
     def system(self, folder: Path | None = None) -> MassSpringSystem:
@@ -89,8 +93,8 @@ class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
                 raise InputError(f"fixed[{place}] = {i}: expected a mass from 0 to {n - 1}")
         values: dict[str, Any] = {name: getattr(self, name) for name in self.__struct_fields__}
         values["fixed"] = np.isin(np.arange(n), self.fixed)
-        if self.velocities is None:
-            values["velocities"] = 0.0
+        values["positions"] = _rows(self.positions)
+        values["velocities"] = 0.0 if self.velocities is None else _rows(self.velocities)
         if self.rest_lengths is None:
             values["rest_lengths"] = 1.0
             unstretched = MassSpringSystem(**values)
@@ -250,6 +254,10 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driv
     if content.ground_motion is not None:
         drives = (*drives, content.ground_motion.motion(path.parent))
     return Driven(system, drives)
+
+
+def _rows(vectors: Vectors) -> list[list[float]]:
+    return [vector if isinstance(vector, list) else [vector] for vector in vectors]
 
 
 def _obstacle(i: int, table: dict[str, Any]) -> Obstacle:

@@ -8,12 +8,13 @@ own that reads an array of links, because which array it reads is what slides 7 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
 
 from reference.changes import Change, changes_by_step
+from reference.line import system_in_plane, trajectory_on_line, value_in_plane
 from reference.obstacles import Circle
 from reference.outcome import Outcome, outcome_of
 from reference.state import Array, State, Trajectory
@@ -197,7 +198,12 @@ class LectureListing:
         return (self.advance.__doc__ or "").splitlines()[0]
 
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
-        """See reference.stepper.Stepper."""
+        """See reference.stepper.Stepper. A string along a line hangs straight down in the plane."""
+        if system.dimension == 1:
+            values = [replace(change, value=value_in_plane(change.parameter, change.value)) for change in changes]
+            outcome = self.run(system_in_plane(system), dt, steps, values)
+            trajectory = outcome.trajectory
+            return outcome if trajectory is None else replace(outcome, trajectory=trajectory_on_line(trajectory))
         pending = changes_by_step(tuple(changes), dt)
         reason = why_no_string(system) or self._why_no_barrier(system)
         if reason:

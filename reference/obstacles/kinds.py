@@ -86,12 +86,12 @@ class Plane(Obstacle):
     normal: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "point", _vector("point", self.point, (2, 3)))
+        object.__setattr__(self, "point", _vector("point", self.point, (1, 2, 3)))
         object.__setattr__(self, "normal", _direction("normal", self.normal, (self.dimension,)))
 
     @property
     def dimension(self) -> int:
-        """2 or 3, as its point has it."""
+        """1, 2 or 3, as its point has it."""
         return len(self.point)
 
     def signed_distance(self, place: Axes) -> tuple[Any, Axes]:
@@ -166,7 +166,8 @@ def _first(values: Axes, largest: Any) -> Axes:
 def _vector(name: str, value: Any, dimensions: tuple[int, ...]) -> tuple[float, ...]:
     numbers = list(value) if isinstance(value, list | tuple | np.ndarray) else []
     if len(numbers) not in dimensions or not all(map(_is_number, numbers)):
-        raise InputError(f"{name} = {value!r}: expected {' or '.join(map(str, dimensions))} finite numbers [m]")
+        what = "number" if dimensions == (1,) else "numbers"
+        raise InputError(f"{name} = {value!r}: expected {' or '.join(map(str, dimensions))} finite {what} [m]")
     return tuple(map(float, numbers))
 
 

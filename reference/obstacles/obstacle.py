@@ -32,7 +32,7 @@ class Obstacle:
 
     @property
     def dimension(self) -> int:
-        """Of the space it stands in, 2 or 3."""
+        """Of the space it stands in: 1, 2 or 3."""
         raise NotImplementedError
 
     def signed_distance(self, place: Axes) -> tuple[Any, Axes]:

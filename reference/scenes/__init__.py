@@ -144,6 +144,7 @@ _SCENES = Registry[Scene](
     "scene",
     (
         "reference.scenes.strings",
+        "reference.scenes.line",
         "reference.scenes.barrier",
         "reference.scenes.lattices",
         "reference.scenes.cloths",

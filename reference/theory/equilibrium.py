@@ -24,7 +24,8 @@ def equilibrium(system: MassSpringSystem) -> State:
         raise SolverError(
             "no equilibrium: with obstacles the forces need not balance, and a small perturbation may meet one"
         )
-    hangs = system.is_string and bool(system.stiffness.all()) and bool(system.gravity.any())
+    # along a line a string may stand, too: there is no side to fall to
+    hangs = system.is_string and system.dimension > 1 and system.stiffness.all() and system.gravity.any()
     return hanging_string(system) if hangs else least_energy(system)
 
 

@@ -45,7 +45,8 @@ def stability_command(
 ) -> None:
     """Predict and measure the largest stable dt of steppers on SCENE, about its equilibrium; or map growth.
 
-    Without --set damping or drag, in the cases the report shows: undamped, damping 0.1 and 0.5, drag 0.1 N s/m.
+    Without --set damping or drag, as it is, and in the cases the report shows, where SCENE has such a parameter:
+    damping 0.1 and 0.5, drag 0.1 N s/m.
     --dt is the step of a map that has no dt axis.
     """
     if axes:
@@ -58,18 +59,27 @@ def _limits(scene: str, settings: Mapping[str, str], names: Sequence[str]) -> li
     """The limits of steppers of these names, or of all that theory knows on springs."""
     from experiments.limits.limit_rows import stability_rows
     from experiments.runs.steppers import all_steppers, find_steppers
-    from experiments.stability import CASES
-    from reference.files.setup import is_file, setup_for
+    from reference.files.setup import setup_for
 
     known = all_steppers().values()
     steppers = find_steppers(names) if names else [s for s in known if s.kind not in ("lecture", "pendulum")]
-    as_shown = not is_file(scene) and not {"damping", "drag"} & settings.keys()
-    cases = [{key: str(value) for key, value in case.items()} for case in CASES] if as_shown else [{}]
     rows = []
     with progress("stability") as tell:
-        for case in cases:
+        for case in cases(scene, settings):
             rows += stability_rows(setup_for(scene, settings={**settings, **case}).system, steppers, tell)
     return rows
+
+
+def cases(scene: str, settings: Mapping[str, str]) -> list[dict[str, str]]:
+    """What is set besides: damping and drag as the report has them, as far as a scene has parameters of that name."""
+    from experiments.stability import CASES
+    from reference.files.setup import is_file
+    from reference.scenes import find
+
+    if is_file(scene) or {"damping", "drag"} & settings.keys():
+        return [{}]
+    known = find(scene).parameters.keys()
+    return [{key: str(value) for key, value in case.items()} for case in CASES if case.keys() <= known]
 
 
 def _write_limits(rows: Sequence[Row], as_json: bool, out: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from experiments.experiment import Result
+from reference.line import in_plane
 from report.figures import Picture, new_figure
 from report.figures.scenes import still
 from report.film.drawing import strain
@@ -28,7 +29,7 @@ def draw(result: Result) -> Picture:
     system, motion = result.data["system"], result.data["motion"]
     figure, axes = new_figure(figsize=(7.0, 4.2))
     if not len(system.springs):
-        axes.plot(*motion.positions[-1, :, :2].T, "o", color="#333333")
+        axes.plot(*in_plane(motion.positions[-1])[:, :2].T, "o", color="#333333")
         axes.set_aspect("equal")
         axes.set_xlabel("x [m]")
         axes.set_ylabel("y [m]")

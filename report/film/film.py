@@ -12,6 +12,7 @@ from experiments.runs.progress import Progress
 from reference.changes import changes_by_step
 from reference.errors import InputError
 from reference.identification import TOLERANCE
+from reference.line import obstacle_in_plane
 from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
@@ -108,7 +109,8 @@ def look_at(system: MassSpringSystem, motions: Sequence[Trajectory]) -> Look:
     window = window_around(boxes)
     depth = view.project(model)[1]
     depths = (float(depth.min()), float(depth.max()))
-    return Look(view, window, scale_of(system, model), depths, obstacle_image(system.obstacles, view, window))
+    obstacles = [obstacle_in_plane(obstacle) for obstacle in system.obstacles]
+    return Look(view, window, scale_of(system, model), depths, obstacle_image(obstacles, view, window))
 
 
 def leaves(motion: Trajectory, view: View, window: Window) -> float | None:

@@ -8,6 +8,7 @@ from math import cos, radians, sin
 
 import numpy as np
 
+from reference.line import in_plane
 from reference.state import Array
 
 #: Three dimensions are looked at from so far to the right of straight on, and from so far above [degrees].
@@ -28,11 +29,11 @@ NARROWEST = 0.45
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """Straight on in two dimensions; in three from a place at the right, above, in perspective.
+    """Straight on in two dimensions; in three from a place at the right, above, in perspective. A line goes upwards.
 
     Attributes:
-        middle: what is looked at [m], shape (d,).
-        axes: unit vectors to the right, upwards, and in three dimensions towards the eye, shape (d, d).
+        middle: what is looked at [m], shape (2,) or (3,).
+        axes: unit vectors to the right, upwards, and in three dimensions towards the eye, shape (2, 2) or (3, 3).
         distance: of the eye from the middle [m].
     """
 
@@ -47,7 +48,7 @@ class View:
             positions: shape (..., d) [m]. What is behind the eye, or not finite, has no place: NaN.
         """
         with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-            seen = (positions - self.middle) @ self.axes.T
+            seen = (in_plane(positions) - self.middle) @ self.axes.T
             if len(self.middle) == 2:
                 return seen + self.middle, np.zeros(seen.shape[:-1])
             left = self.distance - seen[..., 2]
@@ -64,7 +65,7 @@ class View:
 
 def view_of(positions: Array) -> View:
     """The view in which all of these can be seen, shape (..., d) [m]."""
-    places = positions.reshape(-1, positions.shape[-1])
+    places = in_plane(positions.reshape(-1, positions.shape[-1]))
     low, high = places.min(axis=0), places.max(axis=0)
     if len(low) == 2:
         return View(np.zeros(2), np.eye(2), np.inf)

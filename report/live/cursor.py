@@ -37,7 +37,7 @@ def with_cursor(system: MassSpringSystem, mass: int, place: Array) -> MassSpring
 
 def hook(system: MassSpringSystem, place: Array) -> Array:
     """Where the cursor's spring ends for the mass to be at a place: its rest length higher, shape (d,) [m]."""
-    return np.asarray(place + LENGTH * system.size * np.eye(system.dimension)[1])
+    return np.asarray(place + LENGTH * system.size * np.eye(system.dimension)[system.vertical_axis])
 
 
 def on_hook(state: State, hook: Array) -> State:

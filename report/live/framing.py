@@ -1,4 +1,7 @@
-"""Where a camera has to be to see a scene, and where it will move to: straight on in 2D, from above in 3D."""
+"""Where a camera has to be to see a scene, and where it will move to: straight on in 2D, from above in 3D.
+
+A line goes upwards.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from itertools import product
 
 import numpy as np
 
+from reference.line import system_in_plane
 from reference.obstacles import Obstacle
 from reference.state import Array
 from reference.system import MassSpringSystem
@@ -51,7 +55,7 @@ def camera(system: MassSpringSystem, shifts: Array, window: Window) -> tuple[Arr
     low, high = box(system)
     low, high = low + shifts.min(axis=0), high + shifts.max(axis=0)
     middle = (low + high) / 2
-    back = np.array(TOWARDS[system.dimension])
+    back = np.array(TOWARDS[max(system.dimension, 2)])
     back /= np.linalg.norm(back)
     right = np.cross([0.0, 1.0, 0.0], back)
     right /= np.linalg.norm(right)
@@ -88,6 +92,7 @@ def box(system: MassSpringSystem) -> tuple[Array, Array]:
 
     What is held by one mass swings to its other side, too. Obstacles that are not larger than the system are in it.
     """
+    system = system_in_plane(system)
     more = (0, 3 - system.dimension)
     low, high = np.pad(system.positions.min(axis=0), more), np.pad(system.positions.max(axis=0), more)
     held = np.pad(system.positions[system.fixed], ((0, 0), more))

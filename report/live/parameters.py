@@ -79,14 +79,14 @@ def uniform(system: MassSpringSystem, name: str) -> bool:
     """Whether one number says it all: for gravity, that it points downwards."""
     values = _values(system, name)
     if name == "gravity":
-        return not np.delete(values, 1).any() and values[1] <= 0
+        return not np.delete(values, system.vertical_axis).any() and values[system.vertical_axis] <= 0
     return bool(np.ptp(values) <= 1e-12 * np.abs(values).max(initial=0.0)) if values.size else True
 
 
 def own_number(system: MassSpringSystem, name: str) -> float:
     """The one number."""
     values = _values(system, name)
-    return float(-values[1]) if name == "gravity" else float(values.flat[0])
+    return float(-values[system.vertical_axis]) if name == "gravity" else float(values.flat[0])
 
 
 def own_value(system: MassSpringSystem, name: str, number: float) -> Value:

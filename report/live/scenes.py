@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from reference.changes import Change
 from reference.errors import InputError
 from reference.files.setup import is_file, setup_for
-from reference.obstacles import Circle, Obstacle, Sphere
+from reference.obstacles import Circle, Obstacle, Plane, Sphere
 from reference.scenes import find, scenes
 from reference.system import MassSpringSystem
 
@@ -84,8 +84,10 @@ def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bo
 
 
 def in_the_way(system: MassSpringSystem) -> Obstacle:
-    """A circle or a sphere below the masses."""
+    """A circle or a sphere below the masses; along a line, a floor."""
     low, high = system.positions.min(axis=0), system.positions.max(axis=0)
+    if system.dimension == 1:
+        return Plane(tuple((low - BELOW * system.size).tolist()), (1.0,))
     radius = RADIUS * system.size
     centre = (low + high) / 2
     centre[1] = low[1] - BELOW * system.size - radius

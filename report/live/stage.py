@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from reference.line import in_plane, obstacle_in_plane, on_line
 from reference.obstacles import Obstacle
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem
@@ -127,16 +128,18 @@ class Stage:
             opacity=None if i == 0 or self.beside else 0.6,
             position=shift,
         )
-        self._listen(balls, shift[: system.dimension])
+        self._listen(balls, shift, system.dimension)
         self._nodes.append((lines, balls))
-        drawn = (self._obstacle(f"/lane{i}/obstacle{k}", o, shift) for k, o in enumerate(system.obstacles))
+        obstacles = map(obstacle_in_plane, system.obstacles)
+        drawn = (self._obstacle(f"/lane{i}/obstacle{k}", o, shift) for k, o in enumerate(obstacles))
         self._others += [node for node in drawn if node is not None]
 
-    def _listen(self, balls: Any, shift: Array) -> None:
+    def _listen(self, balls: Any, shift: Array, dimension: int) -> None:
         # Coroutines, so that they are told in the order in which it was done: see `events`.
         async def drag(event: Any) -> None:
             if event.instance_index is not None:
-                place = np.array(event.end_position[: len(shift)]) - shift
+                place = (np.array(event.end_position) - shift)[: max(dimension, 2)]
+                place = on_line(place) if dimension == 1 else place
                 self._on_drag(event.instance_index, None if event.phase == "end" else place)
 
         async def click(event: Any) -> None:
@@ -152,7 +155,7 @@ class Stage:
             if self._true is not None:
                 self._true.visible = False
             return
-        flat = system.dimension == 2
+        flat = system.dimension < 3
         points = (_places(system, state) - [0, 0, 0.02 * system.size * flat])[system.springs]
         if self._true is None:
             self._true = self._client.scene.add_line_segments(
@@ -190,10 +193,9 @@ class Stage:
 
 def _places(system: MassSpringSystem, state: State) -> Any:
     """In three dimensions, near enough to be drawn, in single precision."""
-    places = np.zeros((len(system.masses), 3), dtype=np.float32)
     reach = 1e4 * system.size
-    places[:, : system.dimension] = np.clip(state.positions[: len(system.masses)], -reach, reach)
-    return places
+    places = np.clip(in_plane(state.positions[: len(system.masses)]), -reach, reach)
+    return np.pad(places, ((0, 0), (0, 3 - places.shape[1]))).astype(np.float32)
 
 
 def _strains_to_show(system: MassSpringSystem) -> float:

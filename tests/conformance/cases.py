@@ -18,6 +18,7 @@ DT = 1e-3
 #: The scenes, small: springs between fixed masses, crossing springs and members of all lengths are in them all. The
 #: truss of equal members, on equal joints, asks the least of an engine.
 _SMALL: Mapping[str, tuple[str, dict[str, Any]]] = {
+    "oscillator": ("oscillator", {"damping": 0.1, "velocity": 1.0}),
     "cloth": ("cloth", {"rows": 4, "columns": 5, "pinned": "edge"}),
     "uneven cloth": ("cloth", {"rows": 4, "columns": 5, "pinned": "edge", "shear": 10.0, "bend": 2.0}),
     "flag": ("flag", {"rows": 4, "columns": 4}),
@@ -91,6 +92,13 @@ _CHANGES = [
         DT,
         200,
         [Change(0.05, "mass", 0.03), Change(0.05, "gravity", 1.62), Change(0.1, "drag", 0.05)],
+    ),
+    Case(
+        "along a line",
+        find("chain").system({"masses": 5}),
+        DT,
+        200,
+        [Change(0.05, "gravity", 1.62), Change(0.08, "gravity", [3.0]), Change(0.1, "mass", 0.03)],
     ),
     *(_at_every_step(name) for name in EACH),
     *(_driven(scene) for scene in ("crossing", "earthquake")),

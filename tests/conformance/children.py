@@ -13,6 +13,7 @@ from typing import TypeVar
 import numpy as np
 
 from engines.engine import Engine
+from engines.line import started
 from engines.process.isolation import isolated, run_engine
 from reference.outcome import Outcome
 from reference.state import Array
@@ -47,7 +48,7 @@ def look_on(engine: Engine, systems: Sequence[MassSpringSystem]) -> list[Look]:
 
 
 def _look(engine: Engine, system: MassSpringSystem) -> Look:
-    simulation = engine.start(system, 1e-3)
+    simulation = started(engine, system, 1e-3)
     handed_out = simulation.state()
     first = (handed_out[0].copy(), handed_out[1].copy())
     for array in handed_out:

@@ -63,8 +63,9 @@ def random_mesh(seed: int, masses: int, dimension: int, anchors: int = 1) -> Mas
     """A connected mesh with random springs, parameters and velocities; the first `anchors` masses are fixed."""
     rng = np.random.default_rng(seed)
     # On a jittered grid, so that no two masses are near each other.
-    cells = rng.permutation(4**dimension)[:masses]
-    corners = np.stack(np.unravel_index(cells, (4,) * dimension), axis=1)
+    side = 4 if dimension > 1 else masses
+    cells = rng.permutation(side**dimension)[:masses]
+    corners = np.stack(np.unravel_index(cells, (side,) * dimension), axis=1)
     chain = {(i, i + 1) for i in range(masses - 1)}
     others = {tuple(sorted(rng.choice(masses, 2, replace=False).tolist())) for _ in range(masses)}
     springs = sorted(chain | others, key=lambda _: rng.random())
@@ -85,8 +86,8 @@ def random_mesh(seed: int, masses: int, dimension: int, anchors: int = 1) -> Mas
     )
 
 
-#: Random meshes in 2D and 3D with one fixed mass, and with none.
-meshes = st.builds(random_mesh, seed=seeds, masses=st.integers(2, 8), dimension=st.sampled_from([2, 3]))
+#: Random meshes in 1D, 2D and 3D with one fixed mass, and with none.
+meshes = st.builds(random_mesh, seed=seeds, masses=st.integers(2, 8), dimension=st.sampled_from([1, 2, 3]))
 free_meshes = st.builds(
-    random_mesh, seed=seeds, masses=st.integers(2, 8), dimension=st.sampled_from([2, 3]), anchors=st.just(0)
+    random_mesh, seed=seeds, masses=st.integers(2, 8), dimension=st.sampled_from([1, 2, 3]), anchors=st.just(0)
 )

@@ -71,20 +71,25 @@ def test_arrays_are_taken_as_they_are() -> None:
         (3, [1.0, 2.0, 3.0], [1.0, 2.0, 3.0]),
         (2, 0.0, [0.0, 0.0]),
         (2, -1.0, [0.0, 1.0]),
+        (1, 9.81, [-9.81]),
+        (1, [9.81], [9.81]),
+        (1, [-9.81], [-9.81]),
+        (1, 0.0, [0.0]),
     ],
 )
 def test_one_number_for_gravity_means_downwards(dimension: int, gravity: Any, expected: list[float]) -> None:
-    """Along the second axis."""
+    """Along the second axis, or the one there is; there a list of one number is a vector already."""
     positions = np.arange(3.0 * dimension).reshape(3, dimension)
     assert system(positions=positions, gravity=gravity).gravity.tolist() == expected
 
 
-@pytest.mark.parametrize("dimension", [2, 3])
-def test_two_and_three_dimensions(dimension: int) -> None:
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+def test_one_two_and_three_dimensions(dimension: int) -> None:
     """The positions say which."""
     made = random_mesh(1, 5, dimension)
     assert made.dimension == dimension
     assert made.velocities.shape == (5, dimension)
+    assert made.vertical_axis == (0 if dimension == 1 else 1)
 
 
 def test_a_system_may_have_no_springs() -> None:
@@ -154,9 +159,9 @@ def test_it_keeps_copies() -> None:
         ({"springs": [[0, 1], [2]]}, "springs = [[0, 1], [2]]: expected two masses for each spring"),
         # Positions, velocities, gravity, drag, fixed.
         ({"positions": [[0.0, 0.0], [1.0, NAN], [0.0, 2.0]]}, "positions[1, 1] = nan: expected a finite number [m]"),
-        ({"positions": [[0.0], [1.0], [2.0]]}, "positions has shape (3, 1): expected (n, 2) or (n, 3) with n >= 1"),
-        ({"positions": [1.0, 2.0]}, "positions has shape (2,): expected (n, 2) or (n, 3) with n >= 1"),
-        ({"positions": np.zeros((0, 2))}, "positions has shape (0, 2): expected (n, 2) or (n, 3) with n >= 1"),
+        ({"positions": np.zeros((3, 4))}, "positions has shape (3, 4): expected (n, 1), (n, 2) or (n, 3) with n >= 1"),
+        ({"positions": [1.0, 2.0]}, "positions has shape (2,): expected (n, 1), (n, 2) or (n, 3) with n >= 1"),
+        ({"positions": np.zeros((0, 2))}, "positions has shape (0, 2): expected (n, 1), (n, 2) or (n, 3) with n >= 1"),
         ({"positions": [[0.0, 0.0], [1.0]]}, "positions = [[0.0, 0.0], [1.0]]: expected numbers [m]"),
         ({"velocities": [[0.0, 0.0]] * 2}, "velocities has shape (2, 2): expected (3, 2)"),
         (

@@ -8,6 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from experiments.stability import CASES
+from reference.files.setup import setup_for
+from reference.scenes import scenes
+from report.commands.stability import cases
 from tests.report.commands.terminal import springlab
 
 
@@ -19,6 +23,39 @@ def test_json_rows_have_the_promised_keys(tmp_path: Path) -> None:
     keys = ["stepper", "damping", "drag", "predicted_dt_s", "measured_dt_s", "relative_difference", "outcome", "reason"]
     assert list(row) == [*keys, "predicted_certainty", "predicted_at_most_s", "windows_s"]
     assert (tmp_path / "stability.csv").exists()
+
+
+@pytest.mark.parametrize("scene", scenes())
+def test_every_scene_takes_the_cases_it_is_shown_in(scene: str) -> None:
+    """As it is first; drag or damping only where it has such a parameter, then with the number that is said."""
+    made = cases(scene, {})
+    assert made[0] == {}
+    assert len(made) == sum(case.keys() <= scenes()[scene].parameters.keys() for case in CASES)
+    for case in made[1:]:
+        system = setup_for(scene, settings=case).system
+        assert float(case.get("drag", system.drag)) == system.drag
+        assert float(case.get("damping", system.damping[0])) in system.damping
+    assert cases(scene, {"drag": "0.1"}) == [{}]
+
+
+def test_a_scene_without_damping_has_its_limits(tmp_path: Path) -> None:
+    """The strip has drag, and no damping that could be set: it is shown as it is, and with drag."""
+    done = springlab("stability", "strip", "--stepper", "kick_drift", "--json", "--out", str(tmp_path))
+    assert (done.code, done.err.count("springlab:")) == (0, 0)
+    assert [row["drag"] for row in json.loads(done.out)] == [3e-4, 0.1]
+
+
+def test_on_its_line_euler_has_the_limit_of_the_damped_oscillator(tmp_path: Path) -> None:
+    """For Euler |1 + h lambda| < 1 with m lambda^2 + c lambda + k = 0 is h < c / k while lambda is complex: 2.5 ms.
+
+    In the plane the same mass swings undamped, and Euler is unstable at any dt. Predicted to 1e-6, measured to 1e-4.
+    """
+    words = ("--set", "damping=0.5", "--stepper", "euler", "--json", "--out", str(tmp_path))
+    (row,) = json.loads(springlab("stability", "oscillator", *words).out)
+    assert row["predicted_dt_s"] == pytest.approx(0.5 / 200, rel=1e-6)
+    assert row["measured_dt_s"] == pytest.approx(0.5 / 200, rel=1e-4)
+    (row,) = json.loads(springlab("stability", "spring", *words).out)
+    assert row["predicted_dt_s"] is None
 
 
 def test_a_listing_is_a_row_that_says_why_not(tmp_path: Path) -> None:
