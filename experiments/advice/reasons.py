@@ -9,14 +9,12 @@ import numpy as np
 from experiments.limits.predictions import Predictions
 from reference.bisection import bisect
 from reference.errors import SolverError
-from reference.forces import SpringMotion
 from reference.limit import Limit
 from reference.schemes.catalogue import Scheme
 from reference.system import MassSpringSystem
 from reference.theory.critical_mode import CriticalMode, critical_mode
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
-from reference.theory.linearisation import Linearisation
 
 #: Springs are tried from so much softer to so much stiffer than they are; the factor is found to this part of itself.
 SOFTEST, STIFFEST, PRECISION = 1e-4, 1e6, 1e-3
@@ -45,8 +43,9 @@ def reasons_of(scheme: Scheme, predictions: Predictions, predicted: Limit, dt: f
     """Of a scheme whose limit is predicted, for a scene's dt [s]."""
     system = predictions.system
     mode = None
-    if predicted.dt and isinstance(predictions.rest.motion, SpringMotion) and len(system.springs):
-        mode = critical_mode(scheme, Linearisation(system, predictions.rest.state), predicted.dt)
+    linear = predictions.rest.linear
+    if predicted.dt and linear is not None and len(system.springs):
+        mode = critical_mode(scheme, linear, predicted.dt)
     small = len(system.masses) <= MOST_MASSES and len(system.springs) > 0
     return Reasons(mode, largest_stiffness(scheme, system, dt) if small else None, system)
 

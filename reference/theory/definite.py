@@ -112,12 +112,18 @@ class Definiteness:
 
     def first_limit(self, last: float = np.inf) -> float:
         """The dt [s] up to which S is not negative; infinite where that is beyond the last dt to look at [s]."""
-        if self.in_proportion:
+        if not self.in_proportion:
+            return self._march(last)
+        # without damping many schemes have one and the same S
+        parts = [np.round(part / self.linear.mass.max(), 12).tobytes() for part in self.damping_part(self.unit)]
+        key = (self.unit, self.stiffness_part, *parts)
+        if key not in self.linear.known_limits:
             rate = self._assembled(self.damping_part(self.unit)) / self.unit
-            return first_negative(
-                lambda dt: self._with(dt * rate, dt), self._quadratic(0.0, None, rate), 0.0, self.unit
+            quadratic = self._quadratic(0.0, None, rate)
+            self.linear.known_limits[key] = first_negative(
+                lambda dt: self._with(dt * rate, dt), quadratic, 0.0, self.unit
             )
-        return self._march(last)
+        return self.linear.known_limits[key]
 
     def _march(self, last: float) -> float:
         """Of damping that grows faster than dt: on the tangent of its part, which is below it, again and again.

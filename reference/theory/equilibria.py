@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -14,6 +15,7 @@ from reference.pendulum import PendulumMotion
 from reference.state import State
 from reference.system import BoolArray, MassSpringSystem
 from reference.theory.equilibrium import equilibrium
+from reference.theory.linearisation import Linearisation
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,11 @@ class Equilibrium:
     state: State
     free: BoolArray
     scale: float
+
+    @cached_property
+    def linear(self) -> Linearisation | None:
+        """The equations of motion of springs, linearised here; None of other equations."""
+        return Linearisation(self.motion.system, self.state) if isinstance(self.motion, SpringMotion) else None
 
 
 def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:

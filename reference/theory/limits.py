@@ -17,13 +17,11 @@ from dataclasses import replace
 import numpy as np
 
 from reference.errors import SolverError
-from reference.forces import SpringMotion
 from reference.growth_factor import growth_factor
 from reference.limit import Limit
 from reference.schemes.catalogue import Scheme, find
 from reference.theory.definite import Definiteness
 from reference.theory.equilibria import Equilibrium
-from reference.theory.linearisation import Linearisation
 from reference.theory.numerical_range import limit_from_below
 from reference.theory.rates import Rates, rates
 from reference.theory.rates import fastest_rate as fastest_rate
@@ -63,12 +61,11 @@ def stability_limit(scheme: Scheme, rest: Equilibrium, found: Rates | None = Non
     if found.fastest == 0:
         return Limit(None, "nothing moves")
     scheme = find(SOLVED[scheme.name]) if scheme.name in SOLVED else scheme
-    if isinstance(rest.motion, SpringMotion):
-        linear = Linearisation(rest.motion.system, rest.state)
-        if is_quadratic(scheme, linear.damped, linear.dragged):
-            definite = Definiteness(scheme, linear, 1 / found.fastest)
-            if definite.decides:
-                return _by_definiteness(definite)
+    linear = rest.linear
+    if linear is not None and is_quadratic(scheme, linear.damped, linear.dragged):
+        definite = Definiteness(scheme, linear, 1 / found.fastest)
+        if definite.decides:
+            return _by_definiteness(definite)
     polynomial = stability_polynomial(scheme)
     if polynomial is not None:
         return _by_polynomial(polynomial, rest, found)
@@ -101,8 +98,8 @@ def _by_polynomial(polynomial: tuple[float, ...], rest: Equilibrium, found: Rate
     limit = Limit(float(first), windows=tuple((float(a), float(b)) for a, b in others))
     if found.all or (found.least_decay == 0 and not found.values.real.any()):
         return limit
-    assert isinstance(rest.motion, SpringMotion)
-    below = limit_from_below(polynomial, Linearisation(rest.motion.system, rest.state))
+    assert rest.linear is not None  # of other equations all eigenvalues are known
+    below = limit_from_below(polynomial, rest.linear)
     if below >= (1 - AS_GOOD_AS_ONE) * first:
         return limit
     return replace(limit, dt=below, at_most=float(first), certainty="between", windows=())

@@ -7,7 +7,7 @@ drag, the same on every mass. Every scheme's limit is taken from these (`limits`
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -25,10 +25,12 @@ class Linearisation:
     Attributes:
         system: whose masses, damping and drag these are.
         state: at rest.
+        known_limits: of matrices S(h) that several schemes have in common (`definite`), by what they are made of.
     """
 
     system: MassSpringSystem
     state: State
+    known_limits: dict[object, float] = field(default_factory=dict)
 
     @cached_property
     def mass(self) -> Array:

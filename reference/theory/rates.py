@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from reference.forces import SpringMotion
 from reference.schemes import catalogue
 from reference.state import Array
 from reference.theory.equilibria import Equilibrium
@@ -60,9 +59,9 @@ class Rates:
 
 def rates(rest: Equilibrium) -> Rates:
     """Of whatever equations of motion."""
-    if not isinstance(rest.motion, SpringMotion):
+    linear = rest.linear
+    if linear is None:
         return _by_euler(rest)
-    linear = Linearisation(rest.motion.system, rest.state)
     if not linear.damped and not linear.dragged:
         return _undamped(linear)
     return _damped(linear) if 2 * len(linear.mass) <= ALL_UP_TO else _outermost(linear)
@@ -70,9 +69,9 @@ def rates(rest: Equilibrium) -> Rates:
 
 def fastest_rate(rest: Equilibrium) -> float:
     """The largest modulus of an eigenvalue [1/s], no others: the highest frequency, or the fastest decay."""
-    if not isinstance(rest.motion, SpringMotion):
+    linear = rest.linear
+    if linear is None:
         return _by_euler(rest).fastest
-    linear = Linearisation(rest.motion.system, rest.state)
     if len(linear.mass) <= QUICK_UP_TO:
         return rates(rest).fastest
     if not linear.damped and not linear.dragged:

@@ -1,0 +1,161 @@
+"""The first limit of steps of large systems that have no structure to certify it by: an eigenvalue that passes -1.
+
+The Jacobian of such a step is never made: a step of the linearised motion, or of a small perturbation, is its product
+with a vector. Such schemes are near relations of one whose limit is certified, and give up near to where that does:
+the search begins there, in the direction in which that one gives up. Where the relation says nothing, single
+oscillators with the frequencies and the damping of the system tell where to begin.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from reference.errors import SolverError
+from reference.forces import SpringMotion
+from reference.limit import Limit
+from reference.schemes.catalogue import Scheme, find
+from reference.state import Array, State
+from reference.theory.definite import Definiteness, lowest_eigenvector
+from reference.theory.equilibria import Equilibrium
+from reference.theory.linearisation import Linearisation
+from reference.theory.numerical_range import polygon
+from reference.theory.oscillators import growth_of_oscillators
+from reference.theory.step_map import Layout, LinearMotion, layout_of
+from reference.theory.strong_damping import drowned_from
+
+#: Schemes whose limit is certified and near, by the name of those that they are near to.
+RELATIVES = {"drift_kick_sequential_damping": "drift_kick_exponential_damping", "velocity_verlet": "kick_drift"}
+
+#: Where the search begins, as a part of where the relative gives up, or single oscillators do.
+NEARLY, BELOW = 0.97, 0.5
+
+#: Each dt looked at is so many times the one before; the limit is found to this part of itself.
+RATIO, PRECISION = 1.04, 1e-7
+
+#: Growth of single oscillators that is no rounding.
+SEEN = 1e-6
+
+#: Rounds of iteration that show an eigenvalue well beyond -1, and that tell where it is.
+QUICK, ROUNDS = 12, 150
+
+
+def limit_of_large(scheme: Scheme, linear: Linearisation, rest: Equilibrium, unit: float) -> Limit:
+    """The dt above which an eigenvalue of the step lies beyond -1.
+
+    Args:
+        unit: about as long as the fastest motion lasts [s].
+    """
+    near, direction = _relative(scheme, linear, unit)
+    start = _start(direction, linear)
+
+    def beyond(dt: float, rounds: int = ROUNDS) -> float:
+        return past_minus_one(scheme, rest, dt, rounds, start)
+
+    low, last = NEARLY * near, 4 * near
+    if not np.isfinite(near) or beyond(low, QUICK) > 0:
+        expected = _of_single_oscillators(scheme, linear)
+        low, last = BELOW * expected, 2 * expected
+        if not np.isfinite(expected) or beyond(low, QUICK) > 0:
+            return Limit(None, "not computed: neither single oscillators nor a scheme near to it tell where to look")
+    high = RATIO * low
+    while not beyond(high, QUICK) > 0:
+        low, high = high, RATIO * high
+        if high > last:
+            return Limit(None, f"not computed: stable at {low:.4g} s, where it was to be unstable")
+    from scipy.optimize import brentq
+
+    return Limit(float(brentq(beyond, low, high, xtol=PRECISION * low)))
+
+
+def limit_of_relative(scheme: Scheme, linear: Linearisation, unit: float) -> float:
+    """The limit [s] of the scheme that this one is near to; infinite where it has none, or there is no such scheme."""
+    return _relative(scheme, linear, unit)[0]
+
+
+def _relative(scheme: Scheme, linear: Linearisation, unit: float) -> tuple[float, Array | None]:
+    """The same, with the direction in which that one gives up."""
+    name = RELATIVES.get(scheme.step.__name__)
+    if name is None:
+        return np.inf, None
+    definite = Definiteness(find(name), linear, unit)
+    limit = definite.first_limit(np.inf if definite.in_proportion else drowned_from(definite))
+    return limit, lowest_eigenvector(definite.matrix(limit)) if np.isfinite(limit) else None
+
+
+def _start(direction: Array | None, linear: Linearisation) -> Array | None:
+    """A state (x, dt v) that a step with an eigenvalue near -1 turns round: x and -2 x, so that x + dt v is -x."""
+    if direction is None:
+        return None
+    moves = direction / np.sqrt(linear.mass)
+    return np.concatenate([moves, -2 * moves])
+
+
+def _of_single_oscillators(scheme: Scheme, linear: Linearisation) -> float:
+    """The shortest limit [s] of oscillators with the frequencies and dampings that the system's modes can have."""
+    corners = polygon(linear)
+    edges = [
+        (1 - t) * a + t * b
+        for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
+        for t in (0, 0.25, 0.5, 0.75)
+    ]
+    squares, damping = np.maximum(np.array(edges).T, 0.0)
+    dt = 1e-2 / np.sqrt(squares.max())
+    for _ in range(400):
+        if growth_of_oscillators(scheme, dt, squares, damping).max() > 1 + SEEN:
+            return float(dt)
+        dt *= 1.03
+    return float(np.inf)
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def past_minus_one(scheme: Scheme, rest: Equilibrium, dt: float, rounds: int, start: Array | None = None) -> float:
+    """How far beyond -1 the eigenvalue of a step lies that is furthest that way; negative where it is not beyond.
+
+    Negative, too, where rounds of iteration are too few to tell it from its neighbours: well beyond -1 it has none. The
+    moduli of most eigenvalues may be one and hard to tell apart; of 1 - J this one is the outermost.
+
+    Args:
+        start: a state near to the one that is turned round, where one is known.
+    """
+    from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs
+
+    layout, product = _perturbed_step(scheme, rest, dt)
+    noise = np.random.default_rng(0).normal(size=layout.size)
+    begin = noise if start is None or len(start) != layout.size else start + 1e-3 * np.abs(start).max() * noise
+    operator = LinearOperator((layout.size, layout.size), lambda z: z.ravel() - product(z.ravel()), dtype=float)
+    try:
+        values = eigs(
+            operator,
+            1,
+            v0=begin,
+            tol=1e-8 if scheme.linear else 1e-6,
+            which="LM",
+            ncv=24,
+            maxiter=rounds,
+            return_eigenvectors=False,
+        )
+    except ArpackNoConvergence as error:
+        values = error.eigenvalues
+    except (SolverError, ValueError):
+        return np.inf
+    return float(values.real.max(initial=0.0) - 2.0)
+
+
+def _perturbed_step(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, Callable[[Array], Array]]:
+    """How a step answers a small perturbation: linearised where the scheme is linear, else differenced."""
+    layout, settled = layout_of(scheme, rest, dt)
+    if scheme.linear and isinstance(rest.motion, SpringMotion):
+        linear = scheme.on(LinearMotion(rest.motion.system, rest.state))
+        nothing = np.zeros_like(rest.state.positions)
+        zero = State(0.0, nothing, nothing, (nothing,) * layout.remembered)
+        return layout, lambda z: layout.vector(linear(layout.state(z, zero), dt))[:, 0]
+    step, small = scheme.on(rest.motion), 1e-5 * rest.scale
+
+    def product(z: Array) -> Array:
+        size = float(np.abs(z).max()) or 1.0
+        there, back = (layout.vector(step(layout.state(s * small / size * z, settled), dt))[:, 0] for s in (1, -1))
+        return np.asarray((there - back) * (size / (2 * small)))
+
+    return layout, product
