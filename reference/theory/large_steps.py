@@ -13,7 +13,6 @@ from collections.abc import Callable
 import numpy as np
 
 from reference.errors import SolverError
-from reference.forces import SpringMotion
 from reference.limit import Limit
 from reference.schemes.catalogue import Scheme, find
 from reference.state import Array, State
@@ -22,7 +21,7 @@ from reference.theory.equilibria import Equilibrium
 from reference.theory.linearisation import Linearisation
 from reference.theory.numerical_range import polygon
 from reference.theory.oscillators import growth_of_oscillators
-from reference.theory.step_map import Layout, LinearMotion, layout_of
+from reference.theory.step_map import Layout, layout_of
 from reference.theory.strong_damping import drowned_from
 
 #: Schemes whose limit is certified and near, by the name of those that they are near to.
@@ -146,8 +145,8 @@ def past_minus_one(scheme: Scheme, rest: Equilibrium, dt: float, rounds: int, st
 def _perturbed_step(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, Callable[[Array], Array]]:
     """How a step answers a small perturbation: linearised where the scheme is linear, else differenced."""
     layout, settled = layout_of(scheme, rest, dt)
-    if scheme.linear and isinstance(rest.motion, SpringMotion):
-        linear = scheme.on(LinearMotion(rest.motion.system, rest.state))
+    if scheme.linear and rest.linear is not None:
+        linear = scheme.on(rest.linear.motion)
         nothing = np.zeros_like(rest.state.positions)
         zero = State(0.0, nothing, nothing, (nothing,) * layout.remembered)
         return layout, lambda z: layout.vector(linear(layout.state(z, zero), dt))[:, 0]

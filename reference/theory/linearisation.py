@@ -16,6 +16,7 @@ import numpy as np
 from reference.assembly import Blocks, assemble, damping_blocks, spring_blocks
 from reference.state import Array, State
 from reference.system import MassSpringSystem
+from reference.theory.linear_motion import LinearMotion
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +32,11 @@ class Linearisation:
     system: MassSpringSystem
     state: State
     known_limits: dict[object, float] = field(default_factory=dict)
+
+    @cached_property
+    def motion(self) -> LinearMotion:
+        """The same as equations of motion, for schemes to step."""
+        return LinearMotion(self.system, self.state)
 
     @cached_property
     def mass(self) -> Array:

@@ -23,7 +23,7 @@ from reference.theory.rates import Rates
 from reference.theory.step_map import layout_of, resisted, step_jacobian
 
 #: How many steps a mode is watched.
-STEPS = 200
+STEPS = 120
 
 #: What a run shows of growth in a step where there is none: rounding, and what is not linear.
 MARGIN = 1e-8
@@ -32,7 +32,7 @@ MARGIN = 1e-8
 SEEN = 3 * MARGIN
 
 #: How far from a predicted limit it is looked first, as a part of it, and by what that widens; the measured precision.
-NEAR, WIDER, WIDEST, PRECISION = 1e-4, 10.0, 0.5, 1e-5
+NEAR, WIDER, WIDEST, PRECISION = 1e-4, 10.0, 0.5, 4e-5
 
 #: Where no limit is predicted a run is made at these parts of the fastest mode's 1/w.
 TRIED = (0.1, 1.0, 10.0)

@@ -7,7 +7,7 @@ import numpy as np
 from reference.schemes.catalogue import Scheme
 from reference.state import Array, State
 from reference.system import MassSpringSystem
-from reference.theory.step_map import LinearMotion
+from reference.theory.linear_motion import LinearMotion
 
 
 def step_matrices(

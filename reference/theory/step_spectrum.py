@@ -28,7 +28,7 @@ WHOLE_UP_TO, FEW_UP_TO = 260, 700
 EXACT, DIFFERENCED = 1e-11, 1e-8
 
 #: Each dt looked at is so many times the one before; the first limit is found to this part of itself.
-RATIO, PRECISION = 1.2, 1e-8
+RATIO, PRECISION, ROUGH = 1.2, 1e-8, 1e-7
 
 #: Where nothing grows at so many times the slowest mode's 1/w, the search ends.
 FARTHEST = 30.0
@@ -160,7 +160,8 @@ def _scan(excess: Callable[[float], float], start: float, unit: float, margin: f
         dt *= RATIO
         if dt > last:
             return Limit(None, f"stable at any dt that was looked at, up to {dt:.3g} s")
-    low, high = bisect(unstable, dt, RATIO * dt, lambda low, high: high - low <= PRECISION * low)
+    precision = PRECISION if margin == EXACT else ROUGH
+    low, high = bisect(unstable, dt, RATIO * dt, lambda low, high: high - low <= precision * low)
     return Limit((low + high) / 2)
 
 

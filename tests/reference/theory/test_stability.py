@@ -22,8 +22,9 @@ from reference.theory.limits import (
     implicit_damping_limit,
     stability_limit,
 )
+from reference.theory.linear_motion import LinearMotion
 from reference.theory.modes import squared_frequencies, string_mode
-from reference.theory.step_map import LinearMotion, step_jacobian
+from reference.theory.step_map import step_jacobian
 from tests import wrong
 from tests.reference.systems import label, random_mesh, with_fields
 from tests.reference.theory.test_step_matrices import STEP_MATRICES
