@@ -135,13 +135,13 @@ class DampingInStep:
 def damping_in_step(scheme: Scheme, linear: Linearisation, dt: float) -> DampingInStep:
     """Of a system's springs and masses, each alone."""
     system = linear.system
-    nothing = np.zeros(len(system.springs))
-    pairs, which = np.unique(np.stack([effective_masses(system), system.damping]), axis=1, return_inverse=True)
-    springs = (
-        coefficients(scheme, dt, pairs[0], pairs[1]) if len(nothing) else coefficients(scheme, dt, nothing, nothing)
-    )
     masses, of_mass = np.unique(system.masses, return_inverse=True)
     drag = coefficients(scheme, dt, masses, np.zeros(len(masses)), system.drag)
+    if not len(system.springs):
+        none = np.zeros(0)
+        return DampingInStep(replace(drag, implicit=none, all=none), drag.of(of_mass.ravel()))
+    pairs, which = np.unique(np.stack([effective_masses(system), system.damping]), axis=1, return_inverse=True)
+    springs = coefficients(scheme, dt, pairs[0], pairs[1])
     return DampingInStep(springs.of(which.ravel()), drag.of(of_mass.ravel()))
 
 
