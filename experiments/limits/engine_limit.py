@@ -101,8 +101,12 @@ def _along_modes(
     answer = stepper.isolate(growths_along_modes, engine, at_rest, runs, time_limit=limit)
     if isinstance(answer, Outcome):
         return answer
-    first = _first_unstable(answer["growth"].tolist(), MARGIN[precision_of(engine)])
-    return None if first is None else Limit(sqrt(steps[first - 1] * steps[first]), grows_beyond=True)
+    growths = answer["growth"].tolist()
+    first = _first_unstable(growths, MARGIN[precision_of(engine)])
+    if first is None:
+        return None
+    factors = (1 + growths[LADDER.index(-100)], 1 + growths[LADDER.index(100)])
+    return Limit(sqrt(steps[first - 1] * steps[first]), factors=factors, grows_beyond=True)
 
 
 def _mode_run(scheme: SchemeStepper, rest: Equilibrium, dt: float, size: float, found: Rates) -> ModeRun | None:

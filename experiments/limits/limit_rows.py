@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from engines.process.isolation import EngineStepper
@@ -49,15 +49,18 @@ class Row:
         reasons = {"predicted": self.predicted.remark, "measured": self.measured.remark}
         if self.predicted.remark == self.measured.remark:
             reasons = {"predicted and measured": self.predicted.remark}
+        told = [f"{word}: {reason}" for word, reason in reasons.items() if reason]
+        if self.system.obstacles:
+            told.append("of the scene without its obstacles")
         return {
             "stepper": self.stepper,
-            "damping": float(self.system.damping.max()),
+            "damping": float(self.system.damping.max(initial=0.0)),
             "drag": self.system.drag,
             "predicted_dt_s": self.predicted.dt,
             "measured_dt_s": self.measured.dt,
             "relative_difference": self.relative_difference,
             "outcome": self.outcome,
-            "reason": "; ".join(f"{word}: {reason}" for word, reason in reasons.items() if reason),
+            "reason": "; ".join(told),
             "predicted_certainty": self.predicted.certainty if self.predicted.dt is not None else None,
             "predicted_at_most_s": self.predicted.at_most,
             "windows_s": [[low, high] for low, high in self.predicted.windows],
@@ -67,13 +70,16 @@ class Row:
 def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progress: Progress) -> list[Row]:
     """Predicted and measured limits of schemes and engines on one system, about its equilibrium.
 
+    Of a system with obstacles they are those of its springs and masses without them, and the rows say so.
+
     What an engine's limit should be is predicted from the scheme it is identified with, on this very system. Engines
     are measured in parallel, in processes of their own, while schemes are worked on here.
 
     Raises:
         SolverError: if the system has no equilibrium.
     """
-    predictions = Predictions(system, spring_equilibrium(system))
+    alone = replace(system, obstacles=())
+    predictions = Predictions(alone, spring_equilibrium(alone))
     engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
     identified = predictions.identified(engines)
     predicted = {name: predictions.of_engine(found) for name, found in identified.items()}
@@ -86,7 +92,7 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
         for stepper in steppers:
             progress(stepper.name)
             if isinstance(stepper, SchemeStepper):
-                rows.append(_scheme_row(stepper, predictions))
+                rows.append(_scheme_row(stepper, system, predictions))
             elif isinstance(stepper, EngineStepper):
                 rows.append(_engine_row(stepper, system, predicted[stepper.name], measured[stepper.name].result()))
             else:
@@ -95,12 +101,12 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
     return rows
 
 
-def _scheme_row(stepper: SchemeStepper, predictions: Predictions) -> Row:
+def _scheme_row(stepper: SchemeStepper, system: MassSpringSystem, predictions: Predictions) -> Row:
     about, predicted = predictions.about(stepper), predictions.of(stepper)
     if isinstance(about, Limit):
-        return Row(stepper.name, stepper.kind, predictions.system, about, about)
+        return Row(stepper.name, stepper.kind, system, about, about)
     measured = measured_mode_limit(stepper.scheme, about[0], predicted, about[1])
-    return Row(stepper.name, stepper.kind, predictions.system, predicted, measured)
+    return Row(stepper.name, stepper.kind, system, predicted, measured)
 
 
 def _engine_row(stepper: EngineStepper, system: MassSpringSystem, predicted: Limit, measured: Limit | Outcome) -> Row:

@@ -68,6 +68,12 @@ def limit_of_large(scheme: Scheme, linear: Linearisation, rest: Equilibrium, uni
     return Limit(float(brentq(beyond, low, high, xtol=PRECISION * low)))
 
 
+def relative_of(scheme: Scheme, linear: Linearisation, unit: float) -> Definiteness | None:
+    """S(h) of the scheme that this one is near to; None where there is none."""
+    name = RELATIVES.get(scheme.step.__name__)
+    return None if name is None else Definiteness(find(name), linear, unit)
+
+
 def limit_of_relative(scheme: Scheme, linear: Linearisation, unit: float) -> float:
     """The limit [s] of the scheme that this one is near to; infinite where it has none, or there is no such scheme."""
     return _relative(scheme, linear, unit)[0]
@@ -75,10 +81,9 @@ def limit_of_relative(scheme: Scheme, linear: Linearisation, unit: float) -> flo
 
 def _relative(scheme: Scheme, linear: Linearisation, unit: float) -> tuple[float, Array | None]:
     """The same, with the direction in which that one gives up."""
-    name = RELATIVES.get(scheme.step.__name__)
-    if name is None:
+    definite = relative_of(scheme, linear, unit)
+    if definite is None:
         return np.inf, None
-    definite = Definiteness(find(name), linear, unit)
     limit = definite.first_limit(np.inf if definite.in_proportion else drowned_from(definite))
     return limit, lowest_eigenvector(definite.matrix(limit)) if np.isfinite(limit) else None
 

@@ -9,6 +9,7 @@ with dt that tells: as a power of dt, it is there at any dt.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,9 +18,10 @@ from reference.errors import SolverError
 from reference.limit import Limit
 from reference.schemes.catalogue import Scheme
 from reference.theory.equilibria import Equilibrium
-from reference.theory.large_steps import NEARLY, limit_of_large, limit_of_relative
+from reference.theory.large_steps import NEARLY, limit_of_large, limit_of_relative, relative_of
 from reference.theory.rates import Rates
 from reference.theory.step_map import TORN_APART, layout_of, resisted, step_jacobian
+from reference.theory.windows import windows_of
 
 #: Up to this size of the whole state all eigenvalues of steps are taken, dt by dt; and of a few steps up to the second.
 WHOLE_UP_TO, FEW_UP_TO = 260, 700
@@ -66,7 +68,9 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             start = NEARLY * converged if np.isfinite(converged) else start
         limit = _scan(excess, start, unit, margin, FARTHEST / float(np.abs(found.values).min()))
         phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
-        return _of_unresisted_motion(scheme, rest, found, unit) if phantom else limit
+        if phantom:
+            return _of_unresisted_motion(scheme, rest, found, unit)
+        return replace(limit, windows=_windows(scheme, rest, unit, limit, excess, margin))
     if scheme.needs == "accelerations of one mass" or rest.linear is None:
         reason = f"{size} positions and velocities, which this scheme does not step alike; up to {WHOLE_UP_TO} it is"
         return Limit(None, f"not computed for {reason}")
@@ -76,6 +80,26 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
 def unstable_at_any(rate: float, dt: float) -> str:
     """How that is said, with the growth [1] in a step of dt [s]."""
     return f"unstable at any dt: grows by {rate:.2g} of itself in a step of {dt:.2g} s"
+
+
+def _windows(
+    scheme: Scheme, rest: Equilibrium, unit: float, limit: Limit, excess: Callable[[float], float], margin: float
+) -> tuple[tuple[float, float], ...]:
+    """Where a scheme that stops its iteration early is stable again: inside the windows of what it would come to."""
+    if not scheme.iterated or limit.dt is None or rest.linear is None:
+        return ()
+    relative = relative_of(scheme, rest.linear, unit)
+    if relative is None:
+        return ()
+
+    def unstable(dt: float) -> bool:
+        return excess(dt) > margin * max(1.0, dt / unit)
+
+    return tuple(
+        (low, high)
+        for low, high in windows_of(relative, limit.dt)
+        if not any(unstable(low + part * (high - low)) for part in (0.01, 0.5, 0.99))
+    )
 
 
 def _start(found: Rates) -> float:
