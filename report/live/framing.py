@@ -1,7 +1,4 @@
-"""Where a camera has to be to see a scene, and where it will move to: straight on in 2D, from above in 3D.
-
-A line goes upwards.
-"""
+"""Where a camera has to be to see a scene, and where it will move to: straight on, in 3D from above."""
 
 from __future__ import annotations
 
@@ -15,8 +12,8 @@ from reference.obstacles import Obstacle
 from reference.state import Array
 from reference.system import MassSpringSystem
 
-#: From the scene towards the camera, in 2D and in 3D.
-TOWARDS = {2: (0.0, 0.0, 1.0), 3: (0.5, 0.4, 1.0)}
+#: From the scene towards the camera, by dimension; a line goes upwards.
+TOWARDS = {1: (0.0, 0.0, 1.0), 2: (0.0, 0.0, 1.0), 3: (0.5, 0.4, 1.0)}
 
 #: The part of the picture that is filled; and things no higher than that part of their size are flat.
 FILLED, FLAT = 0.9, 0.1
@@ -55,7 +52,7 @@ def camera(system: MassSpringSystem, shifts: Array, window: Window) -> tuple[Arr
     low, high = box(system)
     low, high = low + shifts.min(axis=0), high + shifts.max(axis=0)
     middle = (low + high) / 2
-    back = np.array(TOWARDS[max(system.dimension, 2)])
+    back = np.array(TOWARDS[system.dimension])
     back /= np.linalg.norm(back)
     right = np.cross([0.0, 1.0, 0.0], back)
     right /= np.linalg.norm(right)

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from reference.changes import Change
 from reference.errors import InputError
 from reference.files.scene_file import load
+from reference.obstacles import Plane
 from reference.scenes import Setup, find
 from tests.reference.systems import property_test
 
@@ -109,6 +110,75 @@ def test_a_system_written_out(tmp_path: Path) -> None:
     assert system.gravity.tolist() == [0.0, -1.6]
     assert system.velocities.tolist() == [[0.0, 0.0], [1.0, 2.0], [0.0, 0.0]]
     assert system.fixed.tolist() == [True, False, True]
+
+
+ALONG_A_LINE = """\
+[system]
+positions = [0, -0.5, -1.25]
+springs = [[0, 1], [1, 2]]
+masses = 0.1
+stiffness = 50.0
+velocities = [0.0, 0.0, 1.0]
+fixed = [0]
+
+[[obstacles]]
+kind = "plane"
+point = [-2.0]
+normal = [3.0]
+"""
+
+
+def test_a_system_along_a_line(tmp_path: Path) -> None:
+    """A number for each mass, with brackets of its own or without; gravity downwards, or along the line as a list."""
+    system = loaded(tmp_path, ALONG_A_LINE).system
+    assert system.positions.tolist() == [[0.0], [-0.5], [-1.25]]
+    assert system.velocities.tolist() == [[0.0], [0.0], [1.0]]
+    assert system.rest_lengths.tolist() == [0.5, 0.75]
+    assert system.gravity.tolist() == [-9.81]
+    assert system.obstacles == (Plane((-2.0,), (1.0,)),)
+    bracketed = ALONG_A_LINE.replace("[0, -0.5, -1.25]", "[[0], [-0.5], [-1.25]]").replace(
+        "fixed", "gravity = 9.81\nfixed"
+    )
+    assert loaded(tmp_path, bracketed).system.to_dict() == system.to_dict()
+    upwards = ALONG_A_LINE.replace("fixed", "gravity = [2.0]\nfixed")
+    assert loaded(tmp_path, upwards).system.gravity.tolist() == [2.0]
+
+
+def test_the_ground_moves_along_a_line(tmp_path: Path) -> None:
+    """Along the one axis: gravity is -9.81 m/s^2 less the ground's, and never turned."""
+    sweep = "from_frequency = 1.0\nto_frequency = 1.0\namplitude = 2.0\nduration = 1.0\n"
+    setup = loaded(tmp_path, f"dt = 0.01\nduration = 1.0\n{ALONG_A_LINE}\n[ground_motion]\n{sweep}")
+    for change in setup.changes:
+        ground = 2.0 * np.sin(2 * np.pi * (change.time + 0.005))
+        assert setup.system.with_parameter("gravity", change.value).gravity == pytest.approx(
+            [-9.81 - ground], abs=1e-12
+        )
+    assert len(setup.changes) > 90  # at an extreme two steps have the same
+    with pytest.raises(InputError, match="the ground moves along 2 axes: expected at most the system's 1"):
+        loaded(tmp_path, f"{ALONG_A_LINE}\n[ground_motion]\n{sweep}direction = [1.0, 0.0]\n")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        (
+            "[0, -0.5, -1.25]",
+            "[0, [-0.5], [-1.0, 2.0]]",
+            "positions = [[0.0], [-0.5], [-1.0, 2.0]]: expected numbers [m]",
+        ),
+        ("[0.0, 0.0, 1.0]", "[[0.0, 0.0]]", "velocities has shape (1, 2): expected (3, 1)"),
+        ("[3.0]", "[0.0, 1.0]", "normal = [0.0, 1.0]: expected 1 finite number [m]"),
+        ('"plane"\npoint', '"circle"\nradius = 1.0\ncentre', "unknown number of a circle 'normal'"),
+        ("[-2.0]", "[-1.0]", "positions[2] = [-1.25]: expected a start outside the plane obstacles[0], it is 0.25 m"),
+    ],
+)
+def test_what_is_wrong_along_a_line_is_said(tmp_path: Path, old: str, new: str, said: str) -> None:
+    """In one line, with the file."""
+    assert old in ALONG_A_LINE
+    with pytest.raises(InputError) as caught:
+        loaded(tmp_path, ALONG_A_LINE.replace(old, new))
+    assert said in str(caught.value)
+    assert "hill.toml" in str(caught.value)
 
 
 def test_rest_lengths_left_out_are_the_lengths_at_the_start(tmp_path: Path) -> None:

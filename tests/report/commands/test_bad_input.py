@@ -48,6 +48,8 @@ LINES = [
     ("compare --change 0.1:mass=nan", "= nan: expected a finite number [kg]"),
     ("compare --change 0.1:gravity=1,2,3", "gravity has 3 numbers: expected one, or one for each of 2 axes"),
     ("compare --change 0.1:stiffness=1,2", "stiffness has 2 numbers: expected one, or one for each of 10 springs"),
+    ("compare chain --change 0.1:gravity=1,2", "gravity has 2 numbers: expected one, or one for each of 1 axes"),
+    ("compare chain --set angle=90", "unknown parameter of scene 'chain' 'angle'"),
     # A spring of no length.
     (
         "compare spring --set stretch=-0.125",
