@@ -79,7 +79,7 @@ def first_blown_up_frame(
         (_distance_ratios(system, trajectory, changes) > ratio).any(axis=1),
         _energy_ratios(system, trajectory, changes) > ratio**2,
     ]
-    return _first(np.array(blown_up).any(axis=0))
+    return _first(np.asarray(np.any(np.array(blown_up), axis=0)))
 
 
 def first_diverged_frame(system: MassSpringSystem, trajectory: Trajectory, stretch_ratio: float) -> int:
@@ -89,7 +89,7 @@ def first_diverged_frame(system: MassSpringSystem, trajectory: Trajectory, stret
     start.
     """
     lost = ~np.isfinite(trajectory.positions).all(axis=(1, 2))
-    return _first(lost | (_stretch_ratios(system, trajectory) > stretch_ratio).any(axis=1))
+    return _first(np.asarray(lost | (_stretch_ratios(system, trajectory) > stretch_ratio).any(axis=1)))
 
 
 def _first(told: BoolArray) -> int:
