@@ -18,7 +18,7 @@ def left(drag: float) -> float:
 
 
 def test_the_table_has_each_number_in_its_column() -> None:
-    """Predicted m/Cd, fitted a tenth more, measured a quarter more if that is within the run; taken a hundredth less."""
+    """Predicted m/Cd, fitted a tenth more, measured a quarter more, within the run; taken a hundredth less."""
     for row, drag in zip(records(less_damping.usual()), DRAGS, strict=True):
         assert row["drag [N s/m]"] == drag
         assert row["decay time, predicted for small swings [s]"] == pytest.approx(MASS / drag)
