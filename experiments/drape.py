@@ -11,7 +11,7 @@ areas all. Stiffness is the bending length c, whose third power is rigidity over
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from math import pi, sqrt
 from typing import Any
@@ -24,7 +24,7 @@ from experiments.runs.progress import Progress
 from experiments.runs.runner import answer, current
 from reference.outcome import Outcome
 from reference.scenes import find
-from reference.scenes.drape import STANDARD_GRAVITY, disc
+from reference.scenes.drape import STANDARD_GRAVITY, Disc, disc
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 
@@ -48,7 +48,8 @@ STIFFNESS = 30.0
 #: Drag over mass [1/s]: a pendulum as long as the overhang comes to rest without swinging.
 RATE = 20.0
 
-#: Masses are at rest below this mean speed [m/s]; looked at as often [s], for no longer than that [s].
+#: Masses are at rest below this mean speed [m/s], the root of the mean square; looked at as often [s], for no longer
+#: than that [s].
 AT_REST, LOOK, PATIENCE = 1e-3, 0.25, 1.5
 
 #: A wave of an outline that is smaller [m] is no fold.
@@ -71,29 +72,38 @@ def cloth(bending_length: float, spacing: float, sample: int) -> tuple[MassSprin
 
 
 def hung(bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
-    """A cloth that has come to rest: its positions (n, 3) [m], how long it took [s], and its shadow."""
+    """A cloth that has come to rest, or PATIENCE later: its positions (n, 3) [m], when, how fast still, its shadow."""
     from reference.compiled.kernels import Kernel
     from reference.schemes.catalogue import find as find_scheme
 
     system, dt = cloth(bending_length, spacing, sample)
-    kernel, time = Kernel(system, find_scheme("kick_drift")), 0.0
-    while time < PATIENCE:
-        kernel.advance(dt, round(LOOK / dt))
-        time += LOOK
-        if np.sqrt((kernel.state()[1] ** 2).sum(axis=1).mean()) < AT_REST:
-            break
-    positions, _ = kernel.state()
-    return {"positions": positions, "time": time, **shadow(positions, disc(RADIUS, spacing, sample).triangles, system)}
+    kernel = Kernel(system, find_scheme("kick_drift"))
+    return _at_rest(system, lambda: kernel.advance(dt, round(LOOK / dt)), kernel.state, disc(RADIUS, spacing, sample))
 
 
 def hung_in(engine: Engine, bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
-    """The same in an engine, for a second."""
+    """The same in an engine, looked at as often."""
     system, dt = cloth(bending_length, spacing, sample)
     simulation = engine.start(system, dt)
-    for _ in range(round(1.0 / dt)):
-        simulation.step()
-    positions, _ = simulation.state()
-    return {"positions": positions, "time": 1.0, **shadow(positions, disc(RADIUS, spacing, sample).triangles, system)}
+
+    def advance() -> None:
+        for _ in range(round(LOOK / dt)):
+            simulation.step()
+
+    return _at_rest(system, advance, simulation.state, disc(RADIUS, spacing, sample))
+
+
+def _at_rest(
+    system: MassSpringSystem, advance: Callable[[], object], state: Callable[[], tuple[Array, Array]], cut: Disc
+) -> dict[str, Any]:
+    """Advance by LOOK again and again until masses are slower than AT_REST in the mean, or for PATIENCE."""
+    time, speed = 0.0, np.inf
+    while time < PATIENCE and speed >= AT_REST:
+        advance()
+        time += LOOK
+        speed = float(np.sqrt((state()[1] ** 2).sum(axis=1).mean()))
+    positions = state()[0]
+    return {"positions": positions, "time": time, "speed": speed, **shadow(positions, cut.triangles, system)}
 
 
 def shadow(positions: Array, triangles: IntArray, system: MassSpringSystem) -> dict[str, Any]:
@@ -178,13 +188,13 @@ def rows_of(cloths: Sequence[Mapping[str, Any]], spacing: float) -> list[tuple[f
 
 
 def _table(cloths: Sequence[Mapping[str, Any]]) -> Table:
-    columns = ["stepper", "bending length [m]", "rigidity [N m]", "spacing [m]", "sample", "drape coefficient"]
-    columns += ["folds", "their amplitude [m]", "time to rest [s]"]
+    columns = ["stepper", "bending length [m]", "rigidity [N m]", "spacing [m]", "sample", "drape coefficient [1]"]
+    columns += ["folds", "their amplitude [m]", "looked at after [s]", "mean speed then [m/s]"]
     rows = []
     for one in cloths:
         rigidity = DENSITY * STANDARD_GRAVITY * one["length"] ** 3
         known = [one["by"], one["length"], rigidity, one["spacing"], one["sample"], one["coefficient"]]
-        rows.append([*known, *folds(one["outline"]), one["time"]])
+        rows.append([*known, *folds(one["outline"]), one["time"], one["speed"]])
     return Table("drape", columns, rows)
 
 
@@ -200,8 +210,14 @@ def _findings(cloths: Sequence[Mapping[str, Any]]) -> list[str]:
         f"The drape coefficient rises from {low:.2f} to {high:.2f} as the bending length does from {1e3 * limp:g} to "
         f"{1e3 * stiff:g} mm, {always}; pieces cut of the same cloth differ by up to {2 * scatter:.2f}."
     ]
-    counts = sorted({folds(one["outline"])[0] for one in cloths if one["spacing"] == SPACING} - {0}) or [0]
-    sentences.append(f"There are {counts[0]} to {counts[-1]} folds, by the largest wave in the outline of the shadow.")
+    sentences.append(_of_folds([folds(one["outline"])[0] for one in cloths if one["spacing"] == SPACING]))
+    moving = [one for one in cloths if one["speed"] >= AT_REST]
+    if moving:
+        sentences.append(
+            f"{len(moving)} of {len(cloths)} cloths still move after {PATIENCE:g} s, the most at "
+            f"{1e3 * max(one['speed'] for one in moving):.2g} mm/s in the mean; a cloth counts as at rest below "
+            f"{1e3 * AT_REST:g} mm/s."
+        )
     for c in OTHER_LENGTHS:
         means = {a: {row[0]: row[1] for row in rows_of(cloths, a)}.get(c) for a in (*OTHERS, SPACING)}
         said = ", ".join(f"{mean:.2f} at {1e3 * a:g} mm" for a, mean in sorted(means.items()) if mean is not None)
@@ -218,6 +234,14 @@ def _findings(cloths: Sequence[Mapping[str, Any]]) -> list[str]:
         said = ", ".join(f"{name} by {distance:.1e}" for name, distance in apart.items())
         sentences.append(f"Engines on the same cloths of {1e3 * COARSE:g} mm differ from the reference: {said}.")
     return sentences
+
+
+def _of_folds(counts: Sequence[int]) -> str:
+    """How many folds there are, and on how many cloths there are none."""
+    flat, folded = counts.count(0), sorted(set(counts) - {0})
+    amount = f"{folded[0]} to {folded[-1]} folds" if folded else "no folds"
+    but = f", and none on {flat} of {len(counts)} cloths, whose waves are all below {1e3 * FLAT:g} mm" if flat else ""
+    return f"There are {amount} by the largest wave in the outline of the shadow{but if folded else ''}."
 
 
 EXPERIMENT = Experiment(

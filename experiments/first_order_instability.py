@@ -1,7 +1,9 @@
 """Why does a string blow up under Euler, where Heun swings on at the same step?
 
 The string's fastest swing is along itself: neighbours against one another, far too small and fast to be seen. A scheme
-multiplies it by the same factor at every step. If that is over 1, it is only a matter of time until it is seen.
+multiplies it by the same factor at every step. If that is over 1, it is only a matter of time until it is seen. What is
+predicted and measured is the factor of this one mode; the growth factor of a step, which its stability limit is about,
+is the largest of all modes, and may be another's.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from reference.system import MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.equilibrium import hanging_string
 from reference.theory.exact import exact
-from reference.theory.limits import growth
+from reference.theory.step_map import step_jacobian
 
 SCHEMES = ("euler", "heun")
 DT, DURATION, DRAG = 1e-3, 1.2, 0.02
@@ -45,6 +47,7 @@ class Fate:
 
     Attributes:
         predicted: by what the fastest mode is multiplied in a step.
+        undamped: the same, predicted for a string without drag.
         perturbed: the same, measured on the string at rest, perturbed a little.
         swinging: the same, measured on the swinging string; None where the mode never grows so large.
         motion: of the swinging string.
@@ -54,6 +57,7 @@ class Fate:
 
     scheme: Scheme
     predicted: float
+    undamped: float
     perturbed: float
     swinging: float | None
     motion: Trajectory
@@ -75,10 +79,12 @@ def run(progress: Progress) -> Result:
 
 def result_of(fates: Sequence[Fate], true: Trajectory) -> Result:
     """Fates, and the true motion that they are measured by, as findings and tables."""
-    columns = ["scheme", "growth - 1 in a step, predicted", "measured: perturbed", "measured: swinging"]
+    columns = ["scheme", "fastest mode: growth - 1 in a step, predicted [1]"]
+    columns += ["measured: hanging, perturbed [1]", "measured: swinging [1]", "predicted without drag [1]"]
     columns += ["predicted: tenfold in [s]", f"distance from the true motion at {DURATION:g} s [m]"]
     rows = [
-        [f.scheme.name, *_less_one(f.predicted, f.perturbed, f.swinging), tenfold(f.predicted), last(f)] for f in fates
+        [f.scheme.name, *_less_one(f.predicted, f.perturbed, f.swinging, f.undamped), tenfold(f.predicted), last(f)]
+        for f in fates
     ]
     tables = [Table("first_order_instability", columns, rows), _over_time(true, fates)]
     return Result(_findings(fates), tables, {"fates": fates, "true": true})
@@ -91,9 +97,22 @@ def _less_one(*factors: float | None) -> list[float | None]:
 def fate(system: MassSpringSystem, scheme: Scheme, true: Trajectory) -> Fate:
     """What becomes of a string under a scheme, compared with the true motion at the same times."""
     motion = simulate(system, scheme, DT, DURATION)
-    predicted = growth(scheme, spring_equilibrium(system), DT)
     mode = mode_sizes(system, motion, true)
-    return Fate(scheme, predicted, perturbed(system, scheme), _fit(mode), motion, motion.distance(true), mode)
+    predicted, undamped = (predicted_factor(s, scheme) for s in (system, replace(system, drag=0.0)))
+    return Fate(scheme, predicted, undamped, perturbed(system, scheme), _fit(mode), motion, motion.distance(true), mode)
+
+
+def predicted_factor(system: MassSpringSystem, scheme: Scheme) -> float:
+    """By what a scheme of one step multiplies the fastest mode of the hanging string: by theory.
+
+    The mode and its velocity are a plane that the linearised step does not leave: its Jacobian's eigenvalues there.
+    """
+    jacobian = step_jacobian(scheme, spring_equilibrium(system), DT)
+    along = np.zeros((len(system.springs), system.dimension))
+    along[:, 1] = fastest_mode(system)[0][1:]
+    unit, nothing = along.ravel() / np.linalg.norm(along), np.zeros(along.size)
+    mode = np.column_stack([np.concatenate([unit, nothing]), np.concatenate([nothing, unit])])
+    return float(np.abs(np.linalg.eigvals(mode.T @ jacobian @ mode)).max())
 
 
 def perturbed(system: MassSpringSystem, scheme: Scheme) -> float:
@@ -176,7 +195,16 @@ def _over_time(true: Trajectory, fates: Sequence[Fate]) -> Table:
 
 
 def _findings(fates: Sequence[Fate]) -> list[str]:
-    return [*(_grows(fate) for fate in fates), _ends(fates)]
+    return [*map(_grows, fates), *(_undamped(f) for f in fates if f.predicted <= 1 < f.undamped), _ends(fates)]
+
+
+def _undamped(fate: Fate) -> str:
+    """What joins this page with that of stability limits, whose case without damping this string is not."""
+    return (
+        f"{fate.scheme.name} is stable here by the drag alone: without drag it is predicted to multiply the same mode "
+        f"by {fate.undamped:.5f} in a step, tenfold every {tenfold(fate.undamped):.2g} s; that is the undamped case "
+        "of 'Stability limits', which calls it unstable."
+    )
 
 
 def _ends(fates: Sequence[Fate]) -> str:

@@ -11,13 +11,12 @@ from experiments.runs.comparison import finite, why
 from experiments.runs.progress import Progress
 from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import installed_engines
+from reference.changes import whole_steps
 from reference.identification import Identification, identify_all
 from reference.outcome import Outcome
-from reference.scenes import Scene, Setup, scenes
-from reference.schemes.catalogue import find as find_scheme
-from reference.simulate import simulate
+from reference.scenes import Scene, scenes
 from reference.state import Trajectory
-from reference.stepper import Stepper
+from reference.stepper import Stepper, catalogued
 from reference.system import MassSpringSystem
 
 #: How many steps every engine takes of a scene.
@@ -28,6 +27,9 @@ TOUCH = 1e-6
 
 #: The scheme the scenes are shown with, and how many of its states are kept.
 SHOWN_BY, STATES = "heun", 60
+
+#: How often a dt is halved for a scene that diverges with its own.
+HALVINGS = 6
 
 
 @dataclass(frozen=True)
@@ -50,15 +52,30 @@ class Run:
         return any(float(o.signed_distances(free)[0].min()) <= TOUCH * self.system.size for o in self.system.obstacles)
 
 
+@dataclass(frozen=True)
+class Shown:
+    """How a scene moves, from a run that is done.
+
+    Attributes:
+        motion: by SHOWN_BY, from start to end, `thinned`; None where no dt was short enough.
+        dt: its step [s].
+        failures: of longer ones, the scene's own first, how they ended.
+    """
+
+    system: MassSpringSystem
+    motion: Trajectory | None
+    dt: float
+    failures: tuple[str, ...] = ()
+
+
 def run(progress: Progress) -> Result:
     """All engines on all scenes; and how each scene moves, by the reference."""
     runs: list[Run] = []
-    motions: dict[str, tuple[MassSpringSystem, Trajectory]] = {}
+    motions: dict[str, Shown] = {}
     for name, scene in scenes().items():
         runs += _runs(scene, lambda engine, name=name: progress(f"{name}, {engine}"))  # type: ignore[misc]
         progress(f"{name}, {SHOWN_BY}")
-        setup = scene.setup({})
-        motions[name] = setup.system, motion(setup)
+        motions[name] = shown(scene)
     return result_of(runs, motions)
 
 
@@ -72,9 +89,17 @@ def _runs(scene: Scene, progress: Progress) -> Iterator[Run]:
         yield Run(scene, system, stepper, outcome, identification)
 
 
-def motion(setup: Setup) -> Trajectory:
-    """A scene's motion by the reference, from its start to its end, `thinned`."""
-    return thinned(simulate(setup.system, find_scheme(SHOWN_BY), setup.dt, setup.duration, setup.changes))
+def shown(scene: Scene, dt: float | None = None) -> Shown:
+    """A scene's motion with its own dt [s] or another; where that diverges, with the half of it, and so on."""
+    failures: list[str] = []
+    for halvings in range(HALVINGS + 1):
+        setup = scene.setup({}, (dt or scene.dt) / 2**halvings)
+        steps = whole_steps(setup.dt, setup.duration)
+        outcome = catalogued()[SHOWN_BY].run(setup.system, setup.dt, steps, setup.changes)
+        if outcome.ending == "done" and outcome.trajectory is not None:
+            return Shown(setup.system, thinned(outcome.trajectory), setup.dt, tuple(failures))
+        failures.append(f"{SHOWN_BY} on {scene.name}, dt = {setup.dt:g} s: {outcome.ending}, {outcome.reason}")
+    return Shown(setup.system, None, setup.dt, tuple(failures))
 
 
 def thinned(whole: Trajectory) -> Trajectory:
@@ -84,14 +109,27 @@ def thinned(whole: Trajectory) -> Trajectory:
     return whole.frames(kept)
 
 
-def result_of(runs: list[Run], motions: Mapping[str, tuple[MassSpringSystem, Trajectory]]) -> Result:
-    """Runs and motions as findings and a table."""
+def result_of(runs: list[Run], motions: Mapping[str, Shown]) -> Result:
+    """Runs and motions as findings and a table; what has no motion that is done is not shown."""
     failures = [
         f"{r.stepper.name} on {r.scene.name}: {r.outcome.ending}, {r.outcome.reason}"
         for r in runs
         if r.outcome.ending not in ("done", "unsupported")
     ]
-    return Result(_findings(runs), [_table(runs)], {"motions": motions}, failures)
+    failures += [failure for shown in motions.values() for failure in shown.failures]
+    seen = {name: (s.system, s.motion) for name, s in motions.items() if s.motion is not None}
+    data = {"motions": seen, "dts": {name: motions[name].dt for name in seen}}
+    return Result([*_findings(runs), *_explosions(motions)], [_table(runs)], data, failures)
+
+
+def _explosions(motions: Mapping[str, Shown]) -> list[str]:
+    """Which scenes are shown with a shorter dt than their own, and which not at all."""
+    return [
+        f"{SHOWN_BY} does not come to the end of {name} with the scene's own dt: "
+        + ("none that was tried is short enough." if s.motion is None else f"it is shown with dt = {s.dt:g} s.")
+        for name, s in motions.items()
+        if s.failures
+    ]
 
 
 def _table(runs: list[Run]) -> Table:

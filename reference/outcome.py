@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Literal
 
 import numpy as np
 
+from reference.changes import Change
+from reference.spring_law import elastic_energy
 from reference.state import Array, Trajectory
-from reference.system import MassSpringSystem
+from reference.system import FIELDS, BoolArray, MassSpringSystem
 
 #: Every run ends as one of these.
 Ending = Literal["done", "diverged", "crashed", "timed out", "unsupported"]
+
+#: How many times as long, as far or as fast as it may be something is when a run has blown up.
+RATIO = 100.0
 
 
 @dataclass(frozen=True)
@@ -29,35 +36,65 @@ class Outcome:
     trajectory: Trajectory | None = None
 
 
-def outcome_of(system: MassSpringSystem, trajectory: Trajectory) -> Outcome:
-    """The outcome of a run that came to its end: done, or diverged."""
-    reason = blow_up(system, trajectory)
+def outcome_of(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change] = ()) -> Outcome:
+    """The outcome of a run that came to its end: done, or diverged. Args: changes: of parameters on the way."""
+    reason = blow_up(system, trajectory, changes=changes)
     return Outcome("diverged", reason, trajectory) if reason else Outcome("done", "", trajectory)
 
 
-def blow_up(system: MassSpringSystem, trajectory: Trajectory, stretch_ratio: float = 100.0) -> str | None:
+def blow_up(
+    system: MassSpringSystem, trajectory: Trajectory, ratio: float = RATIO, changes: Sequence[Change] = ()
+) -> str | None:
     """Says when and how a trajectory has left physics behind, or None if it has not.
 
-    It has where a position is not a finite number, or a spring is more than `stretch_ratio` times as long as the longer
-    of its rest length and its length at the start. Engines' safety nets (resets, clamps, sleep) do not hide the second.
+    It has where a position or velocity is not a finite number, and where one of these is over `ratio` times what it may
+    be: a spring's length, by its natural length (`first_diverged_frame`); how far a mass has come, by what flight, free
+    fall and all springs end to end allow; the speed of all, by the energy that they were given. Engines' safety nets
+    (resets, clamps, sleep) do not hide these, nor do rods, which keep their lengths at any speed.
     """
-    frame = first_diverged_frame(system, trajectory, stretch_ratio)
+    frame = first_blown_up_frame(system, trajectory, ratio, changes)
     if frame == len(trajectory):
         return None
     time = f"{trajectory.times[frame]:.6g} s"
-    lost = ~np.isfinite(trajectory.positions[frame]).all(axis=1)
-    if lost.any():
-        return f"the position of mass {np.argmax(lost)} is not a number at t = {time}"
-    longest = np.argmax(_stretch_ratios(system, trajectory)[frame])
-    return f"spring {longest} is over {stretch_ratio:g} times its length at t = {time}"
+    for name, values in (("position", trajectory.positions[frame]), ("velocity", trajectory.velocities[frame])):
+        lost = ~np.isfinite(values).all(axis=1)
+        if lost.any():
+            return f"the {name} of mass {np.argmax(lost)} is not a number at t = {time}"
+    stretch = _stretch_ratios(system, trajectory)[frame]
+    if (stretch > ratio).any():
+        return f"spring {np.argmax(stretch)} is over {ratio:g} times its length at t = {time}"
+    distance = _distance_ratios(system, trajectory, changes)[frame]
+    if (distance > ratio).any():
+        return f"mass {np.argmax(distance)} is over {ratio:g} times as far as it could have come at t = {time}"
+    return f"the energy is over {ratio**2:g} times what the system was given at t = {time}"
+
+
+def first_blown_up_frame(
+    system: MassSpringSystem, trajectory: Trajectory, ratio: float = RATIO, changes: Sequence[Change] = ()
+) -> int:
+    """The first frame that `blow_up` tells of; where there is none, their number."""
+    blown_up = [
+        ~(np.isfinite(trajectory.positions) & np.isfinite(trajectory.velocities)).all(axis=(1, 2)),
+        (_stretch_ratios(system, trajectory) > ratio).any(axis=1),
+        (_distance_ratios(system, trajectory, changes) > ratio).any(axis=1),
+        _energy_ratios(system, trajectory, changes) > ratio**2,
+    ]
+    return _first(np.asarray(np.any(np.array(blown_up), axis=0)))
 
 
 def first_diverged_frame(system: MassSpringSystem, trajectory: Trajectory, stretch_ratio: float) -> int:
-    """The first frame with a position that is not finite or a spring beyond a stretch ratio; else their number."""
+    """The first frame with a position that is not finite or a spring beyond a stretch ratio; else their number.
+
+    A stretch ratio is a spring's length over its natural length: the longer of its rest length and its length at the
+    start.
+    """
     lost = ~np.isfinite(trajectory.positions).all(axis=(1, 2))
-    long = (_stretch_ratios(system, trajectory) > stretch_ratio).any(axis=1)
-    diverged = lost | long
-    return int(np.argmax(diverged)) if diverged.any() else len(trajectory)
+    return _first(np.asarray(lost | (_stretch_ratios(system, trajectory) > stretch_ratio).any(axis=1)))
+
+
+def _first(told: BoolArray) -> int:
+    """The first of the frames that are told; where there is none, their number."""
+    return int(np.argmax(told)) if told.any() else len(told)
 
 
 def _stretch_ratios(system: MassSpringSystem, trajectory: Trajectory) -> Array:
@@ -66,4 +103,53 @@ def _stretch_ratios(system: MassSpringSystem, trajectory: Trajectory) -> Array:
     a, b = system.springs.T
     with np.errstate(over="ignore", invalid="ignore"):
         length = np.linalg.norm(x[:, b] - x[:, a], axis=2)
-        return np.asarray(length / np.maximum(system.rest_lengths, length[0]))
+        return np.asarray(length / _natural_lengths(system, trajectory))
+
+
+def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory) -> Array:
+    """Of every spring the longer of its rest length and its length at the start [m], shape (s,)."""
+    a, b = system.springs.T
+    return np.maximum(
+        system.rest_lengths, np.linalg.norm(trajectory.positions[0, b] - trajectory.positions[0, a], axis=1)
+    )
+
+
+def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change]) -> Array:
+    """How far every mass is from its start, over how far it could have come, in every frame, shape (m, n).
+
+    What nothing holds comes as far as it flies and falls, v t + g t^2/2; masses on springs not much further from one
+    another than all springs end to end.
+    """
+    t = trajectory.times
+    fastest = np.linalg.norm(trajectory.velocities[0], axis=1).max(initial=0.0)
+    reach = system.size + _natural_lengths(system, trajectory).sum() or 1.0
+    allowed = reach + fastest * t + np.linalg.norm(_most(system, "gravity", changes)) * t**2 / 2
+    with np.errstate(over="ignore", invalid="ignore"):
+        return np.asarray(np.linalg.norm(trajectory.positions - trajectory.positions[0], axis=2) / allowed[:, None])
+
+
+def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change]) -> Array:
+    """Kinetic and elastic energy over all that a system can have been given, in every frame, shape (m,).
+
+    That is what both were at the start, what gravity does at most on the way, sum m g |x - x0|, and what would stretch
+    every spring to twice its natural length, a scale for what starts at rest. Zero where all of that is zero.
+    """
+    x, y = trajectory.positions, trajectory.positions[0]
+    mass, stiffness = _most(system, "mass", changes), _most(system, "stiffness", changes)
+    gravity = np.linalg.norm(_most(system, "gravity", changes))
+    a, b = system.springs.T
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        stretch = np.linalg.norm(x[:, b] - x[:, a], axis=2) - system.rest_lengths
+        at_start = np.linalg.norm(y[b] - y[a], axis=1) - system.rest_lengths
+        energy = 0.5 * (trajectory.velocities**2).sum(axis=2) @ mass + elastic_energy(stiffness, stretch).sum(axis=1)
+        given = 0.5 * mass @ (trajectory.velocities[0] ** 2).sum(axis=1) + elastic_energy(stiffness, at_start).sum()
+        given += elastic_energy(stiffness, _natural_lengths(system, trajectory)).sum()
+        given = given + gravity * np.linalg.norm(x - y, axis=2) @ mass
+        return np.where(given > 0, energy / given, 0.0)
+
+
+def _most(system: MassSpringSystem, parameter: str, changes: Sequence[Change]) -> Array:
+    """The largest size that a parameter ever has, each of its numbers."""
+    first = np.asarray(getattr(system, FIELDS.get(parameter, parameter)))
+    later = [np.asarray(change.value) for change in changes if change.parameter == parameter]
+    return np.asarray(reduce(np.maximum, (np.abs(value) for value in later), np.abs(first)))

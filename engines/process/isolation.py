@@ -118,4 +118,4 @@ def run_engine(
                 break
     except Unsupported as error:
         return Outcome("unsupported", str(error))
-    return outcome_of(system, Trajectory.of(states))
+    return outcome_of(system, Trajectory.of(states), changes)

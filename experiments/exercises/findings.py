@@ -170,6 +170,12 @@ def not_repeatable(same: bool) -> Finding:
     return Finding("random_or_time", words, "A step depends on nothing but what it is given.")
 
 
+def single_precision() -> Finding:
+    """Of numbers that are the right ones to single precision only."""
+    words = "Computed in single precision (float32): the numbers are the right ones to that, not to rounding."
+    return Finding("single_precision", words, "Which of your arrays is of the type float32?")
+
+
 def clean(words: str) -> str:
     """Words that a submission brought, on one line, of printable characters, at most 200."""
     return "".join(c if c.isprintable() else " " for c in " ".join(words.split()))[:200]

@@ -31,7 +31,8 @@ class Verdict:
     """What was found of a submission.
 
     Attributes:
-        findings: what it is or what is wrong, the plainest first; empty where it is right.
+        findings: what it is or what is wrong, the plainest first; of what is right only that it was computed in
+            single precision.
         passed: for each question, whether its answer is right.
         error: how far its numbers are from those that it is named for, as a fraction of the largest; None without a
             name.
@@ -190,7 +191,8 @@ def _verdict_on_numbers(
         return Verdict("not in the catalogue", beside, passed, **found)
     mistakes, error = explained.mistakes, explained.distance
     if not mistakes and not beside:
-        return Verdict("right", (), (True,) * len(passed), error, error)
+        beyond = (findings.single_precision(),) if error > catalogue.exercise.tolerance else ()
+        return Verdict("right", beyond, (True,) * len(passed), error, error)
     if not mistakes:
         passed = (False,) * len(passed)
     named = (*(Finding(m.name, m.words, m.hint) for m in mistakes), *beside)

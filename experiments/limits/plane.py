@@ -34,6 +34,12 @@ class Axis:
     low: float
     high: float
 
+    @property
+    def heading(self) -> str:
+        """Its name and its unit, for figures and tables."""
+        units = {"dt": "s", "masses": "1", **{name: text.partition(",")[0] for name, text in PARAMETERS.items()}}
+        return f"{self.name} [{units[self.name]}]"
+
     def values(self, count: int) -> Array:
         """Evenly spaced, from low to high; whole numbers for masses, as many as there are."""
         values = np.linspace(self.low, self.high, count)

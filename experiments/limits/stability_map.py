@@ -88,7 +88,7 @@ def write_map(found: StabilityMap, file: Path) -> None:
     """A map as CSV, one row per point."""
     with file.open("w", newline="", encoding="utf-8") as opened:
         writer = csv.writer(opened)
-        writer.writerow([found.x.name, found.y.name, "growth per step"])
+        writer.writerow([found.x.heading, found.y.heading, "measured growth in a step [1]"])
         for b, row in zip(found.y_values, found.growth, strict=True):
             writer.writerows([a, b, value] for a, value in zip(found.x_values, row, strict=True))
 

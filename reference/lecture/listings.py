@@ -222,7 +222,7 @@ class LectureListing:
                 states.append(_state((step + 1) * dt, system, links))
         except (OverflowError, ZeroDivisionError) as error:
             return Outcome("diverged", f"{error} at t = {step * dt:.6g} s", Trajectory.of(states))
-        return outcome_of(system, Trajectory.of(states))
+        return outcome_of(system, Trajectory.of(states), changes)
 
     def _why_no_barrier(self, system: MassSpringSystem) -> str | None:
         if not all(isinstance(obstacle, Circle) for obstacle in system.obstacles):

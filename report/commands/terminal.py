@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,10 @@ if TYPE_CHECKING:  # these import NumPy, Numba and the engines' adapters: `sprin
 
 #: Where results go unless told otherwise.
 RESULTS = Path("results")
+
+#: In a table a text of SENTENCE characters and more may be folded, to FOLDED characters at least; between columns there
+#: are GAP.
+SENTENCE, FOLDED, GAP = 40, 24, 3
 
 
 @contextmanager
@@ -45,26 +49,86 @@ def progress(title: str) -> Iterator[Progress]:
 
 
 def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
-    """A table on standard output, numbers to the right."""
-    from rich import box
+    """A table on standard output, numbers to the right, and nothing of it left out for want of room.
+
+    Where it is too wide, sentences are notes below it; where that does not do, there are several tables, each with the
+    first column.
+    """
     from rich.console import Console
+
+    console = Console(highlight=False)
+    # A file or a pipe has no width of its own: give it that of a wide terminal.
+    console.width = console.width if console.is_terminal else 160
+    cells = [[plain(value) for value in row] for row in rows]
+    notes: list[str] = []
+    if len(_parts(columns, cells, console.width, folded=True)) > 1:
+        cells, notes = with_notes(cells)
+    numbers = [any(isinstance(row[i], float) for row in rows) for i in range(len(columns))]
+    for part in _parts(columns, cells, console.width, folded=not notes):
+        console.print(_table(title, columns, cells, numbers, _widths(columns, cells, part, console.width)))
+        title = ""
+    for note in notes:
+        console.print(note, markup=False)
+
+
+def with_notes(cells: Sequence[Sequence[str]]) -> tuple[list[list[str]], list[str]]:
+    """The cells, sentences replaced by the numbers of notes, and the notes; the same sentence is one note."""
+    numbers: dict[str, int] = {}
+    short = [
+        [text if len(text) < SENTENCE else f"({numbers.setdefault(text, len(numbers) + 1)})" for text in row]
+        for row in cells
+    ]
+    return short, [f"({number}) {text}" for text, number in numbers.items()]
+
+
+def _parts(columns: Sequence[str], cells: Sequence[Sequence[str]], width: int, folded: bool) -> list[list[int]]:
+    """Which columns fit beside one another: as few tables as will do, the first column in each."""
+    widths = [_least(column, [row[i] for row in cells], folded) + GAP for i, column in enumerate(columns)]
+    parts = [[0]]
+    for i in range(1, len(columns)):
+        if sum(widths[j] for j in parts[-1]) + widths[i] > width and len(parts[-1]) > 1:
+            parts.append([0])
+        parts[-1].append(i)
+    return parts
+
+
+def _least(column: str, texts: Sequence[str], folded: bool) -> int:
+    """How wide a column is at least: headings are folded between words, names and numbers are not."""
+    longest = max(map(len, texts), default=0)
+    word = max(map(len, column.split()), default=0)
+    return max(word, FOLDED if folded and longest >= SENTENCE else longest)
+
+
+def _widths(columns: Sequence[str], cells: Sequence[Sequence[str]], part: Sequence[int], width: int) -> dict[int, int]:
+    """How wide some of the columns are, each by its number: what is left of the width goes to those that are folded."""
+    texts = {i: [row[i] for row in cells] for i in part}
+    widths = {i: _least(columns[i], texts[i], folded=True) for i in part}
+    left = width - sum(widths.values()) - GAP * len(part)
+    for i in part:
+        more = max(0, min(left, max(map(len, [columns[i], *texts[i]])) - widths[i]))
+        widths[i] += more
+        left -= more
+    return widths
+
+
+def _table(
+    title: str,
+    columns: Sequence[str],
+    cells: Sequence[Sequence[str]],
+    numbers: Sequence[bool],
+    widths: Mapping[int, int],
+) -> Any:
+    """Some of the columns, each of its width, as Rich draws them."""
+    from rich import box
     from rich.markup import escape
     from rich.table import Table as RichTable
 
     table = RichTable(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for i, column in enumerate(columns):
-        cells = [plain(row[i]) for row in rows]
-        numbers = any(isinstance(row[i], float) for row in rows)
-        # Names stay whole; only sentences are folded.
-        table.add_column(
-            escape(column), justify="right" if numbers else "left", no_wrap=max(map(len, cells), default=0) < 40
-        )
-    for row in rows:
-        table.add_row(*(escape(plain(value)) for value in row))
-    console = Console()
-    # A file or a pipe has no width of its own: give it that of a wide terminal.
-    console.width = console.width if console.is_terminal else 160
-    console.print(table)
+    for i, width in widths.items():
+        table.add_column(escape(columns[i]), justify="right" if numbers[i] else "left", width=width)
+    for row in cells:
+        table.add_row(*(escape(row[i]) for i in widths))
+    return table
 
 
 def show_result(experiment: Experiment, result: Result) -> None:

@@ -33,6 +33,9 @@ def _energies(axes: Any, swings: list[Swing]) -> None:
         axes.plot(times, swing.energies, markevery=200, markersize=5, **look(i))
         small = swing.energies[0] * np.exp(-times / swing.predicted)
         axes.plot(times, small, ":", color="#333333")
+        if swing.measured is not None:
+            style = {"color": look(i)["color"], "markeredgecolor": "#333333", "markersize": 9, "zorder": 3}
+            axes.plot(swing.measured, swing.energies[0] / np.e, marker="*", linestyle="", **style)
         axes.annotate(
             f"{swing.drag:g} N s/m", (times[-1], swing.energies[-1]), (6, 0), textcoords="offset points", va="center"
         )
@@ -40,12 +43,15 @@ def _energies(axes: Any, swings: list[Swing]) -> None:
     axes.set_xlim(0, 1.1 * DURATION)
     axes.set_xlabel("time [s]")
     axes.set_ylabel("energy above rest [J]")
-    axes.set_title("Measured, and predicted for small swings (dotted): exp(-t Cd/m)", loc="left", fontsize=11)
+    axes.set_title(
+        "Measured (star: fallen to 1/e), and predicted for small swings (dotted): exp(-t Cd/m)", loc="left", fontsize=11
+    )
 
 
 def _alt(swings: list[Swing]) -> str:
     parts = [
         f"with drag {s.drag:g} N s/m {s.energies[-1] / s.energies[0]:.1e} of the energy is left after {DURATION:g} s"
+        + (f", 1/e at {s.measured:.2g} s" if s.measured is not None else ", 1/e not before the end")
         for s in swings
     ]
     return f"A string drawn at {len(TIMES)} times up to {TIMES[-1]:g} s, and its energy: {'; '.join(parts)}."

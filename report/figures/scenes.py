@@ -27,7 +27,7 @@ def draw(result: Result) -> Picture:
     places = axes.ravel().tolist()
     for place, (name, (system, motion)) in zip(places, motions.items(), strict=False):
         still(figure, place, system, motion)
-        place.set_title(f"{name}, {motion.times[-1]:g} s", loc="left", fontsize=11)
+        place.set_title(f"{name}, {motion.times[-1]:g} s, dt {result.data['dts'][name]:g} s", loc="left", fontsize=10)
     for place in places[len(motions) :]:
         place.set_visible(False)
     return Picture(figure, _alt(motions))

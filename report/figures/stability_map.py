@@ -6,9 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.limits.plane import Axis
 from experiments.limits.stability_map import StabilityMap
-from reference.system import PARAMETERS
 from report.figures import BLACK_ON_COLOURS, Picture, new_figure
 
 #: Growth per step at which the colours end, and below which it counts as none.
@@ -38,8 +36,8 @@ def draw_field(axes: Any, found: StabilityMap) -> Any:
     axes.set_xlim(found.x_values[0], found.x_values[-1])
     axes.set_ylim(found.y_values[0], found.y_values[-1])
     axes.grid(visible=False)
-    axes.set_xlabel(_label(found.x))
-    axes.set_ylabel(_label(found.y))
+    axes.set_xlabel(found.x.heading)
+    axes.set_ylabel(found.y.heading)
     axes.set_title(f"{found.stepper}\n{_prediction(found)}", loc="left", fontsize=11)
     return field
 
@@ -62,8 +60,3 @@ def _prediction(found: StabilityMap) -> str:
     if len(found.boundary) or found.predicted_limit is not None:
         return f"black: predicted limit of\n{found.predicted_by}"
     return f"{found.predicted_by}: predicted to have no limit here, being stable or unstable at any dt"
-
-
-def _label(axis: Axis) -> str:
-    units = {"dt": "s", "masses": "1", **{name: text.partition(",")[0] for name, text in PARAMETERS.items()}}
-    return f"{axis.name} [{units[axis.name]}]"

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from reference.changes import Change
 from reference.conserved import energy
 from reference.outcome import blow_up
 from reference.state import State, Trajectory
@@ -13,8 +14,8 @@ from reference.system import MassSpringSystem, Value
 from report.live.prediction import Prediction
 from report.live.stepping import Stepping, Stopped, stepping
 
-#: A spring this many times its length is no physics any more, and the eye need not wait for more.
-STRETCH_RATIO = 20.0
+#: What is so many times as long, far or fast as it may be is no physics any more, and the eye need not wait for more.
+RATIO = 20.0
 
 
 class Lane:
@@ -96,11 +97,18 @@ class Lane:
 
     def _blow_up(self, state: State) -> str | None:
         """How a state has left physics behind, or None if it has not."""
-        if not np.isfinite(state.velocities).all() and np.isfinite(state.positions).all():
-            return f"a velocity is not a number at t = {state.time:.6g} s"
         n = len(self._scene.masses)
         now = State(state.time, state.positions[:n], state.velocities[:n])
-        return blow_up(self._scene, Trajectory.of([self._scene.start, now]), STRETCH_RATIO)
+        return blow_up(self._scene, Trajectory.of([self._scene.start, now]), RATIO, self._changed())
+
+    def _changed(self) -> list[Change]:
+        """What has been changed on the fly, as far as it gives a system more energy."""
+        stepped = self._stepped
+        return [
+            Change(0.0, "mass", float(stepped.masses.max())),
+            Change(0.0, "stiffness", float(stepped.stiffness.max(initial=0.0))),
+            Change(0.0, "gravity", tuple(stepped.gravity)),
+        ]
 
 
 def distance(one: State, other: State) -> float:

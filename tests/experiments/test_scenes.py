@@ -10,6 +10,7 @@ import pytest
 from experiments import scenes
 from experiments.experiment import Result
 from reference.identification import identify_run
+from reference.outcome import outcome_of
 from reference.scenes import find
 from reference.stepper import catalogued
 
@@ -44,7 +45,8 @@ def test_who_meets_an_obstacle_is_counted_apart() -> None:
 def test_the_motion_shown_is_the_scenes_from_start_to_end() -> None:
     """At most so many states of it, the reference's to the bit."""
     setup = find("string").setup({})
-    shown = scenes.motion(setup)
+    shown = scenes.shown(find("string")).motion
+    assert shown is not None
     whole = catalogued()["heun"].run(setup.system, setup.dt, round(setup.duration / setup.dt)).trajectory
     assert whole is not None
     assert len(shown) == scenes.STATES + 1
@@ -54,5 +56,36 @@ def test_the_motion_shown_is_the_scenes_from_start_to_end() -> None:
 
 def test_what_drives_a_scene_is_shown() -> None:
     """The truck of `crossing` bends the bridge: it rests at first, and is not where it was in the end."""
-    shown = scenes.motion(find("crossing").setup({})).positions
-    assert np.ptp(shown[:, :, 1], axis=0).max() > 1e-3
+    shown = scenes.shown(find("crossing")).motion
+    assert shown is not None
+    assert np.ptp(shown.positions[:, :, 1], axis=0).max() > 1e-3
+
+
+@pytest.mark.parametrize("name", ["strip", "string"])
+def test_a_scene_is_shown_by_a_run_that_is_done(name: str) -> None:
+    """The strip's own dt of 0.1 ms is too long for Heun: half of it will do, and the end is that of a tenth of it.
+
+    The energy of a run that is done is not more than it was given; Heun's own error there is 1e-8 m.
+    """
+    scene = find(name)
+    shown = scenes.shown(scene)
+    setup = scene.setup({})
+    assert shown.motion is not None
+    assert outcome_of(setup.system, shown.motion).ending == "done"
+    assert (shown.dt < scene.dt) == bool(shown.failures)
+    finer = scenes.shown(scene, scene.dt / 10).motion
+    assert finer is not None
+    assert shown.motion.positions[-1] == pytest.approx(finer.positions[-1], abs=1e-3 * setup.system.size)
+
+
+def test_a_scene_that_blows_up_is_told_and_not_shown() -> None:
+    """From 10 ms on no step that is tried is short enough: no picture, and the reasons."""
+    lost = scenes.shown(find("strip"), 1e-2)
+    assert lost.motion is None
+    halved = scenes.shown(find("strip"))
+    assert halved.dt == find("strip").dt / 2
+    result = scenes.result_of([], {"strip": halved, "lost": lost})
+    assert list(result.data["motions"]) == ["strip"]
+    assert "5e-05 s" in " ".join(result.findings)
+    assert len(result.failures) == 1 + len(lost.failures)
+    assert "heun on strip, dt = 0.0001 s: diverged" in result.failures[0]

@@ -20,7 +20,13 @@ def cloth(by: str, length: float, spacing: float, sample: int, coefficient: floa
     turn = np.linspace(-math.pi, math.pi, drape.DIRECTIONS, endpoint=False)
     known = {"by": by, "length": length, "spacing": spacing, "sample": sample, "coefficient": coefficient}
     outline = 0.12 + AMPLITUDE * np.cos(6 * turn)
-    return {**known, "time": 1.0, "positions": disc(drape.RADIUS, spacing, sample).positions, "outline": outline}
+    return {
+        **known,
+        "time": 1.0,
+        "speed": 5e-4,
+        "positions": disc(drape.RADIUS, spacing, sample).positions,
+        "outline": outline,
+    }
 
 
 def coefficient(length: float) -> float:

@@ -50,7 +50,7 @@ def usual(*names: str) -> Result:
             stopped(scene, "Segfaults", Outcome("crashed", "killed by SIGSEGV")),
             stopped(scene, "mujoco_cable", Outcome("unsupported", "mujoco_cable cannot do mesh")),
         ]
-    motions = {scene.name: (scene.system({}), stretched(scene.system({}))) for scene in found}
+    motions = {scene.name: scenes.Shown(scene.system({}), stretched(scene.system({})), scene.dt) for scene in found}
     return scenes.result_of(runs, motions)
 
 

@@ -17,8 +17,8 @@ STUDENTS = Path(__file__).parent / "students"
 #: Each mistake is made in each of these.
 STYLES = ("loops", "arrays", "classes")
 
-#: What right programs are called.
-RIGHT = "right"
+#: What right programs are called; and those that compute in single precision, by their style.
+RIGHT, SINGLE = "right", "single_precision"
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def _of_one(folder: Path) -> Iterator[Program]:
     number = int(folder.name[1:3])
     right = {file.stem: file.read_text(encoding="utf-8") for file in sorted(folder.glob("*.py"))}
     for style, text in right.items():
-        yield Program(number, style, RIGHT, "", text)
+        yield Program(number, style, SINGLE if style == SINGLE else RIGHT, "", text)
     for mistake in tomllib.loads((folder / "mistakes.toml").read_text(encoding="utf-8"))["mistake"]:
         for style in STYLES:
             if style in mistake:

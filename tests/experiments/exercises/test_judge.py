@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from copy import deepcopy
+from pathlib import Path
 from types import ModuleType
 from typing import Any
 
@@ -12,7 +13,7 @@ import pytest
 
 from experiments.exercises import child, sandbox
 from experiments.exercises.answer_catalogue import catalogue_of
-from experiments.exercises.exercise import Answer, find
+from experiments.exercises.exercise import TOLERANCE, Answer, find
 from experiments.exercises.grading import Grade, grade
 from experiments.exercises.judge import Outcome, Verdict, judge
 from experiments.exercises.naming import SINGLE
@@ -84,6 +85,18 @@ def test_a_question_passes_to_single_precision(monkeypatch: pytest.MonkeyPatch) 
     verdict = judged(monkeypatch, "6", change)
     assert verdict.passed == (True, True, False, False)
     assert Grade(verdict, None, 0.0).score == 50.0
+
+
+def test_what_is_right_to_single_precision_is_said_to_be(here: None) -> None:
+    """A Heun in float32 is 1e-7 off or more, and beyond the 1e-9 that names are given to: it passes, and is told."""
+    folder = Path(__file__).parent / "students" / "e04_whole_state"
+    single, double = (
+        judge(find("4"), (folder / f"{name}.py").read_text(encoding="utf-8")) for name in ("single_precision", "arrays")
+    )
+    assert (single.outcome, single.name, all(single.passed)) == ("right", "single_precision", True)
+    assert single.error is not None
+    assert TOLERANCE < single.error < SINGLE
+    assert (double.outcome, double.findings) == ("right", ())
 
 
 def test_right_numbers_that_change_the_input_have_no_points(here: None) -> None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
-from experiments.drape import COARSE, DENSITY, LENGTHS, SPACING, result_of
+from experiments.drape import COARSE, DENSITY, LENGTHS, PATIENCE, SPACING, result_of
 from tests.experiments.canned import drape
 from tests.experiments.canned.drape import AMPLITUDE, cloth, coefficient
 from tests.experiments.canned.reading import finding, in_order, numbers, records
@@ -16,9 +17,13 @@ def test_the_table_has_each_number_in_its_column() -> None:
     for row in rows[: 2 * len(LENGTHS)]:
         length = row["bending length [m]"]
         assert row["rigidity [N m]"] == pytest.approx(DENSITY * 9.81 * length**3)
-        assert row["drape coefficient"] == pytest.approx(coefficient(length) + 0.01 * row["sample"])
+        assert row["drape coefficient [1]"] == pytest.approx(coefficient(length) + 0.01 * row["sample"])
         assert (row["folds"], row["their amplitude [m]"]) == (6, pytest.approx(AMPLITUDE))
-    assert (rows[-1]["stepper"], rows[-1]["spacing [m]"], rows[-1]["drape coefficient"]) == ("an_engine", COARSE, 0.25)
+    assert (rows[-1]["stepper"], rows[-1]["spacing [m]"], rows[-1]["drape coefficient [1]"]) == (
+        "an_engine",
+        COARSE,
+        0.25,
+    )
 
 
 def test_the_first_sentence_goes_from_the_limpest_to_the_stiffest() -> None:
@@ -57,6 +62,26 @@ def test_the_mesh_is_said_to_matter_by_its_means() -> None:
 def test_folds_are_the_least_and_the_most() -> None:
     """Six here."""
     assert numbers(finding(drape.usual(), "folds")) == [6, 6]
+
+
+def test_cloths_without_folds_are_counted() -> None:
+    """Two of all are round: 6 to 6 folds is not said of those."""
+    cloths = [dict(one) for one in drape.usual().data["cloths"]]
+    for one in cloths[:2]:
+        one["outline"] = np.full_like(one["outline"], 0.1)
+    alike = sum(one["spacing"] == SPACING for one in cloths)
+    assert numbers(finding(result_of(cloths), "folds")) == [6, 6, 2, alike, 1]
+    for one in cloths:
+        one["outline"] = np.full_like(one["outline"], 0.1)
+    assert numbers(finding(result_of(cloths), "folds")) == []
+
+
+def test_cloths_that_still_move_are_counted() -> None:
+    """Two, of which the faster is told; they are no cloths at rest, however long one has waited."""
+    cloths = [dict(one) for one in drape.usual().data["cloths"]]
+    cloths[0]["speed"], cloths[3]["speed"] = 2e-3, 0.03
+    assert numbers(finding(result_of(cloths), "still move")) == [2, len(cloths), PATIENCE, 30, 1]
+    assert not [said for said in drape.usual().findings if "still move" in said]
 
 
 def test_without_a_cloth_there_is_a_sentence() -> None:

@@ -20,11 +20,11 @@ def test_every_point_has_its_growth_under_the_names_of_the_axes(tmp_path: Path) 
     write_map(type(found)(**{**vars(found), "growth": growth}), file)
     with file.open(newline="", encoding="utf-8") as opened:
         reader = csv.DictReader(opened)
-        assert reader.fieldnames == ["dt", "drag", "growth per step"]
+        assert reader.fieldnames == ["dt [s]", "drag [N s/m]", "measured growth in a step [1]"]
         rows = [{name: float(value) for name, value in row.items()} for row in reader]
     assert len(rows) == growth.size
     for row in rows:
-        i = int(np.argmin(np.abs(found.x_values - row["dt"])))
-        j = int(np.argmin(np.abs(found.y_values - row["drag"])))
-        assert (row["dt"], row["drag"]) == pytest.approx((found.x_values[i], found.y_values[j]))
-        assert row["growth per step"] == growth[j, i]
+        i = int(np.argmin(np.abs(found.x_values - row["dt [s]"])))
+        j = int(np.argmin(np.abs(found.y_values - row["drag [N s/m]"])))
+        assert (row["dt [s]"], row["drag [N s/m]"]) == pytest.approx((found.x_values[i], found.y_values[j]))
+        assert row["measured growth in a step [1]"] == growth[j, i]

@@ -28,7 +28,7 @@ def test_points_are_the_table_in_millimetres_full_for_the_reference() -> None:
     assert [*legend(axes)] == [*kinds]
     for points, (by, spacing) in zip(axes.collections, kinds.values(), strict=True):
         rows = [row for row in table if (row["stepper"], row["spacing [m]"]) == (by, spacing)]
-        expected = [[1e3 * row["bending length [m]"], row["drape coefficient"]] for row in rows]
+        expected = [[1e3 * row["bending length [m]"], row["drape coefficient [1]"]] for row in rows]
         assert np.asarray(points.get_offsets()) == pytest.approx(np.array(expected))
         assert (len(points.get_facecolor()) == 0) == (by == "an_engine")
     (means,) = marks(axes, color=look(0)["color"])

@@ -26,10 +26,8 @@ def below() -> Axes:
 
 
 def largest(name: str) -> list[float]:
-    """The largest error in each span, from the table: of the last times in it, 25 of them."""
-    errors = np.abs(
-        [r["energy error [1]"] for r in records(result("energy"), "energy_over_time") if r["stepper"] == name]
-    )
+    """The largest error in each span, of all its times, 25 of them."""
+    (errors,) = [np.abs(row.errors) for row in result("energy").data["rows"] if row.stepper.name == name]
     return [errors[i * 25 : (i + 1) * 25].max() for i in range(SPANS - 1)] + [errors[(SPANS - 1) * 25 :].max()]
 
 

@@ -30,12 +30,23 @@ def test_solid_lines_are_the_energies_of_the_table_and_dotted_the_predicted_deca
         assert label.xy == (times[-1], data(solid[i])[1][-1])
 
 
+def test_stars_are_where_1_e_is_measured() -> None:
+    """One for each run that is long enough, at its time and at 1/e of the energy at the start."""
+    *_, axes = shown("less_damping").figure.axes
+    stars = [data(line) for line in axes.lines if line.get_marker() == "*" and line.get_linestyle() == "None"]
+    times = [row["falls to 1/e at, measured [s]"] for row in records(result("less_damping"))]
+    assert [x for (x,), _ in stars] == [time for time in times if time is not None]
+    assert [y for _, (y,) in stars] == pytest.approx([START / np.e] * len(stars))
+
+
 def test_axes_have_units_and_the_title_says_what_is_dotted() -> None:
     """Energies on a logarithm."""
     *_, axes = shown("less_damping").figure.axes
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("time [s]", "energy above rest [J]")
     assert axes.get_yscale() == "log"
-    assert axes.get_title(loc="left") == "Measured, and predicted for small swings (dotted): exp(-t Cd/m)"
+    assert axes.get_title(loc="left") == (
+        "Measured (star: fallen to 1/e), and predicted for small swings (dotted): exp(-t Cd/m)"
+    )
     assert axes.get_xlim()[0] == 0
 
 
@@ -51,5 +62,7 @@ def test_a_row_of_the_film_for_each_drag_in_its_colour() -> None:
 def test_the_words_for_it_have_what_is_left() -> None:
     """Of the energy, by drag."""
     for row in records(result("less_damping")):
-        part = f"with drag {row['drag [N s/m]']:g} N s/m {row['left']:.1e} of the energy is left after {DURATION:g} s"
+        part = (
+            f"with drag {row['drag [N s/m]']:g} N s/m {row['left [1]']:.1e} of the energy is left after {DURATION:g} s"
+        )
         assert part in shown("less_damping").alt

@@ -9,6 +9,7 @@ import pytest
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 
+from reference.scenes import find
 from report.figures import draw
 from report.film.drawing import STRAIN_COLOURS
 from tests.experiments.canned import own_scene
@@ -56,11 +57,11 @@ def test_springs_are_where_they_end_and_in_the_colour_of_their_strain() -> None:
 
 @pytest.mark.parametrize("name", ["string", "barrier", "cloth"])
 def test_every_panel_has_its_scales_and_its_name(name: str) -> None:
-    """A length in metres, strain in percent; the scene and its time."""
+    """A length in metres, strain in percent; the scene, its time and its dt."""
     axes = panels()[name]
     check_length(axes)
     check_strain(axes, 100 * STRETCHED)
-    assert axes.get_title(loc="left") == f"{name}, {DURATION:g} s"
+    assert axes.get_title(loc="left") == f"{name}, {DURATION:g} s, dt {find(name).dt:g} s"
     assert axes.get_aspect() == 1.0
 
 
