@@ -36,7 +36,7 @@ def test_what_the_barriers_two_rules_leave_of_a_sliding_mass() -> None:
 
 
 def test_the_force_from_the_next_node_at_rest() -> None:
-    """k (-D0 - D0) as printed, and none as meant; with k = 200 N/m and D0 = 0.125 m."""
+    """By hand k (-D0 - D0) as printed, and none as meant; with k = 200 N/m and D0 = 0.125 m."""
     printed, meant = ((value, unit) for *_, value, unit in _next_spring())
     assert printed == (-2 * 200.0 * 0.125, "N")
     assert meant == (0.0, "N")

@@ -18,12 +18,12 @@ from reference.errors import InputError
 from reference.obstacles import Plane, Sphere
 from reference.scenes import Setup, find
 from reference.stepper import catalogued
+from reference.system import MassSpringSystem
 from report.film.drawing import FAR, Look, colour_map, lines, strain
 from report.film.film import RATE, Film, film, frame_steps, leaves, look_at, parameters_at, shots
 from report.film.film_file import write_film
 from report.film.obstacle_image import obstacle_image
 from report.film.view import View, view_of
-from reference.system import MassSpringSystem
 from tests.conformance.doctored import Doctored, StifferByAMillionth
 from tests.engines.process.misbehaving import Misbehaving, Segfaults
 from tests.report.commands.terminal import springlab
@@ -144,7 +144,7 @@ def two_planes() -> MassSpringSystem:
 
 
 def test_the_farther_is_drawn_before_the_nearer_and_what_is_as_far_in_its_order() -> None:
-    """Which of two springs is on top must not depend on how a machine sorts: segments, colours and widths are theirs."""
+    """Which of two springs is on top must not depend on how a machine sorts; their colours go with them."""
     system = two_planes()
     view = View(np.zeros(3), np.eye(3), 100.0)
     look = Look(view, (-1.0, 9.0, -1.0, 1.0), 0.2, (0.0, 1.0), None)
