@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,10 +18,10 @@ from tests.mutants.project_copy import ProjectCopy, TestRun
 #: What is found of a mutant. Timed out counts as killed; not covered as survived.
 Verdict = Literal["killed", "timed out", "survived", "not covered"]
 
-#: What the nearest tests take together that run first, and all that run at all [s on a processor].
-FIRST, ALL = 8.0, 45.0
+#: What all tests of a mutant take together at most; a file that takes longer judges none [s on a processor].
+ALL = 45.0
 
-#: A mutant is given this many times what its tests take without it, and this much besides [s on a processor].
+#: A test file is given this many times what it takes without a mutant, and this much besides [s on a processor].
 TIMES, BESIDES = 3.0, 20.0
 
 
@@ -66,40 +66,50 @@ class Judge:
                     raise
 
     def _verdict(self, copy: ProjectCopy, mutant: Mutant, near: Sequence[str]) -> Verdict:
+        """The nearest test first: what a test does without the mutant is asked only where it fails with it."""
         options = tuple(f"--engine={name}" for name in engines_of(mutant.file))
         verdict: Verdict = "not covered"
-        for batch, used in self._batches(copy, near, options):
+        left = ALL
+        for test in near:
+            known = self._runs.get((test, options))
+            if known is not None and not (known.passed and known.used <= left):
+                continue
             with copy.mutated(mutant):
-                run = copy.run(batch, options, TIMES * used + BESIDES)
+                run = copy.run([test], options, ALL if known is None else _limit(known))
+            if not run.passed:
+                run = self._fails_for_it(copy, mutant, test, options, run)
+            if run is None:
+                continue
             if not run.passed:
                 return "killed" if run.in_time else "timed out"
-            verdict = "survived"
+            verdict, left = "survived", left - run.used
+            if left <= 0:
+                break
         return verdict
 
-    def _batches(
-        self, copy: ProjectCopy, near: Sequence[str], options: tuple[str, ...]
-    ) -> Iterator[tuple[list[str], float]]:
-        """The nearest tests up to FIRST, then the others up to ALL; with what each batch takes [s]."""
-        batch: list[str] = []
-        used, total, limit = 0.0, 0.0, FIRST
-        for test in near:
-            run = self._unmutated(copy, test, options)
-            if not run.passed or total + run.used > ALL:
-                continue
-            batch.append(test)
-            used, total = used + run.used, total + run.used
-            if total >= limit:
-                yield batch, used
-                batch, used, limit = [], 0.0, ALL
-        if batch:
-            yield batch, used
+    def _fails_for_it(
+        self, copy: ProjectCopy, mutant: Mutant, test: str, options: tuple[str, ...], run: TestRun
+    ) -> TestRun | None:
+        """The run of a test file if it tells of the mutant, again if it had too little time; None if it judges none."""
+        without = self._unmutated(copy, test, options)
+        if not without.passed:
+            return None
+        if run.in_time or _limit(without) <= ALL:
+            return run
+        with copy.mutated(mutant):
+            return copy.run([test], options, _limit(without))
 
     def _unmutated(self, copy: ProjectCopy, test: str, options: tuple[str, ...]) -> TestRun:
         """What comes of a test file without any mutant: what takes long is tried again, as it may have compiled."""
         key = (test, options)
         if key not in self._runs:
             run = copy.run([test], options, 3 * ALL)
-            self._runs[key] = copy.run([test], options, ALL) if run.passed and run.used > FIRST else run
+            self._runs[key] = copy.run([test], options, ALL) if run.passed and run.used > ALL else run
             if not run.passed and run.in_time:
                 self.failing[test] = run.said
         return self._runs[key]
+
+
+def _limit(without: TestRun) -> float:
+    """How long a test file may take with a mutant, by what it takes without [s on a processor]."""
+    return TIMES * without.used + BESIDES

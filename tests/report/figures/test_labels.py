@@ -32,6 +32,14 @@ def test_boxes_that_have_room_stay_where_they_are() -> None:
     assert spread(np.array([0.5, 0.5]), np.array([0.1, 0.1])) == pytest.approx([0.45, 0.55])
 
 
+def test_boxes_at_the_same_height_stand_in_their_order() -> None:
+    """Ten at each of two heights, upwards by their numbers."""
+    middles = spread(np.repeat([0.9, 0.1], 10), np.full(20, 0.04))
+    assert (np.diff(middles[:10]) > 0).all()
+    assert (np.diff(middles[10:]) > 0).all()
+    assert middles[:10].min() > middles[10:].max()
+
+
 def test_heights_that_are_near_are_gathered() -> None:
     """From one to the next; upwards, and among themselves in their order."""
     assert gathered(np.array([0.51, 0.9, 0.5, 0.505]), 0.02) == [[0, 2, 3], [1]]

@@ -10,7 +10,8 @@ import pytest
 
 from experiments.scenes import motion
 from reference.scenes import find
-from report.film.animations import ACROSS, PARTS, SCRIPT, SHOWN, SLOW, Animation, animation
+from report.film.animations import ACROSS, PARTS, SCRIPT, SHOWN, SLOW, Animation, animated, animation
+from report.film.view import View
 from tests.report.html import Page
 
 #: Of the whole element [bytes].
@@ -65,6 +66,23 @@ def test_every_animation_is_small_and_has_words_and_a_still() -> None:
         assert np.allclose(drawn, [*places[-1, a], *places[-1, b]], atol=1e-3)
         assert places.min() >= -1
         assert places.max() <= ACROSS + 1
+
+
+def test_springs_that_are_as_far_stand_in_their_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By how far away they are, those behind first; and where they are as far, by their numbers, whoever sorts."""
+    setup = find("cloth").setup({"rows": 5, "columns": 5})
+    moved = motion(setup)
+    near = np.where(np.arange(len(setup.system.masses)) < 15, 1.0, 0.0)
+
+    def in_two_planes(self: View, positions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return positions[..., :2], np.broadcast_to(near, positions.shape[:-1])
+
+    monkeypatch.setattr(View, "project", in_two_planes)
+    made = animated("cloth", setup.system, moved)
+    data = json.loads(made.data)
+    order = np.frombuffer(base64.b64decode(data["order"]), "<u2").reshape(data["frames"], -1)
+    depths = near[setup.system.springs].mean(axis=1).tolist()
+    assert order[-1].tolist() == sorted(range(len(depths)), key=depths.__getitem__)
 
 
 def test_the_same_scene_is_the_same_bytes_and_asks_for_nothing() -> None:

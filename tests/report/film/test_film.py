@@ -18,7 +18,8 @@ from reference.errors import InputError
 from reference.obstacles import Plane, Sphere
 from reference.scenes import Setup, find
 from reference.stepper import catalogued
-from report.film.drawing import colour_map, lines, strain
+from reference.system import MassSpringSystem
+from report.film.drawing import FAR, Look, colour_map, lines, strain
 from report.film.film import RATE, Film, film, frame_steps, leaves, look_at, parameters_at, shots
 from report.film.film_file import write_film
 from report.film.obstacle_image import obstacle_image
@@ -127,6 +128,34 @@ def test_strain_is_length_over_rest_length_less_one() -> None:
     x = setup.system.positions
     assert strain(before, x) == pytest.approx([0.01 / 0.125], rel=1e-12)
     assert strain(after, x) == pytest.approx([0.035 / 0.1], rel=1e-12)
+
+
+def two_planes() -> MassSpringSystem:
+    """Eight springs in the plane nearer to the eye, and then eight in the one behind; no two of the same stretch."""
+    x, z = np.meshgrid(np.arange(9.0), [1.0, 0.0])
+    j = np.arange(8)
+    return MassSpringSystem(
+        positions=np.column_stack([x.ravel(), np.zeros(18), z.ravel()]),
+        springs=np.concatenate([np.column_stack([j, j + 1]), np.column_stack([j + 9, j + 10])]),
+        masses=np.array(0.02),
+        rest_lengths=1.0 + 0.01 * np.arange(16),
+        stiffness=np.array(200.0),
+    )
+
+
+def test_the_farther_is_drawn_before_the_nearer_and_what_is_as_far_in_its_order() -> None:
+    """Which of two springs is on top must not depend on how a machine sorts; their colours go with them."""
+    system = two_planes()
+    view = View(np.zeros(3), np.eye(3), 100.0)
+    look = Look(view, (-1.0, 9.0, -1.0, 1.0), 0.2, (0.0, 1.0), None)
+    drawn = lines(system, system.positions, look, colour_map())
+    order = [*range(8, 16), *range(8)]
+    places = view.project(system.positions)[0]
+    assert drawn.segments.tolist() == places[system.springs[order]].tolist()
+    shades = colour_map()(0.5 + strain(system, system.positions)[order] / 0.4)
+    assert drawn.colours[:, :3].tolist() == shades[:, :3].tolist()
+    assert drawn.colours[:, 3].tolist() == [FAR] * 8 + [1.0] * 8
+    assert not drawn.hidden.any()
 
 
 def test_perspective_is_that_of_a_pinhole() -> None:

@@ -10,7 +10,7 @@ from types import ModuleType, SimpleNamespace
 import pytest
 
 from reference.errors import InputError
-from report.live.number_slider import STEPS, NumberSlider
+from report.live.number_slider import STEPS, NumberSlider, short
 from report.live.slider_marks import set_marks
 
 
@@ -56,6 +56,23 @@ def test_a_number_slider_has_its_new_value_when_it_is_told_of_and_its_old_one_if
     with pytest.raises(InputError):
         waiting.pop()()
     assert (seen[-1], shown.value, number.value) == ((7.0, 7.0), 10.0, 10.0)
+
+
+@pytest.mark.parametrize(
+    ("number", "said"),
+    [
+        (104.0, "100"),
+        (9949.0, "9900"),
+        (9999.0, "1e4"),
+        (1e-3, "0.001"),
+        (9.9e-4, "9.9e-4"),
+        (0.00125, "0.0013"),
+        (2e7, "2e7"),
+    ],
+)
+def test_a_mark_is_a_number_in_two_figures(number: float, said: str) -> None:
+    """With a power of ten below a thousandth and from ten thousand on."""
+    assert short(number) == said
 
 
 def test_marks_can_be_set_with_the_viser_there_is() -> None:

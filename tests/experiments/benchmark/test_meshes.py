@@ -1,0 +1,66 @@
+"""The meshes that speed is measured on: counted by hand; and the memory that Linux tells."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from experiments.benchmark import meshes
+from experiments.benchmark.meshes import CLOTH, JELLO, cases, cloth_on_a_sphere, lattice, string
+
+
+@pytest.mark.parametrize(("rows", "columns"), [(3, 3), (4, 6)])
+def test_a_cloth_has_the_springs_it_should(rows: int, columns: int) -> None:
+    """Along the axes, across both ways, and two along; each at its rest length, 0.1 m from mass to mass."""
+    found = lattice((rows, columns), CLOTH)
+    along = (rows - 1) * columns + rows * (columns - 1)
+    bending = (rows - 2) * columns + rows * (columns - 2)
+    across = 2 * (rows - 1) * (columns - 1)
+    lengths = np.round(found.rest_lengths, 9).tolist()
+    assert len(found.masses) == rows * columns
+    assert [lengths.count(length) for length in (0.1, 0.141421356, 0.2)] == [along, across, bending]
+    assert len(lengths) == along + across + bending == len({frozenset(pair) for pair in found.springs.tolist()})
+    a, b = found.positions[found.springs.T]
+    assert np.linalg.norm(b - a, axis=1) == pytest.approx(found.rest_lengths, rel=1e-12)
+    assert np.flatnonzero(found.fixed).tolist() == [0]
+
+
+def test_a_jello_joins_every_mass_to_its_26_neighbours() -> None:
+    """The one inside a block of three to all others, and those at a corner to seven."""
+    found = lattice((3, 3, 3), JELLO)
+    ends = np.bincount(found.springs.ravel(), minlength=27)
+    assert ends[13] == 26
+    assert ends[[0, 2, 6, 8, 18, 20, 24, 26]].tolist() == [7] * 8
+
+
+def test_the_cloth_lies_on_the_sphere() -> None:
+    """Level, its middle at the top of a sphere half as wide as the cloth, everything else outside."""
+    found = cloth_on_a_sphere(5)
+    (sphere,) = found.obstacles
+    assert np.ptp(found.positions, axis=0) == pytest.approx([0.4, 0.0, 0.4])
+    gaps = np.linalg.norm(found.positions - sphere.centre, axis=1) - sphere.radius  # type: ignore[attr-defined]
+    assert sphere.radius == pytest.approx(0.1)  # type: ignore[attr-defined]
+    assert gaps[12] == pytest.approx(0.0, abs=1e-15)
+    assert np.delete(gaps, 12).min() > 0
+
+
+def test_a_case_is_as_large_as_its_name_says() -> None:
+    """Those that are made quickly."""
+    made = cases()
+    sizes = {name: len(made[name]().masses) for name in ("string 20", "string 200", "cloth 30 x 30", "jello 10^3")}
+    # the mass that holds a string comes on top
+    assert sizes == {"string 20": 21, "string 200": 201, "cloth 30 x 30": 900, "jello 10^3": 1000}
+    assert (string(20).damping > 0).all()
+    assert string(20).drag > 0
+
+
+def test_memory_is_what_linux_says_in_bytes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A line of a file as it writes it, in kB of 1024 bytes; 0 where there is no such line."""
+    status = tmp_path / "status"
+    status.write_text("Name:\tpython\nVmHWM:\t    2048 kB\nVmRSS:\t    1000 kB\n", encoding="ascii")
+    monkeypatch.setattr(meshes, "STATUS", status)
+    assert [meshes._memory(line) for line in ("VmHWM", "VmRSS", "VmSwap")] == [2048 * 1024, 1000 * 1024, 0]
+    monkeypatch.setattr(meshes, "STATUS", tmp_path / "nowhere")
+    assert meshes.peak_per_mass("string 20") is None
