@@ -40,6 +40,7 @@ BARE_REFERENCE = (
         for name in ("barrier", "cloths", "drape", "lattices", "line", "parameters", "strings", "trusses")
     ),
     "scenes",
+    "spring_law",
     "state",
     "system",
 )

@@ -17,7 +17,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from experiments.scenes import motion
+from experiments.scenes import shown
+from reference.errors import SolverError
 from reference.scenes import find
 from reference.state import Array, Trajectory
 from reference.system import IntArray, MassSpringSystem
@@ -63,9 +64,15 @@ class Animation:
 
 
 def animation(name: str) -> Animation:
-    """The default scene of a name, by the reference."""
-    setup = find(name).setup({})
-    return animated(name, setup.system, motion(setup))
+    """The default scene of a name, by the reference, from a run that is done.
+
+    Raises:
+        SolverError: where no step that was tried is short enough.
+    """
+    found = shown(find(name))
+    if found.motion is None:
+        raise SolverError(f"{name} is not shown: {'; '.join(found.failures)}")
+    return animated(name, found.system, found.motion)
 
 
 def animated(name: str, system: MassSpringSystem, moved: Trajectory) -> Animation:

@@ -95,5 +95,5 @@ def test_a_map_is_a_figure_and_a_table_of_growth(tmp_path: Path) -> None:
     with (tmp_path / "pymunk_springs-dt-damping.csv").open(newline="", encoding="utf-8") as file:
         rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
     assert len(rows) == 16 * 16
-    assert (rows[0]["dt"], rows[-1]["dt"]) == (1e-3, 4e-3)
-    assert (rows[0]["damping"], rows[-1]["damping"]) == (0.0, 0.1)
+    assert (rows[0]["dt [s]"], rows[-1]["dt [s]"]) == (1e-3, 4e-3)
+    assert (rows[0]["damping [N s/m]"], rows[-1]["damping [N s/m]"]) == (0.0, 0.1)

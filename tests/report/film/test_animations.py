@@ -8,7 +8,7 @@ import json
 import numpy as np
 import pytest
 
-from experiments.scenes import motion
+from experiments.scenes import shown
 from reference.scenes import find
 from report.film.animations import ACROSS, PARTS, SCRIPT, SHOWN, SLOW, Animation, animated, animation
 from report.film.view import View
@@ -37,7 +37,9 @@ def check_places(made: Animation, positions: np.ndarray) -> None:
 def test_the_frames_are_the_motion() -> None:
     """Of the string; and those of a string by another step are not."""
     made = animation("string")
-    moved = motion(find("string").setup({})).positions
+    found = shown(find("string")).motion
+    assert found is not None
+    moved = found.positions
     check_places(made, moved)
     wrong = moved.copy()
     wrong[-1, -1, 0] += 0.05
