@@ -45,7 +45,10 @@ def _panel(axes: Any, case: str, rows: Sequence[Row], names: Sequence[str]) -> N
             if row.predicted.dt is not None:
                 axes.text(1.2 * row.predicted.dt, y, _measured(row), **beside)
             else:
-                word = "unstable at any dt" if row.predicted.growth is not None else _measured(row)
+                word = next(
+                    (w for w in ("unstable", "stable") if row.predicted.reason.startswith(f"{w} at any dt")), ""
+                )
+                word = f"{word} at any dt" if word else _measured(row)
                 axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), **beside)
     axes.set_xscale("log")
     axes.xaxis.set_minor_formatter(NullFormatter())
