@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from experiments.advice import wording as advice_words
+from experiments.advice.accuracy import accurate_steps, table
+from experiments.advice.accuracy import sentences as accuracy_words
 from experiments.advice.advice import Advice
 from experiments.divergence import result_of
 from experiments.experiment import Experiment, Result, Table
@@ -63,10 +65,13 @@ def moved(setup: Setup, advised: Result, progress: Progress) -> Result:
     steps = [advice.advised for advice in found if advice.advised]
     dt = setup.dt if survive or not steps else min(steps)
     at = Setup(setup.name, setup.system, dt, setup.duration, setup.changes)
-    result = result_of(compare(at, [engine for engine in installed_engines() if engine.name in able], progress))
+    compared = compare(at, [engine for engine in installed_engines() if engine.name in able], progress)
+    result, accurate = result_of(compared), accurate_steps(compared, found)
     start = f"With dt = {dt:g} s, {'its own' if survive or not steps else 'as none comes to its end with its own'}. "
     first, *others = result.findings
-    return Result([start + first, *others], result.tables, result.data, result.failures)
+    findings = [start + first, *accuracy_words(accurate, dt), *others]
+    tables = [*result.tables, table(accurate)] if accurate else result.tables
+    return Result(findings, tables, result.data, result.failures)
 
 
 def made_of(setup: Setup) -> Result:
