@@ -18,7 +18,7 @@ from reference.theory.limits import growth, stability_limit
 from report.live.stepping import scheme_behind
 
 #: Up to this number of coordinates growth at the page's dt is told too: it takes the whole Jacobian of a step.
-GROWTH_UP_TO = 120
+GROWTH_UP_TO = 300
 
 #: The most coordinates of which a page looks for a limit: those of larger scenes take many seconds.
 MOST = 4_000
