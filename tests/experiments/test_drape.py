@@ -49,6 +49,17 @@ def test_a_flat_cloth_has_coefficient_one_and_one_hung_straight_down_none() -> N
     assert shadow(pulled, triangles, system)["coefficient"] == pytest.approx(0.0, abs=0.02)
 
 
+def test_the_outline_is_how_far_the_shadow_reaches_in_each_direction() -> None:
+    """From -pi on round about, of x towards z: twice as far along x, half along -z; to the breadth of a triangle."""
+    system, _ = cloth(0.017, 0.006, 0)
+    triangles = disc(drape.RADIUS, 0.006, 0).triangles
+    x, _, z = system.positions.T
+    moved = system.positions * np.column_stack([np.where(x > 0, 2.0, 1.0), np.ones(len(x)), np.where(z < 0, 0.5, 1.0)])
+    outline = shadow(moved, triangles, system)["outline"]
+    backwards, down, along, up = outline[[0, DIRECTIONS // 4, DIRECTIONS // 2, 3 * DIRECTIONS // 4]] / drape.RADIUS
+    assert (backwards, down, along, up) == pytest.approx((1.0, 0.5, 2.0, 1.0), rel=0.05)
+
+
 @pytest.mark.parametrize("waves", [3, 6, 11])
 def test_folds_are_counted(waves: int) -> None:
     """Of an outline of so many waves of 10 mm; of one that is nearly round, none."""

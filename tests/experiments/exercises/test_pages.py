@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,16 @@ def test_the_texts_have_no_violation_and_ask_for_nothing(tmp_path: Path, request
             views = VIEWS if request.config.getoption("--full") else [VIEWS[(exercise.number + 1) % len(VIEWS)]]
             wrong |= {(exercise.name, view): complaints(Shown(browser, file, view)) for view in views}
     assert {where: found for where, found in wrong.items() if found} == {}
+
+
+def test_markup_in_a_text_is_text(tmp_path: Path) -> None:
+    """As in a comparison of a < b that is taken for a tag; Markdown's own tables are tables."""
+    folder = tmp_path / "e99_markup"
+    folder.mkdir()
+    (folder / "text.md").write_text("Is <b>a</b> < *c*?\n\n| x |\n| - |\n| 1 |\n\n", encoding="utf-8")
+    body = page(replace(next(iter(exercises().values())), folder=folder)).partition("<main>")[2]
+    assert "Is &lt;b&gt;a&lt;/b&gt; &lt; <em>c</em>?" in body
+    assert "<td>1</td>" in body
 
 
 def complaints(shown: Shown) -> list[str]:

@@ -87,3 +87,11 @@ def test_a_scheme_is_implicit_if_something_stiff_does_not_throw_it_far(known: Sc
         end = known.on(SpringMotion(system))(system.start, 1e-3)
         reached.append(float(np.abs(end.velocities).max()))
     assert (min(reached) < 25.0) == (known.implicit or known == BOUNDED_ALL_THE_SAME), reached
+
+
+def test_a_parameter_that_is_none_is_refused_by_name() -> None:
+    """With what was meant, where the scheme has any; else with that it has none."""
+    with pytest.raises(InputError, match=r"unknown parameter of scheme .* 'round': did you mean 'rounds'"):
+        find("drift_kick_sequential_damping").with_parameters(round=3)
+    with pytest.raises(InputError, match=r"^scheme 'heun' has no parameters: rounds was given$"):
+        find("heun").with_parameters(rounds=3)

@@ -17,6 +17,7 @@ from engines.process.isolation import EngineStepper
 from experiments.divergence import result_of
 from experiments.runs.comparison import compare, too_slow
 from experiments.runs.steppers import all_steppers, default_steppers
+from reference.errors import InputError
 from reference.lecture.listings import listings
 from reference.scenes import Setup
 from reference.scenes import find as find_scene
@@ -314,3 +315,19 @@ def test_what_would_fill_the_memory_is_refused_before_it_is_run(monkeypatch: pyt
         "springlab: 1 steppers, 2 masses and 100 steps take 1.2e-05 GiB of memory, where 9.31e-07 are free: "
         "expected fewer of them; see --stepper and --duration\n"
     )
+
+
+def test_room_is_asked_for_those_that_are_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Those that take long are left out of it unless they are asked for, and the others are in it."""
+
+    class Slow(SchemeStepper):
+        """Takes long with more than one mass."""
+
+        interactive_up_to = 1
+
+    steppers = [SchemeStepper(find_scheme("heun")), Slow(find_scheme("rk4"))]
+    setup = Setup("spring", find_scene("spring").system({}), 1e-3, 0.1)
+    monkeypatch.setattr("psutil.virtual_memory", lambda: SimpleNamespace(available=1000))
+    for patient, counted in ((False, 1), (True, 2)):
+        with pytest.raises(InputError, match=f"^{counted} steppers, "):
+            compare(setup, steppers, patient=patient)

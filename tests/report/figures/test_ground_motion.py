@@ -71,6 +71,7 @@ def test_lines_of_the_truck_are_sags_in_millimetres_at_its_position() -> None:
         assert found[0].get_label() == f"crosses at {speed:g} m/s, {len(rows)} steppers"
         each = [drawn.get_markevery() for drawn in found]
         assert len(set(each)) == len(each)  # their markers are not over one another
+        assert all(0 <= first < every < len(sags) for first, every in each)  # and each has some
     bottom, top = crossed().get_ylim()
     assert bottom > top
 
