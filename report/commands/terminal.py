@@ -103,11 +103,11 @@ def _widths(columns: Sequence[str], cells: Sequence[Sequence[str]], part: Sequen
     """How wide some of the columns are, each by its number: what is left of the width goes to those that are folded."""
     texts = {i: [row[i] for row in cells] for i in part}
     widths = {i: _least(columns[i], texts[i], folded=True) for i in part}
-    left = width - sum(widths.values()) - GAP * len(part)
-    for i in part:
-        more = max(0, min(left, max(map(len, [columns[i], *texts[i]])) - widths[i]))
-        widths[i] += more
-        left -= more
+    wanted = {i: max(map(len, [columns[i], *texts[i]])) for i in part}
+    for _ in range(width - sum(widths.values()) - GAP * len(part)):
+        folded = [i for i in part if widths[i] < wanted[i]]
+        if folded:
+            widths[min(folded, key=lambda i: widths[i] / wanted[i])] += 1
     return widths
 
 
