@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from experiments.limits.stability_map import StabilityMap
+from reference.state import Array
 from report.figures import BLACK_ON_COLOURS, Picture, new_figure
 
 #: Growth per step at which the colours end, and below which it counts as none.
@@ -30,11 +31,12 @@ def draw_field(axes: Any, found: StabilityMap) -> Any:
     )
     if len(found.boundary):
         axes.plot(*found.boundary.T, "-", color=BLACK_ON_COLOURS, linewidth=2)
-    if found.predicted_limit is not None:
+    if found.predicted_limit is not None and _crosses(found.predicted_limit[2]):
         xs, ys, limit = found.predicted_limit
         axes.contour(xs, ys, limit, levels=[1.0], colors=BLACK_ON_COLOURS, linewidths=2)
-    axes.set_xlim(found.x_values[0], found.x_values[-1])
-    axes.set_ylim(found.y_values[0], found.y_values[-1])
+    for limits, values in ((axes.set_xlim, found.x_values), (axes.set_ylim, found.y_values)):
+        if len(values) > 1:
+            limits(values[0], values[-1])
     axes.grid(visible=False)
     axes.set_xlabel(found.x.heading)
     axes.set_ylabel(found.y.heading)
@@ -56,7 +58,15 @@ def words(found: StabilityMap) -> str:
     return f"Map of growth over {plane} for {found.stepper}: {stable:.0%} of it is stable."
 
 
+def _crosses(limit: Array) -> bool:
+    """Whether the largest stable dt over dt is 1 somewhere on a plane."""
+    return bool(np.nanmin(limit) < 1 < np.nanmax(limit))
+
+
 def _prediction(found: StabilityMap) -> str:
+    if found.predicted_limit is not None and not _crosses(found.predicted_limit[2]):
+        word = "stable" if np.nanmin(found.predicted_limit[2]) >= 1 else "unstable"
+        return f"{found.predicted_by}: predicted to be {word} on all of this plane"
     if len(found.boundary) or found.predicted_limit is not None:
         return f"black: predicted limit of\n{found.predicted_by}"
     return f"{found.predicted_by}: predicted to have no limit here, being stable or unstable at any dt"

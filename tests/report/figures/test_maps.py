@@ -82,6 +82,27 @@ def test_where_no_axis_is_dt_the_line_is_where_the_limit_is_the_dt() -> None:
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("masses [1]", "drag [N s/m]")
 
 
+@pytest.mark.parametrize(("factor", "word"), [(100.0, "stable"), (0.01, "unstable")])
+def test_where_the_limit_is_not_on_the_plane_no_line_is_promised(factor: float, word: str) -> None:
+    """All of it is on one side; Matplotlib's warning of a contour without a line would fail this test."""
+    found = plane()
+    assert found.predicted_limit is not None
+    xs, ys, limit = found.predicted_limit
+    beside = type(found)(**{**vars(found), "predicted_limit": (xs, ys, factor * (limit + 0.1))})
+    axes = draw_map(beside).figure.axes[0]
+    assert not [c for c in axes.get_children() if isinstance(c, ContourSet)]
+    title = axes.get_title(loc="left")
+    assert f"predicted to be {word} on all" in title
+    assert "black" not in title
+
+
+def test_an_axis_of_one_value_is_drawn() -> None:
+    """As masses from 2 to 2.4 are; there is no warning of limits that are the same."""
+    found = field()
+    one = {"y_values": found.y_values[:1], "growth": found.growth[:1], "boundary": found.boundary[:1]}
+    draw_map(type(found)(**{**vars(found), **one}))
+
+
 def test_without_a_limit_the_title_says_so() -> None:
     """No line."""
     found = field()
