@@ -215,7 +215,11 @@ def _findings(slides: dict[tuple[str, str], list[Slide | None]]) -> list[str]:
     sentences.append(
         f"Slide 17's rule as it is meant takes velocity outwards too. With kick-drift that holds the mass on, to where "
         f"cos(angle) is 1/2 of that cosine whatever the step: predicted {held:.1f} degrees, measured "
-        + (f"{leaves['kick_drift', ALONG]:.1f}." if ("kick_drift", ALONG) in leaves else "none, it does not leave.")
+        + (
+            f"{leaves['kick_drift', ALONG]:.1f}."
+            if ("kick_drift", ALONG) in leaves
+            else f"none, it does not leave in {DURATION:g} s."
+        )
     )
     printed = finest.get(("lecture_barrier", PRINTED))
     if printed is not None and printed.angle is None:
@@ -227,7 +231,7 @@ def _findings(slides: dict[tuple[str, str], list[Slide | None]]) -> list[str]:
     if engines:
         furthest = max(engines, key=lambda key: abs(leaves.get(key, np.inf) - right))
         deepest = max(engines, key=lambda key: engines[key].depth)
-        where = f"at {leaves[furthest]:.1f} degrees" if furthest in leaves else "not at all"
+        where = f"at {leaves[furthest]:.1f} degrees" if furthest in leaves else f"not in {DURATION:g} s"
         sentences.append(
             f"Of {len(engines)} engine settings the one furthest from the true angle, {furthest[0]}, leaves {where}; "
             f"the deepest inside, {deepest[0]}, is by {engines[deepest].depth:.1e} m."
@@ -238,7 +242,7 @@ def _findings(slides: dict[tuple[str, str], list[Slide | None]]) -> list[str]:
 def _said(leaves: dict[tuple[str, str], float], keys: Sequence[tuple[str, str]]) -> str:
     return " and ".join(
         f"{name}, a rule that {rule}, "
-        + (f"does at {leaves[name, rule]:.1f}" if (name, rule) in leaves else "does not")
+        + (f"does at {leaves[name, rule]:.1f}" if (name, rule) in leaves else f"does not in {DURATION:g} s")
         for name, rule in keys
     )
 

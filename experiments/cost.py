@@ -268,7 +268,7 @@ def _speed_findings(costs: Sequence[Cost]) -> list[str]:
 
 
 def _twin_findings(costs: Sequence[Cost]) -> list[str]:
-    """How equal the errors of engines are to those of the schemes they are."""
+    """How far the errors of engines are from those of the schemes that they claim to be."""
     schemes = {c.stepper.name: c for c in costs if c.runs_as != "engine" and c.points}
     pairs = [
         (p.error, q.error)
@@ -281,8 +281,8 @@ def _twin_findings(costs: Sequence[Cost]) -> list[str]:
         return []
     apart = max(abs(p - q) / q for p, q in pairs)
     return [
-        f"An engine's errors are those of the scheme it is identified with, to {apart:.0e} of them over {len(pairs)} "
-        "runs: the lines differ by what a step costs."
+        f"An engine's errors differ from those of the scheme that it claims to step by, by {apart:.0e} of them "
+        f"at most in {len(pairs)} runs."
     ]
 
 

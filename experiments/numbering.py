@@ -176,7 +176,7 @@ def names(orders: frozenset[str] | None) -> str | None:
 
 
 def _rounds_table(convergences: Sequence[Convergence]) -> Table:
-    columns = ["damping [N s/m]", "rounds", "springs reversed [m]", "predicted: a round leaves", "measured"]
+    columns = ["damping [N s/m]", "rounds", "springs reversed [m]", "predicted: a round leaves [1]", "fitted [1]"]
     rows = [
         [c.damping, n, finite(distance), c.predicted, c.measured]
         for c in convergences
@@ -229,8 +229,9 @@ def _rounds_finding(c: Convergence) -> str:
     first, usual = c.distances[0], c.distances[ROUNDS.index(default)]
     return (
         f"Damped with {c.damping:g} N s/m, Pymunk's string with its springs reversed differs by {first:.1e} m with "
-        f"{few} round in a step and by {usual:.1e} m with the default of {default}; each further round leaves "
-        f"{c.measured:.2f} of that (predicted in the long run: {c.predicted:.2f})."
+        f"{few} round in a step and by {usual:.1e} m with the default of {default}. From as many rounds as "
+        f"springs on, each further one leaves {c.measured:.2f} of that, fitted (predicted in the long run: "
+        f"{c.predicted:.2f})."
     )
 
 

@@ -65,12 +65,13 @@ def _findings(slope: float, rows: list[list[float | None]], cable_error: float |
     first, last = rows[0], rows[-1]
     sentences = [
         f"From {first[0]:g} to {last[0]:g} N/m the string comes from {first[1]:.2g} m to {last[1]:.2g} m of the "
-        f"pendulum of as many masses: the distance goes as stiffness to the power {slope:.2f} (predicted: -1)."
+        f"pendulum of as many masses, at most on the way. From {rows[2][0]:g} N/m on the distance goes as stiffness to "
+        f"the power {slope:.2f}, fitted (predicted: -1)."
     ]
     if cable_error is not None:
         sentences.append(
-            f"MuJoCo's composite cable, its masses lumped at the tips, is that pendulum: {cable_error:.1e} m from it "
-            f"with RK4 at dt = {CABLE_DT:g} s."
+            f"MuJoCo's composite cable, its masses lumped at the tips, is {cable_error:.1e} m at most from that "
+            f"pendulum, with RK4 at dt = {CABLE_DT:g} s."
         )
     return sentences
 

@@ -65,7 +65,7 @@ def test_the_quickest_engine_comes_before_the_slowest() -> None:
 
 def test_engines_errors_are_those_of_their_schemes() -> None:
     """To nothing here, over the runs of all that did not blow up: four of each."""
-    assert numbers(finding(cost.usual(), "identified with")) == [0, 12]
+    assert numbers(finding(cost.usual(), "claims to step by")) == [0, 12]
 
 
 def test_failures_are_who_did_not_run_and_who_did_not_come_far() -> None:

@@ -44,7 +44,7 @@ def test_the_table_of_rounds_has_each_difference_at_its_round() -> None:
         rows = [row for row in records(numbering.usual(), "numbering_rounds") if row["damping [N s/m]"] == damping]
         assert [row["rounds"] for row in rows] == list(ROUNDS)
         assert [row["springs reversed [m]"] for row in rows] == pytest.approx([START * left**n for n in ROUNDS])
-        assert {(row["predicted: a round leaves"], row["measured"]) for row in rows} == {(predicted, left)}
+        assert {(row["predicted: a round leaves [1]"], row["fitted [1]"]) for row in rows} == {(predicted, left)}
 
 
 def test_sentences_count_who_sees_nothing_and_have_the_range_of_who_does() -> None:
