@@ -69,7 +69,7 @@ def _findings(rows: Sequence[Row]) -> list[str]:
     worst = max(compared, key=lambda row: abs(row.relative_difference or 0.0))
     apart = abs(worst.relative_difference or 0.0)
     sentences = [
-        f"{len(compared)} limits were predicted and measured: they agree to {apart:.1e} of themselves or better (the "
+        f"{len(compared)} limits were predicted and measured: they differ by {apart:.1e} of themselves at most (the "
         f"widest apart is {worst.stepper})."
     ]
     never = sorted({row.stepper for row in rows if row.predicted.growth is not None})
