@@ -58,6 +58,9 @@ def excess(scheme: Scheme, rest: Equilibrium, found: Rates, dt: float) -> float:
 
 def check_limit(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) -> None:
     """Nothing grows below the limit, something does above; without a limit, something at all dt, or nothing at any."""
+    if found.fastest == 0:
+        assert limit.reason == "nothing moves"
+        return
     rounding = ROUNDING[scheme.linear]
     if limit.dt is not None and limit.dt * found.fastest < 1e-3:
         rounding = 1e-7  # in so short steps slow modes are nearer to 1 than rounding tears pairs of eigenvalues apart
@@ -71,7 +74,7 @@ def check_limit(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) -
             assert limit.reason.startswith(("nothing moves", "no stable step"))
         return
     assert max(excess(scheme, rest, found, part * limit.dt) for part in BELOW) < rounding
-    if limit.dt * found.fastest > 1e-5:  # in shorter steps growth is below what a double has of digits beside 1
+    if limit.dt * found.fastest > 2e-3:  # in shorter steps growth of slow modes is lost beside 1
         assert max(excess(scheme, rest, found, part * limit.dt) for part in ABOVE) > 1e-13
 
 
