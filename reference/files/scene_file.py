@@ -206,12 +206,14 @@ def load(path: Path, settings: Mapping[str, Any], dt: float | None = None, durat
     except (msgspec.DecodeError, RecursionError) as error:
         raise InputError(f"scene file {path}: {error}") from None
     try:
-        setup = _setup(path, content, {}, None, None)
+        return _setup(path, content, settings, dt, duration)
     except InputError as error:
-        raise InputError(f"scene file {path}{_line(text, str(error))}: {error}") from None
-    # What is set otherwise is not the file's fault.
-    otherwise = settings or dt is not None or duration is not None
-    return _setup(path, content, settings, dt, duration) if otherwise else setup
+        # What is set otherwise is not the file's fault; what the file alone does not allow either, is.
+        try:
+            _setup(path, content, {}, None, None)
+        except InputError as its_own:
+            raise InputError(f"scene file {path}{_line(text, str(its_own))}: {its_own}") from None
+        raise error
 
 
 def _setup(

@@ -59,7 +59,7 @@ def reproduction(segment: Segment) -> Reproduction:
         return Reproduction((_command(segment, segment.scene, segment.steppers, words),), {}, note)
     if is_file(segment.scene):  # a scene file can name a scene, but no other file
         return _written_out(segment, changes, note)
-    file, text = f"{segment.scene}-live.toml", _named(segment) + _changes(changes)
+    file, text = f"{segment.scene}-live.toml", _times(segment) + _named(segment) + _changes(changes)
     return Reproduction((_command(segment, file, segment.steppers),), {file: text}, note)
 
 
@@ -70,7 +70,7 @@ def _written_out(segment: Segment, changes: list[Change], note: str) -> Reproduc
     files, commands = {}, []
     for i, (state, names) in enumerate(groups):
         file = f"{stem}-live{'' if len(groups) == 1 else f'-{i + 1}'}.toml"
-        files[file] = written_out(segment.system, state) + _changes(changes)
+        files[file] = _times(segment) + written_out(segment.system, state) + _changes(changes)
         commands.append(_command(segment, file, tuple(names)))
     return Reproduction(tuple(commands), files, note)
 
@@ -88,9 +88,17 @@ def _groups(segment: Segment) -> list[tuple[State, list[str]]]:
 
 
 def _command(segment: Segment, scene: str, steppers: tuple[str, ...], more: list[str] | None = None) -> str:
-    duration = segment.dt * max(1, segment.steps)
     words = ["springlab", "compare", scene, *(f"--stepper={name}" for name in dict.fromkeys(steppers))]
-    return shlex.join([*words, f"--dt={segment.dt!r}", f"--duration={duration!r}", *(more or [])])
+    return shlex.join([*words, f"--dt={segment.dt!r}", f"--duration={_duration(segment)!r}", *(more or [])])
+
+
+def _times(segment: Segment) -> str:
+    """The file's own dt and duration [s], so that its changes fit without the command, too."""
+    return f"dt = {segment.dt!r}\nduration = {_duration(segment)!r}\n"
+
+
+def _duration(segment: Segment) -> float:
+    return segment.dt * max(1, segment.steps)
 
 
 def _same(one: State, other: State) -> bool:

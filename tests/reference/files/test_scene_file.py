@@ -296,6 +296,19 @@ def test_a_bad_file_is_told_where_and_what(tmp_path: Path, text: str, place: str
     assert str(refused.value) == f"scene file {file}{place}: {message}"
 
 
+def test_times_of_ones_own_are_those_that_changes_have_to_fit(tmp_path: Path) -> None:
+    """The scene lasts 0.5 s of itself: a change at 0.83 s is the file's mistake alone, and none in a run of 1.2 s."""
+    text = 'scene = "string"\n[[changes]]\ntime = 0.83\nparameter = "stiffness"\nvalue = 150\n'
+    file = written(tmp_path, text)
+    assert load(file, {}, duration=1.2).duration == 1.2
+    with pytest.raises(InputError, match=r"^scene file .* change of stiffness at 0\.83 s: expected at most 0\.499 s"):
+        load(file, {})
+    late = written(tmp_path, "duration = 1.2\n" + text)
+    with pytest.raises(InputError) as refused:
+        load(late, {}, duration=0.6)
+    assert str(refused.value).startswith("change of stiffness at 0.83 s: expected at most 0.599 s")
+
+
 def test_the_same_key_twice_has_no_one_line(tmp_path: Path) -> None:
     """The second change's value is wrong: the path says which, a line might say the other."""
     file = written(tmp_path, NAMED.replace("value = 0.05", 'value = "0.05"'))

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reference.files.scene_file import load
 from reference.scenes import find as find_scene
 from reference.state import Array
 from report.live.lab import Lab
@@ -109,6 +110,8 @@ def test_many_changes_go_into_a_file(labs: list[Lab], tmp_path: Path) -> None:
     assert apart(lab.timeline.lanes[0].state, ends(found, tmp_path)["heun"]) <= ROUNDING * lab.timeline.system.size
     halved = 0.5 * find_scene("bridge").system({}).stiffness
     np.testing.assert_allclose(lab.timeline.system.stiffness, halved, rtol=1e-15)
+    alone = load(tmp_path / "bridge-live.toml", {})
+    assert (alone.dt, alone.duration) == (lab.timeline.dt, 6 * lab.timeline.dt)
 
 
 @pytest.mark.parametrize("scene", ["crossing", "earthquake"])

@@ -222,15 +222,24 @@ class Visitor:
         self.see("t = 0.000 s, paused")
 
     def slide_dt(self, beyond: float) -> None:
-        """Drag the slider of dt to so many pixels beyond the mark of the limit."""
+        """Drag the slider of dt to so many pixels beyond the mark of the limit.
+
+        Where the page was drawn anew in between, the mouse has missed it, and drags again.
+        """
         slider = self.page.locator(".multi-slider-track-container").filter(has_text="▲")
-        mark = slider.locator(".multi-slider-mark-wrapper").filter(has_text="▲").bounding_box()
-        thumb = slider.locator(".multi-slider-thumb").bounding_box()
-        y = thumb["y"] + thumb["height"] / 2
-        self.page.mouse.move(thumb["x"] + thumb["width"] / 2, y)
-        self.page.mouse.down()
-        self.page.mouse.move(mark["x"] + mark["width"] / 2 + beyond, y, steps=4)
-        self.page.mouse.up()
+        mark = slider.locator(".multi-slider-mark-wrapper").filter(has_text="▲")
+        thumb = slider.locator(".multi-slider-thumb")
+
+        def missed_by() -> float:
+            """How far the thumb is from where it should be, after one drag [px]."""
+            (x, y), aim = centre(thumb), centre(mark)[0] + beyond
+            self.page.mouse.move(x, y)
+            self.page.mouse.down()
+            self.page.mouse.move(aim, y, steps=4)
+            self.page.mouse.up()
+            return abs(centre(thumb)[0] - centre(mark)[0] - beyond)
+
+        self.once(missed_by, lambda pixels: pixels < 3)
 
     def command(self, holds: str, folder: Path | None = None) -> str:
         """What "Copy command" shows, once it holds some words; the file it needs is kept in a folder."""
@@ -251,6 +260,12 @@ class Visitor:
         file = folder / download.value.suggested_filename
         download.value.save_as(file)
         return file
+
+
+def centre(element: Any) -> tuple[float, float]:
+    """Where the middle of an element is in the window [px]."""
+    box = element.bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
 def blue(picture: np.ndarray) -> np.ndarray:
