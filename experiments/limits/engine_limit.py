@@ -27,9 +27,9 @@ from reference.state import State
 from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium
+from reference.theory.layout import layout_of
 from reference.theory.measured_mode import WHOLE_UP_TO, fastest_mode_of_step
 from reference.theory.rates import Rates
-from reference.theory.step_map import layout_of
 
 #: Limits are found to this part of themselves.
 PRECISION = 1e-4

@@ -11,11 +11,12 @@ from experiments.limits.engine_limit import measure_engine
 from experiments.limits.predictions import Predictions, named
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
+from reference.errors import SolverError
 from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.stepper import SchemeStepper, Stepper
 from reference.system import MassSpringSystem
-from reference.theory.equilibria import spring_equilibrium
+from reference.theory.equilibria import equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.measured_mode import measured_mode_limit
 
 
@@ -27,6 +28,7 @@ class Row:
         predicted: its limit by theory, with the reason where there is none.
         measured: the same from runs; an engine's with the growth factors of its own step just below and above it.
         outcome: how the measurement ended.
+        about: which rest these are of, where the system has obstacles.
     """
 
     stepper: str
@@ -35,6 +37,7 @@ class Row:
     predicted: Limit
     measured: Limit
     outcome: str = "done"
+    about: str = ""
 
     @property
     def relative_difference(self) -> float | None:
@@ -50,8 +53,8 @@ class Row:
         if self.predicted.remark == self.measured.remark:
             reasons = {"predicted and measured": self.predicted.remark}
         told = [f"{word}: {reason}" for word, reason in reasons.items() if reason]
-        if self.system.obstacles:
-            told.append("of the scene without its obstacles")
+        if self.about:
+            told.append(self.about)
         return {
             "stepper": self.stepper,
             "damping": float(self.system.damping.max(initial=0.0)),
@@ -70,7 +73,8 @@ class Row:
 def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progress: Progress) -> list[Row]:
     """Predicted and measured limits of schemes and engines on one system, about its equilibrium.
 
-    Of a system with obstacles they are those of its springs and masses without them, and the rows say so.
+    Of a system with obstacles those of schemes are about its rest on them, where that is found; those of engines, whose
+    contacts are their own, of its springs and masses alone. The rows say which.
 
     What an engine's limit should be is predicted from the scheme it is identified with, on this very system. Engines
     are measured in parallel, in processes of their own, while schemes are worked on here.
@@ -80,6 +84,10 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
     """
     alone = replace(system, obstacles=())
     predictions = Predictions(alone, spring_equilibrium(alone))
+    of_schemes, about = predictions, ""
+    if system.obstacles:
+        rest, about = equilibrium_on_obstacles(system)
+        of_schemes = Predictions(system, rest)
     engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
     identified = predictions.identified(engines)
     predicted = {name: predictions.of_engine(found) for name, found in identified.items()}
@@ -92,13 +100,25 @@ def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progre
         for stepper in steppers:
             progress(stepper.name)
             if isinstance(stepper, SchemeStepper):
-                rows.append(_scheme_row(stepper, system, predictions))
+                rows.append(_scheme_row_about(stepper, system, of_schemes, predictions, about))
             elif isinstance(stepper, EngineStepper):
-                rows.append(_engine_row(stepper, system, predicted[stepper.name], measured[stepper.name].result()))
+                row = _engine_row(stepper, system, predicted[stepper.name], measured[stepper.name].result())
+                rows.append(replace(row, about="of the scene without its obstacles" if system.obstacles else ""))
             else:
                 none = Limit(None, "stability is of schemes and engines; identify says which scheme this is")
                 rows.append(Row(stepper.name, stepper.kind, system, none, none, "unsupported"))
     return rows
+
+
+def _scheme_row_about(
+    stepper: SchemeStepper, system: MassSpringSystem, on_obstacles: Predictions, alone: Predictions, about: str
+) -> Row:
+    """About the rest on obstacles, if there is one and the scheme's limit is found there; else without them."""
+    try:
+        return replace(_scheme_row(stepper, system, on_obstacles), about=about)
+    except SolverError as error:
+        why = f"of the scene without its obstacles: {error}"
+        return replace(_scheme_row(stepper, system, alone), about=why)
 
 
 def _scheme_row(stepper: SchemeStepper, system: MassSpringSystem, predictions: Predictions) -> Row:

@@ -52,7 +52,8 @@ def critical_mode(scheme: Scheme, linear: Linearisation, dt: float) -> CriticalM
     square = float(moves @ (linear.stiffness @ moves)) / float(moves @ (linear.mass * moves))
     system = linear.system
     shape = np.zeros_like(system.positions)
-    shape[~system.fixed] = moves.reshape(-1, system.dimension) / np.abs(moves).max()
+    of_masses = linear.moves(moves)
+    shape[~system.fixed] = of_masses.reshape(-1, system.dimension) / np.abs(of_masses).max()
     return CriticalMode(shape, float(np.sqrt(max(square, 0.0)) / (2 * np.pi)), _shares(linear, shape))
 
 

@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from reference.distance_constraints import RopeMotion
+from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.motion import Equations, EquationsOf
 from reference.pendulum import PendulumMotion
 from reference.state import State
 from reference.system import BoolArray, MassSpringSystem
+from reference.theory.contacts import ContactLinearisation, Contacts
 from reference.theory.equilibrium import equilibrium
 from reference.theory.linearisation import Linearisation
+from reference.theory.rest_on_obstacles import rest_on_obstacles
 
 
 @dataclass(frozen=True)
@@ -27,25 +30,55 @@ class Equilibrium:
         state: at rest, all forces in balance.
         free: which rows of the state can move.
         scale: a length [m] (for a pendulum an angle [rad]) that perturbations are to be small against.
+        contacts: what rests on obstacles; None where nothing does.
     """
 
     motion: Equations
     state: State
     free: BoolArray
     scale: float
+    contacts: Contacts | None = None
+
+    @property
+    def system(self) -> MassSpringSystem:
+        """Of masses and springs. Raises TypeError for other equations."""
+        if not isinstance(self.motion, SpringMotion):
+            raise TypeError(f"{type(self.motion).__name__} has no masses and springs")
+        return self.motion.system
 
     @cached_property
     def linear(self) -> Linearisation | None:
         """The equations of motion of springs, linearised here; None of other equations."""
-        return Linearisation(self.motion.system, self.state) if isinstance(self.motion, SpringMotion) else None
+        if not isinstance(self.motion, SpringMotion):
+            return None
+        if self.contacts is None:
+            return Linearisation(self.motion.system, self.state)
+        return ContactLinearisation(self.motion.system, self.state, contacts=self.contacts)
 
 
 def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
-    """Where a mesh of springs comes to rest. Raises SolverError if it never does."""
-    free = ~system.fixed
-    return Equilibrium(
-        SpringMotion(system), equilibrium(system), free, float(system.rest_lengths.min(initial=system.size or 1.0))
-    )
+    """Where a mesh of springs comes to rest, on obstacles if it has any. Raises SolverError if it never does."""
+    contacts = None
+    if system.obstacles:
+        state, touching = rest_on_obstacles(system)
+        contacts = touching if len(touching) else None
+    else:
+        state = equilibrium(system)
+    scale = float(system.rest_lengths.min(initial=system.size or 1.0))
+    return Equilibrium(SpringMotion(system), state, ~system.fixed, scale, contacts)
+
+
+def equilibrium_on_obstacles(system: MassSpringSystem) -> tuple[Equilibrium, str]:
+    """Where a system with obstacles comes to rest, on them if that is found, else without them; and which, in words."""
+    try:
+        rest = spring_equilibrium(system)
+    except SolverError as error:
+        alone = spring_equilibrium(replace(system, obstacles=()))
+        return alone, f"of the scene without its obstacles: {error}"
+    if rest.contacts is None:
+        return rest, "at its rest no mass presses on an obstacle"
+    pressed = len(set(rest.contacts.masses.tolist()))
+    return rest, f"about its rest on obstacles, where {pressed} mass{'es press' if pressed > 1 else ' presses'}"
 
 
 def pendulum_equilibrium(system: MassSpringSystem) -> Equilibrium:

@@ -18,10 +18,10 @@ from reference.schemes.catalogue import Scheme, find
 from reference.state import Array, State
 from reference.theory.definite import Definiteness, lowest_eigenvector
 from reference.theory.equilibria import Equilibrium
+from reference.theory.layout import Layout, layout_of
 from reference.theory.linearisation import Linearisation
 from reference.theory.numerical_range import polygon
 from reference.theory.oscillators import growth_of_oscillators
-from reference.theory.step_map import Layout, layout_of
 from reference.theory.strong_damping import drowned_from
 
 #: Schemes whose limit is certified and near, by the name of those that they are near to.

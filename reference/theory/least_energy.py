@@ -31,6 +31,9 @@ NEAR = 1e-6
 #: So many steps downhill; a cloth of 4,000 masses takes some hundred.
 MOST_STEPS = 2_000
 
+#: The least mu, as a part of weight over size: what no force holds is to stay where it is.
+LEAST_MU = 1e-14
+
 #: Up to so many coordinates, where that was not enough, L-BFGS goes on; and of these so many steps are enough to see.
 QUASI_NEWTON_UP_TO, MOST_STEPS_OF_SMALL = 600, 150
 
@@ -49,17 +52,8 @@ def least_energy(system: MassSpringSystem) -> State:
     Raises:
         SolverError: if it is not reached, and what could be done.
     """
-    search = _Search(system)
-    q = system.positions[~system.fixed].ravel()
-    for _ in range(MOST_PUSHES):
-        q = search.newton(search.downhill(q))
-        if not np.abs(search.force(q)).max(initial=0.0) < force_tolerance(system, search.weight):
-            raise SolverError("no equilibrium: the forces do not balance anywhere near the start")
-        away = search.downwards(q)
-        if away is None:
-            return search.at(q)
-        q = search.pushed(q, away)
-    raise SolverError(f"no equilibrium: after {MOST_PUSHES} pushes off ridges of the energy it is still on one")
+    descent = Descent(system, loads(system, parts_of(system)))
+    return descent.at(descent.off_ridges(system.positions[~system.fixed].ravel()))
 
 
 def force_tolerance(system: MassSpringSystem, weight: float) -> float:
@@ -68,15 +62,29 @@ def force_tolerance(system: MassSpringSystem, weight: float) -> float:
     return 1e-9 * weight + 8 * rounding * float(system.stiffness.max(initial=0.0))
 
 
-class _Search:
-    """The energy of a system over its free masses' coordinates, shape (free masses x d,)."""
+class Descent:
+    """The way down the energy of a system over its free masses' coordinates q, shape (free masses x d,).
 
-    def __init__(self, system: MassSpringSystem) -> None:
-        self._system = system
+    Attributes:
+        system: whose springs give way.
+        size: its own [m].
+        weight: what forces are small against [N].
+        longest: how far a step may lead along any axis [m].
+        quasi_newton_up_to: up to how many coordinates L-BFGS goes on.
+        most_steps: of larger systems.
+    """
+
+    longest = np.inf
+    quasi_newton_up_to = QUASI_NEWTON_UP_TO
+    most_steps = MOST_STEPS
+
+    def __init__(self, system: MassSpringSystem, carried: Array) -> None:
+        """What every mass weighs on the springs [N], shape (n, d)."""
+        self.system = system
         self._motion = SpringMotion(system.with_parameter("gravity", [0.0] * system.dimension))
         self._free = ~system.fixed
-        self._size = system.size or 1.0
-        self._loads = loads(system, parts_of(system))[self._free].ravel()
+        self.size = system.size or 1.0
+        self._loads = carried[self._free].ravel()
         tension = np.abs(self._motion.acceleration(system.start, damping=False)) * system.masses[:, None]
         # what forces are small against: what is carried, what the start pulls with, a millionth of what springs can
         firm = 1e-6 * float((system.stiffness * system.rest_lengths).max(initial=0.0))
@@ -84,42 +92,59 @@ class _Search:
 
     def at(self, q: Array) -> State:
         """The state at rest there."""
-        positions = self._system.positions.copy()
-        positions[self._free] = q.reshape(-1, self._system.dimension)
+        positions = self.system.positions.copy()
+        positions[self._free] = q.reshape(-1, self.system.dimension)
         return State(0.0, positions, np.zeros_like(positions))
 
     def force(self, q: Array) -> Array:
         """On the free masses [N]."""
-        forces = self._motion.acceleration(self.at(q), damping=False) * self._system.masses[:, None]
+        forces = self._motion.acceleration(self.at(q), damping=False) * self.system.masses[:, None]
         return np.asarray(forces[self._free].ravel() + self._loads)
 
     def energy(self, q: Array) -> float:
         """Of the springs, and of what they carry [J]."""
         x = self.at(q).positions
-        a, b = self._system.springs.T
-        stretch = np.linalg.norm(x[b] - x[a], axis=1) - self._system.rest_lengths
-        return float(elastic_energy(self._system.stiffness, stretch).sum() - self._loads @ q)
+        a, b = self.system.springs.T
+        stretch = np.linalg.norm(x[b] - x[a], axis=1) - self.system.rest_lengths
+        return float(elastic_energy(self.system.stiffness, stretch).sum() - self._loads @ q)
+
+    def off_ridges(self, q: Array) -> Array:
+        """Coordinates where forces balance and every push comes back, downhill from those given.
+
+        Raises:
+            SolverError: if they are not reached.
+        """
+        for _ in range(MOST_PUSHES):
+            q = self.newton(self.downhill(q))
+            if not np.abs(self.force(q)).max(initial=0.0) < force_tolerance(self.system, self.weight):
+                raise SolverError("no equilibrium: the forces do not balance anywhere near the start")
+            away = self.downwards(q)
+            if away is None:
+                return q
+            q = self.pushed(q, away)
+        raise SolverError(f"no equilibrium: after {MOST_PUSHES} pushes off ridges of the energy it is still on one")
 
     def downhill(self, q: Array) -> Array:
         """Coordinates where forces nearly balance, with less energy than those given."""
-        mu, height = self.weight / self._size, self.energy(q)
-        near = max(NEAR * self.weight, force_tolerance(self._system, 0.0))
-        for _ in range(MOST_STEPS if len(q) > QUASI_NEWTON_UP_TO else MOST_STEPS_OF_SMALL):
+        mu, height = self.weight / self.size, self.energy(q)
+        near = max(NEAR * self.weight, force_tolerance(self.system, 0.0))
+        for _ in range(self.most_steps if len(q) > self.quasi_newton_up_to else MOST_STEPS_OF_SMALL):
             force = self.force(q)
             largest = np.abs(force).max(initial=0.0)
             if largest < near:
                 return q
-            stiffness = self._stiffness(q, tension_only=largest > self.weight / len(self._free))
+            stiffness = self.stiffness(q, tension_only=largest > self.weight / len(self._free))
             step = _solve(stiffness, mu, force)
+            step *= min(1.0, self.longest / (np.abs(step).max(initial=0.0) or 1.0))
             promised = force @ step - step @ (stiffness @ step) / 2
             there = self.energy(q + step)
             kept = (height - there) / abs(promised) if promised else 0.0
             if kept > 0.1:
                 q, height = q + step, there
-            mu *= 0.25 if kept > 0.5 else 1.0 if kept > 0.1 else 4.0
-        if len(q) > QUASI_NEWTON_UP_TO:
+            mu = max(mu * (0.25 if kept > 0.5 else 1.0 if kept > 0.1 else 4.0), LEAST_MU * self.weight / self.size)
+        if len(q) > self.quasi_newton_up_to:
             raise SolverError(
-                f"no equilibrium was reached in {MOST_STEPS} steps downhill: start the scene nearer to it"
+                f"no equilibrium was reached in {self.most_steps} steps downhill: start the scene nearer to it"
             )
         return self._by_quasi_newton(q)
 
@@ -127,7 +152,7 @@ class _Search:
         """The same by L-BFGS, which creeps along valleys that are long and curved, as of strips that resist bending."""
         from scipy.optimize import minimize
 
-        scale = self.weight * self._size
+        scale = self.weight * self.size
         found = minimize(
             lambda q: self.energy(q) / scale,
             q,
@@ -140,16 +165,16 @@ class _Search:
     def newton(self, q: Array) -> Array:
         """The same to rounding; a trace of mu lets what no force holds stay where it is."""
         for _ in range(30):
-            stiffness = self._stiffness(q)
+            stiffness = self.stiffness(q)
             change = _solve(stiffness, 1e-13 * (abs(stiffness).max() or 1.0), self.force(q))
             q = q + change
-            if np.abs(change).max(initial=0.0) < 1e-14 * self._size:
+            if np.abs(change).max(initial=0.0) < 1e-14 * self.size:
                 break
         return q
 
     def downwards(self, q: Array) -> Array | None:
         """The direction in which the energy falls off a ridge, shape as q; None where all pushes come back."""
-        stiffness = self._stiffness(q)
+        stiffness = self.stiffness(q)
         flat = FLAT * float(abs(stiffness).max() or 1.0)
         shifted = stiffness + flat * _identity(len(q))
         if negative_eigenvalues(shifted) == 0:
@@ -158,14 +183,15 @@ class _Search:
 
     def pushed(self, q: Array, away: Array) -> Array:
         """Off the ridge, along the direction and to the side where the energy is less."""
-        push = PUSH * self._size * away / np.abs(away).max()
+        push = PUSH * self.size * away / np.abs(away).max()
         return min(q + push, q - push, key=self.energy)
 
-    def _stiffness(self, q: Array, tension_only: bool = False) -> Any:
-        blocks, _ = spring_blocks(self._system, self.at(q))
+    def stiffness(self, q: Array, tension_only: bool = False) -> Any:
+        """The derivative of the forces by q, its sign turned [N/m]: sparse."""
+        blocks, _ = spring_blocks(self.system, self.at(q))
         if tension_only:
-            blocks = Blocks(_without_compression(self._system, self.at(q), blocks.springs), blocks.masses)
-        return -assemble(self._system, blocks, sparse=True)
+            blocks = Blocks(_without_compression(self.system, self.at(q), blocks.springs), blocks.masses)
+        return -assemble(self.system, blocks, sparse=True)
 
 
 def _without_compression(system: MassSpringSystem, state: State, springs: Array) -> Array:

@@ -22,13 +22,16 @@ from reference.limit import Limit
 from reference.schemes.catalogue import Scheme, find
 from reference.theory.definite import Definiteness
 from reference.theory.equilibria import Equilibrium
+from reference.theory.keeps_to_surfaces import keeps_to_surfaces
+from reference.theory.layout import layout_of
 from reference.theory.numerical_range import limit_from_below
 from reference.theory.rates import Rates, rates
 from reference.theory.rates import fastest_rate as fastest_rate
 from reference.theory.runge_kutta import stability_polynomial, stable_steps
 from reference.theory.step_coefficients import is_quadratic
 from reference.theory.step_map import step_jacobian
-from reference.theory.step_spectrum import first_limit, unstable_at_any
+from reference.theory.step_on_obstacles import require_pressed
+from reference.theory.step_spectrum import WHOLE_UP_TO, first_limit, unstable_at_any
 from reference.theory.strong_damping import drowned_from, limit_with_rods
 from reference.theory.windows import windows_of
 
@@ -37,6 +40,9 @@ SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
 
 #: Of limits beyond steps in which damping is all but rigid.
 DROWNS = "in such steps the damping of springs drowns all else in rounding"
+
+#: Steps that solve for positions are differenced on obstacles up to this size of the whole state only: it takes long.
+SOLVES_FOR_POSITIONS, IMPLICIT_UP_TO = ("backward_euler", "implicit_midpoint"), 12
 
 #: The Runge-Kutta limit of a large system is one value where it is known so nearly from both sides.
 AS_GOOD_AS_ONE = 1e-8
@@ -56,19 +62,36 @@ def stability_limit(scheme: Scheme, rest: Equilibrium, found: Rates | None = Non
 
     Args:
         found: the eigenvalues of the motion there, where they are known already.
+
+    Raises:
+        SolverError: about a rest on obstacles, if the scheme has none there or its step is too large to be looked at.
     """
     found = found or rates(rest)
     if found.fastest == 0:
         return Limit(None, "nothing moves")
     scheme = find(SOLVED[scheme.name]) if scheme.name in SOLVED else scheme
     linear = rest.linear
+    if rest.contacts is not None and not (rest.contacts.flat(rest.system) and keeps_to_surfaces(scheme)):
+        return _on_obstacles(scheme, rest, found)
     if linear is not None and is_quadratic(scheme, linear.damped, linear.dragged):
         definite = Definiteness(scheme, linear, 1 / found.fastest)
         if definite.decides:
             return _by_definiteness(definite)
-    polynomial = stability_polynomial(scheme)
+    polynomial = stability_polynomial(scheme) if rest.contacts is None else None
     if polynomial is not None:
         return _by_polynomial(polynomial, rest, found)
+    return first_limit(scheme, rest, found)
+
+
+def _on_obstacles(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
+    """Of a step that springs see inside obstacles, or whose end follows a surface that curves."""
+    require_pressed(scheme, rest, 1 / found.fastest)
+    size, most = layout_of(scheme, rest, 1 / found.fastest)[0].size, WHOLE_UP_TO
+    if scheme.name in SOLVES_FOR_POSITIONS:
+        most = IMPLICIT_UP_TO
+    if size > most:
+        why = f"in this scheme's step springs see masses inside obstacles; up to {most} it is"
+        raise SolverError(f"not computed for {size} positions and velocities: {why}")
     return first_limit(scheme, rest, found)
 
 

@@ -62,6 +62,10 @@ class Linearisation:
         blocks = Blocks(np.zeros((len(self.system.springs), *2 * (self.system.dimension,))), coefficients)
         return -assemble(self.system, blocks, sparse=True)
 
+    def moves(self, along: Array) -> Array:
+        """Moves of the free masses, coordinate by coordinate, from the coordinates q, shape (m,)."""
+        return along
+
     @property
     def damped(self) -> bool:
         """Whether springs are."""

@@ -17,10 +17,12 @@ from reference.errors import SolverError
 from reference.limit import Limit
 from reference.measured_stability import GROWN, PERTURBATION, mode_growth
 from reference.schemes.catalogue import Scheme
-from reference.state import Array
+from reference.simulate import projected
+from reference.state import Array, State
 from reference.theory.equilibria import Equilibrium
+from reference.theory.layout import layout_of
 from reference.theory.rates import Rates
-from reference.theory.step_map import layout_of, resisted, step_jacobian
+from reference.theory.step_map import resisted, settled_state, step_jacobian
 
 #: How many steps a mode is watched.
 STEPS = 120
@@ -71,6 +73,8 @@ def measured_mode_limit(scheme: Scheme, rest: Equilibrium, predicted: Limit, fou
     def unstable(dt: float) -> bool:
         return measured_mode_growth(scheme, rest, dt, found) > MARGIN
 
+    if predicted.dt is None and rest.contacts is not None:
+        return Limit(None, predicted.reason)
     if predicted.dt is None or not predicted.exact:
         return _without_expectation(scheme, rest, found)
     if predicted.note:
@@ -175,8 +179,12 @@ def offsets(scheme: Scheme, rest: Equilibrium, dt: float, shape: Array) -> Itera
     """
     # what stops iterating at a velocity that counts as none must be pushed well beyond it
     size = (100 if scheme.iterated else 1) * PERTURBATION * rest.scale
-    layout, settled = layout_of(scheme, rest, dt)
-    step = scheme.on(rest.motion)
+    layout, settled = layout_of(scheme, rest, dt)[0], settled_state(scheme, rest, dt)
+    free_step = scheme.on(rest.motion)
+
+    def step(state: State, dt: float) -> State:
+        return projected(rest.system, free_step(state, dt), 0.0) if rest.contacts else free_step(state, dt)
+
     still, state = settled, layout.state(shape * (size / np.abs(shape).max()), settled)
     falls = np.abs(step(settled, dt).positions - settled.positions).max() > 1e-3 * size
     for _ in range(STEPS + 1):

@@ -7,14 +7,15 @@ any other. What a multistep scheme remembers is part of z.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import numpy.typing as npt
 
 from reference.schemes.catalogue import Scheme
 from reference.state import Array, State
+from reference.theory.differences import differences
 from reference.theory.equilibria import Equilibrium
+from reference.theory.layout import layout_of
+from reference.theory.step_on_obstacles import settled_on_obstacles
 
 Complex = npt.NDArray[np.complex128]
 
@@ -26,54 +27,24 @@ def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     """J over the free positions, dt x velocities, and what a multistep scheme remembers: exactly where it can be.
 
     About an equilibrium of springs a scheme that is `linear` is given the linearised equations of motion and the
-    identity matrix in place of a state, and its own function returns J. Others are differenced.
+    identity matrix in place of a state, and its own function returns J. Others are differenced; so is a step from a
+    rest on obstacles (`step_on_obstacles`).
     """
-    exact = rest.linear is not None and scheme.linear
-    return _by_linear_motion(scheme, rest, dt) if exact else _by_differences(scheme, rest, dt)
+    if rest.contacts is not None:
+        return settled_on_obstacles(scheme, rest, dt)[1]
+    if rest.linear is not None and scheme.linear:
+        return _by_linear_motion(scheme, rest, dt)
+    layout, settled = layout_of(scheme, rest, dt)
+    return differences(scheme.on(rest.motion), layout, settled)
 
 
-@dataclass(frozen=True)
-class Layout:
-    """How a whole state is one vector z: free positions, dt x velocities, dt x what is remembered.
+def settled_state(scheme: Scheme, rest: Equilibrium, dt: float) -> State:
+    """Where a scheme's steps stay: at the rest itself; on obstacles near it, as its steps see it (`step_on_obstacles`).
 
-    Attributes:
-        rest: about which it is told.
-        dt: the step [s].
-        remembered: how many arrays the scheme remembers.
+    Raises:
+        SolverError: if on obstacles there is no such state.
     """
-
-    rest: Equilibrium
-    dt: float
-    remembered: int
-
-    @property
-    def block(self) -> int:
-        """How many numbers of z are positions."""
-        return self.rest.state.positions[self.rest.free].size
-
-    @property
-    def size(self) -> int:
-        """Of z."""
-        return (2 + self.remembered) * self.block
-
-    def state(self, z: Array, about: State) -> State:
-        """The state z away from another one; z is one vector, or many as columns."""
-        parts = z.reshape(2 + self.remembered, *self.rest.state.positions[self.rest.free].shape, *z.shape[1:])
-        whole = [np.array(q) for q in (about.positions, about.velocities, *about.memory)]
-        for array, part, unit in zip(whole, parts, self._units, strict=True):
-            array[self.rest.free] += part / unit
-        return State(0.0, whole[0], whole[1], tuple(whole[2:]))
-
-    def vector(self, state: State) -> Array:
-        """The reverse, of one state or of many, as columns."""
-        whole = (state.positions, state.velocities, *state.memory)
-        parts = [unit * q[self.rest.free] for q, unit in zip(whole, self._units, strict=True)]
-        return np.concatenate([part.reshape(self.block, -1) for part in parts])
-
-    @property
-    def _units(self) -> list[float]:
-        """Of what is remembered nobody knows the unit, and none matters to eigenvalues."""
-        return [1.0, *[self.dt] * (1 + self.remembered)]
+    return layout_of(scheme, rest, dt)[1] if rest.contacts is None else settled_on_obstacles(scheme, rest, dt)[0]
 
 
 def resisted(values: Complex, unresisted: int, unit: float) -> Complex:
@@ -92,35 +63,9 @@ def resisted(values: Complex, unresisted: int, unit: float) -> Complex:
     return np.concatenate([nearest[np.abs(nearest - 1) > TORN_APART * max(1.0, unit)], others])
 
 
-def layout_of(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:
-    """How states are vectors, and the state at rest with all that a scheme remembers of having been there."""
-    if scheme.one_step:
-        return Layout(rest, dt, 0), rest.state
-    memory = scheme.on(rest.motion)(rest.state, dt).memory
-    return Layout(rest, dt, len(memory)), rest.state.remembering(*memory)
-
-
 def _by_linear_motion(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     assert rest.linear is not None
     layout, _ = layout_of(scheme, rest, dt)
     nothing = np.zeros((*rest.state.positions.shape, layout.size))
     state = layout.state(np.eye(layout.size), State(0.0, nothing, nothing, (nothing,) * layout.remembered))
     return layout.vector(scheme.on(rest.linear.motion)(state, dt))
-
-
-def _by_differences(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
-    """Central differences of fourth order.
-
-    Their truncation goes as the fourth power of the perturbation and their rounding as its inverse; at the fifth root
-    of rounding both are about 1e-12.
-    """
-    layout, settled = layout_of(scheme, rest, dt)
-    small = np.finfo(float).eps ** 0.2 * rest.scale
-    step = scheme.on(rest.motion)
-
-    def after(z: Array) -> Array:
-        return layout.vector(step(layout.state(z, settled), dt))[:, 0]
-
-    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        columns = [8 * (after(z) - after(-z)) - (after(2 * z) - after(-2 * z)) for z in small * np.eye(layout.size)]
-    return np.stack(columns, axis=1) / (12 * small)

@@ -19,8 +19,9 @@ from reference.limit import Limit
 from reference.schemes.catalogue import Scheme
 from reference.theory.equilibria import Equilibrium
 from reference.theory.large_steps import NEARLY, limit_of_large, limit_of_relative, relative_of
+from reference.theory.layout import layout_of
 from reference.theory.rates import Rates
-from reference.theory.step_map import TORN_APART, layout_of, resisted, step_jacobian
+from reference.theory.step_map import TORN_APART, resisted, step_jacobian
 from reference.theory.windows import windows_of
 
 #: Up to this size of the whole state all eigenvalues of steps are taken, dt by dt; and of a few steps up to the second.
@@ -49,7 +50,8 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     """The dt above which a scheme's perturbations of an equilibrium grow, looked for from short steps on."""
     unit = 1 / found.fastest
     size = layout_of(scheme, rest, unit)[0].size
-    margin = EXACT if rest.linear is not None and scheme.linear else DIFFERENCED
+    exact = rest.linear is not None and rest.contacts is None and scheme.linear
+    margin = EXACT if exact else DIFFERENCED
 
     def excess(dt: float) -> float:
         return _excess(scheme, rest, dt, found)

@@ -7,18 +7,23 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reference.errors import SolverError
+from reference.schemes.catalogue import Scheme
 from reference.system import MassSpringSystem
-from reference.theory.equilibria import spring_equilibrium
+from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.limits import growth, stability_limit
 from report.live.stepping import scheme_behind
 
 #: Up to this number of coordinates growth at the page's dt is told too: it takes the whole Jacobian of a step.
 GROWTH_UP_TO = 300
+
+#: Up to this number where masses rest on obstacles is looked for.
+ON_OBSTACLES_UP_TO = 200
 
 #: The most coordinates of which a page looks for a limit: those of larger scenes take many seconds.
 MOST = 4_000
@@ -59,19 +64,31 @@ def percent(part: float) -> str:
 
 
 def predict(name: str, system: MassSpringSystem, dt: float) -> Prediction:
-    """The prediction for a stepper on a system, without its obstacles; in free fall in the frame that falls with it."""
+    """The prediction for a stepper on a system; in free fall in the frame that falls with it.
+
+    Of a scheme on obstacles about the rest there; of engines, whose contacts are their own, and of large
+    systems without obstacles.
+    """
     scheme = scheme_behind(name, system)
-    alone = replace(system, obstacles=(), velocities=np.zeros_like(system.velocities))
+    still = replace(system, velocities=np.zeros_like(system.velocities))
     coordinates = int((~system.fixed).sum()) * system.dimension
+    contacts = bool(system.obstacles) and coordinates <= ON_OBSTACLES_UP_TO and scheme.name == name
     if coordinates > MOST:
         return Prediction(None, f"not looked for, of {coordinates} coordinates; `stability` does", np.nan, scheme.name)
+    if contacts:
+        with suppress(SolverError):
+            return _about(equilibrium_on_obstacles(still)[0], scheme, dt, coordinates)
     try:
-        rest = spring_equilibrium(alone)
-        limit = stability_limit(scheme, rest)
-        grows = growth(scheme, rest, dt) if coordinates <= GROWTH_UP_TO else np.nan
-        return Prediction(limit.dt if limit.exact else None, limit.remark, grows, scheme.name)
+        rest = spring_equilibrium(replace(still, obstacles=()))
+        return _about(rest, scheme, dt, coordinates)
     except (SolverError, np.linalg.LinAlgError) as error:
         return Prediction(None, str(error), np.nan, scheme.name)
+
+
+def _about(rest: Equilibrium, scheme: Scheme, dt: float, coordinates: int) -> Prediction:
+    limit = stability_limit(scheme, rest)
+    grows = growth(scheme, rest, dt) if coordinates <= GROWTH_UP_TO else np.nan
+    return Prediction(limit.dt if limit.exact else None, limit.remark, grows, scheme.name)
 
 
 class Predictor:

@@ -1,0 +1,63 @@
+"""How a whole state is one vector z: free positions, dt x velocities, dt x what a multistep scheme remembers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reference.schemes.catalogue import Scheme
+from reference.state import Array, State
+from reference.theory.equilibria import Equilibrium
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a whole state is one vector z: free positions, dt x velocities, dt x what is remembered.
+
+    Attributes:
+        rest: about which it is told.
+        dt: the step [s].
+        remembered: how many arrays the scheme remembers.
+    """
+
+    rest: Equilibrium
+    dt: float
+    remembered: int
+
+    @property
+    def block(self) -> int:
+        """How many numbers of z are positions."""
+        return self.rest.state.positions[self.rest.free].size
+
+    @property
+    def size(self) -> int:
+        """Of z."""
+        return (2 + self.remembered) * self.block
+
+    def state(self, z: Array, about: State) -> State:
+        """The state z away from another one; z is one vector, or many as columns."""
+        parts = z.reshape(2 + self.remembered, *self.rest.state.positions[self.rest.free].shape, *z.shape[1:])
+        whole = [np.array(q) for q in (about.positions, about.velocities, *about.memory)]
+        for array, part, unit in zip(whole, parts, self._units, strict=True):
+            array[self.rest.free] += part / unit
+        return State(0.0, whole[0], whole[1], tuple(whole[2:]))
+
+    def vector(self, state: State) -> Array:
+        """The reverse, of one state or of many, as columns."""
+        whole = (state.positions, state.velocities, *state.memory)
+        parts = [unit * q[self.rest.free] for q, unit in zip(whole, self._units, strict=True)]
+        return np.concatenate([part.reshape(self.block, -1) for part in parts])
+
+    @property
+    def _units(self) -> list[float]:
+        """Of what is remembered nobody knows the unit, and none matters to eigenvalues."""
+        return [1.0, *[self.dt] * (1 + self.remembered)]
+
+
+def layout_of(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:
+    """How states are vectors, and the state at rest with all that a scheme remembers of having been there."""
+    if scheme.one_step:
+        return Layout(rest, dt, 0), rest.state
+    memory = scheme.on(rest.motion)(rest.state, dt).memory
+    return Layout(rest, dt, len(memory)), rest.state.remembering(*memory)

@@ -1,0 +1,143 @@
+"""Rests on obstacles, and limits about them: against closed forms, balances of forces, and runs."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reference.errors import SolverError
+from reference.obstacles import Circle, Obstacle, Plane
+from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find
+from reference.state import Array
+from reference.system import MassSpringSystem
+from reference.theory.contacts import projection_jacobian
+from reference.theory.equilibria import equilibrium_on_obstacles, spring_equilibrium
+from reference.theory.keeps_to_surfaces import keeps_to_surfaces
+from reference.theory.limits import stability_limit
+from reference.theory.measured_mode import measured_mode_limit
+from reference.theory.rates import rates
+
+FLOOR = Plane((0.0, 0.0), (0.0, 1.0))
+MASS, STIFFNESS, LENGTH, HEIGHT, WEIGHT = 0.5, 20.0, 0.8, 1.0, 9.81
+
+
+def on_spring(place: Array, obstacle: Obstacle, **more: object) -> MassSpringSystem:
+    """One mass on one spring whose other end is fixed at a HEIGHT."""
+    given = {
+        "positions": np.array([[0.0, HEIGHT], place]),
+        "springs": np.array([[0, 1]]),
+        "masses": np.full(2, MASS),
+        "rest_lengths": np.array([LENGTH]),
+        "stiffness": np.array([STIFFNESS]),
+        "gravity": np.array([0.0, -WEIGHT]),
+        "fixed": np.array([True, False]),
+        "obstacles": (obstacle,),
+    }
+    return MassSpringSystem(**(given | more))  # type: ignore[arg-type]
+
+
+def test_a_mass_on_the_floor_swings_like_a_pendulum_in_tension() -> None:
+    """It lies below its spring's other end, from wherever it starts: N = m g - k (H - L0).
+
+    Along the floor only the spring's tension brings it back: w^2 = k (1 - L0 / H) / m, and kick-drift's limit is 2 / w.
+    The rest is known to rounding of the positions, some 1e-15 m, and so is w^2 to some 1e-14 of itself.
+    """
+    system = on_spring(np.array([0.3, 0.0]), FLOOR)
+    rest = spring_equilibrium(system)
+    np.testing.assert_allclose(rest.state.positions[1], [0.0, 0.0], atol=1e-12)
+    assert rest.contacts is not None
+    np.testing.assert_allclose(rest.contacts.forces, [MASS * WEIGHT - STIFFNESS * (HEIGHT - LENGTH)], rtol=1e-12)
+    swing = np.sqrt(STIFFNESS * (1 - LENGTH / HEIGHT) / MASS)
+    assert stability_limit(find("kick_drift"), rest).dt == pytest.approx(2 / swing, rel=1e-8)
+    assert stability_limit(find("kick_drift"), rest).certainty == "certified"
+    alone = spring_equilibrium(replace(system, obstacles=()))
+    assert stability_limit(find("kick_drift"), alone).dt != pytest.approx(2 / swing, rel=0.1)
+
+
+def test_a_surface_that_curves_lets_a_mass_slide() -> None:
+    """On top of a circle of radius R below the spring, m w^2 = k (1 - L0 / H) - N / R: less than on a floor."""
+    radius, stiffness = 2.0, 60.0
+    top = Circle((0.0, -radius), radius)
+    system = on_spring(np.array([0.1, 0.0]), top, stiffness=np.array([stiffness]), masses=np.full(2, 1.5))
+    rest = spring_equilibrium(system)
+    assert rest.contacts is not None
+    (force,) = rest.contacts.forces
+    assert force == pytest.approx(1.5 * WEIGHT - stiffness * (HEIGHT - LENGTH), rel=1e-9)
+    tension = stiffness * (1 - LENGTH / HEIGHT)
+    assert tension > force / radius
+    assert rates(rest).fastest == pytest.approx(np.sqrt((tension - force / radius) / 1.5), rel=1e-9)
+
+
+def test_what_slides_off_is_on_no_rest() -> None:
+    """The same circle without a spring that holds: from its very top, a ridge of the energy, the mass falls past it."""
+    top = Circle((0.0, -2.0), 2.0)
+    system = on_spring(np.array([0.0, 0.0]), top, stiffness=np.zeros(1))
+    with pytest.raises(SolverError, match=r"falls past the obstacles|steps downhill"):
+        spring_equilibrium(system)
+
+
+def test_a_block_is_carried_by_the_floor() -> None:
+    """The contacts' forces are its weight together, and none pulls."""
+    rest, about = equilibrium_on_obstacles(find_scene("drop").system({}))
+    system = rest.system
+    assert rest.contacts is not None
+    weight = system.masses.sum() * np.linalg.norm(system.gravity)
+    assert rest.contacts.forces.sum() == pytest.approx(weight, rel=1e-9)
+    assert (rest.contacts.forces > 0).all()
+    assert about == "about its rest on obstacles, where 16 masses press"
+
+
+@pytest.mark.parametrize("name", ["kick_drift", "heun", "velocity_verlet"])
+def test_limits_on_a_circle_are_those_that_runs_have(name: str) -> None:
+    """A string over slide 17's barrier, run from a perturbation with its end of each step: predicted and measured.
+
+    Both are found to 4e-5 of themselves. Without the obstacle the limit is more than a hundredth of a part shorter.
+    """
+    system = find_scene("barrier").system({"damping": 0.05})
+    rest = spring_equilibrium(system)
+    assert rest.contacts is not None
+    predicted = stability_limit(find(name), rest)
+    measured = measured_mode_limit(find(name), rest, predicted, rates(rest))
+    assert measured.dt == pytest.approx(predicted.dt, rel=1e-4)
+    alone = stability_limit(find(name), spring_equilibrium(replace(system, obstacles=())))
+    assert alone.dt != pytest.approx(measured.dt, rel=1e-3)
+
+
+def test_a_step_that_moves_first_has_no_rest_on_a_floor() -> None:
+    """From rest x' = x + dt v leads nowhere, the next step inside: `drift_kick` is put out in every second step."""
+    rest = spring_equilibrium(on_spring(np.array([0.0, 0.0]), FLOOR))
+    with pytest.raises(SolverError, match="every second step"):
+        stability_limit(find("drift_kick"), rest)
+    assert keeps_to_surfaces(find("kick_drift"))
+    assert not any(map(keeps_to_surfaces, map(find, ("drift_kick", "heun", "kick_drift_implicit_damping"))))
+
+
+def test_the_end_of_a_step_is_linearised() -> None:
+    """Against central differences of the projection itself, a mass in each of two obstacles, one in none, one fixed."""
+    obstacles = (Circle((0.0, 0.0), 1.0), Plane((0.0, -2.0), (0.6, 0.8)))
+    x = np.array([[0.3, 0.7], [1.0, -3.0], [3.0, 3.0], [0.1, 0.2]])
+    system = MassSpringSystem(
+        positions=x + np.array([[0, 5.0]]),
+        springs=np.array([[0, 1]]),
+        masses=np.ones(4),
+        rest_lengths=np.ones(1),
+        stiffness=np.ones(1),
+        fixed=np.array([False, False, False, True]),
+    )
+    system, v, dt = replace(system, obstacles=obstacles), np.array([[0.2, -0.9], [1.0, -2.0], [1.0, 1.0], [0, 0]]), 0.1
+
+    def after(z: Array) -> Array:
+        from reference.obstacles import project_out
+
+        moves = z.reshape(2, 3, 2)
+        places, speeds = np.array(x), np.array(v)
+        places[:3] += moves[0]
+        speeds[:3] += moves[1] / dt
+        out = project_out(obstacles, system.fixed[:, None], places, speeds)
+        return np.concatenate([out[0][:3].ravel(), dt * out[1][:3].ravel()])
+
+    differenced = np.stack([(after(1e-6 * e) - after(-1e-6 * e)) / 2e-6 for e in np.eye(12)], axis=1)
+    np.testing.assert_allclose(projection_jacobian(system, x, v, dt), differenced, atol=1e-9)
