@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib
 import json
 import os
+import platform
 import struct
 import sys
 import traceback
@@ -23,6 +24,25 @@ KINDS = "biufU"
 
 #: What a submission is called where its own lines are named.
 NAME = "<submission>"
+
+#: Where Python's own modules are.
+LIBRARY = os.path.dirname(os.__file__)
+
+#: What an answer begins with: the sandbox stands and the submission is about to be read, or it does not stand.
+READY, CLOSED = b"springlab: ready\n", b"springlab: closed\n"
+
+#: Modules that submissions may import, besides Python's own that need no compiled code: loaded before the sandbox is
+#: closed, as nothing can be loaded as code then.
+PRELOADED = """
+    abc argparse array ast base64 bisect builtins calendar cmath collections.abc concurrent.futures contextlib copy csv
+    ctypes dataclasses datetime decimal doctest enum errno fractions functools gc getpass glob hashlib heapq html
+    inspect io itertools json keyword linecache locale logging math multiprocessing numbers operator os pathlib pickle
+    platform pprint queue random re secrets select shutil signal socket statistics string struct subprocess sys
+    tempfile textwrap threading time timeit token tokenize traceback types typing unittest uuid warnings weakref
+    xml.etree.ElementTree zipfile zlib zoneinfo _strptime encodings.idna encodings.latin_1 encodings.ascii
+    encodings.utf_16 encodings.cp1252 numpy.fft numpy.linalg numpy.ma numpy.polynomial numpy.random numpy.testing
+    numpy.typing numpy.lib.recfunctions numpy.lib.stride_tricks
+"""
 
 
 def pack(value: Any) -> bytes:
@@ -167,28 +187,57 @@ def read_all(handle: int) -> bytes:
 
 
 def main() -> None:
-    """Standard input has the task, standard output takes the answer; what the submission prints goes elsewhere."""
+    """Standard input has the task, standard output takes the answer; what the submission prints goes elsewhere.
+
+    READY comes first, once the sandbox stands: whatever ends the process before that is no fault of the submission. It
+    is not read at all where a layer is missing, unless that was asked for.
+    """
     task = unpack(read_all(0))
     out = os.dup(1)
     os.dup2(2, 1)
+    preload()
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    layers = importlib.import_module("sandbox_layers").apply(
-        task["readable"], task["scratch"], task["seconds"], task["memory"]
-    )
+    layers = importlib.import_module("sandbox_layers")
+    wanted = layers.wanted()
+    library = importlib.import_module("library_finder").LibraryFinder(os.open(LIBRARY, os.O_RDONLY), LIBRARY)
+    calls = importlib.import_module("allowed_calls").filter_of(platform.machine(), os.getpid())
+    active = layers.apply(task["readable"], task["seconds"], task["memory"], task["parent"], calls)
     sys.path[:] = [path for path in sys.path if path not in task["hidden"]][1:]
+    if not os.access(LIBRARY, os.R_OK):
+        sys.meta_path.append(library)
+    for name in ("sandbox_layers", "allowed_calls", "library_finder"):
+        sys.modules.pop(name, None)
     np.seterr(all="ignore")
-    reply: dict[str, Any] = {"layers": layers, "answers": []}
+    reply: dict[str, Any] = {"layers": active, "missing": [name for name in wanted if name not in active]}
+    if not reply["missing"] or task["exposed"]:
+        os.write(out, READY)
+        reply |= answered(task)
+    else:
+        os.write(out, CLOSED)
+    os.write(out, pack(reply))
+    os._exit(0)  # at once: threads and exit functions of the submission have nothing more to say
+
+
+def preload() -> None:
+    """All modules that submissions import, as no code can be loaded later."""
+    for name in PRELOADED.split():
+        try:
+            importlib.import_module(name)
+        except ImportError:  # not in this Python
+            continue
+
+
+def answered(task: Mapping[str, Any]) -> dict[str, Any]:
+    """What the submission answers, or what reading it raised."""
     module = ModuleType("submission")
-    module.__file__ = os.path.join(task["scratch"], "submission.py")  # files of the exercise are beside it
+    module.__file__ = os.path.join(task["folder"], "submission.py")  # files of the exercise are beside it
     sys.modules["submission"] = module
     try:
         exec(compile(task["source"], NAME, "exec"), module.__dict__)
-        reply["names"] = [name for name in module.__dict__ if not name.startswith("_")]
-        reply["answers"] = [ask(module, question) for question in task["questions"]]
+        names = [name for name in module.__dict__ if not name.startswith("_")]
+        return {"names": names, "answers": [ask(module, question) for question in task["questions"]]}
     except BaseException as error:
-        reply["error"] = story(error)
-    os.write(out, pack(reply))
-    os._exit(0)  # at once: threads and exit functions of the submission have nothing more to say
+        return {"error": story(error)}
 
 
 if __name__ == "__main__":

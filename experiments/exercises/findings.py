@@ -44,7 +44,8 @@ ERRORS = {
         "reaches_out",
         "A submission may compute. Files, programs and the network are out of its reach.",
     ),
-    "ModuleNotFoundError": ("missing_module", "There are Python's own modules and NumPy, nothing else."),
+    "ModuleNotFoundError": ("missing_module", "There are NumPy and Python's own modules for computing, nothing else."),
+    "ImportError": ("missing_module", "There are NumPy and Python's own modules for computing, nothing else."),
     "IndexError": ("index_error", "Which is the first and which the last number of the array?"),
     "ZeroDivisionError": ("division_by_zero", "What is zero there, and when?"),
 }
@@ -71,6 +72,8 @@ def of_error(error: Mapping[str, Any]) -> Finding:
     if kind == "ValueError" and "not made of real numbers" in words:
         words = f"Your function does not return numbers: {words}."
         return Finding("not_numbers", words, "Look at what you return.", line)
+    if kind == "FileNotFoundError" and "No usable temporary directory" in words:
+        kind = "PermissionError"  # no folder can be written
     name, hint = ERRORS.get(kind, ("raises_an_error", "Look at that line, and at what its names hold there."))
     if name == "not_written_yet":
         return Finding(name, f"{where}this is not written yet.", hint, line)

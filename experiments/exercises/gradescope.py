@@ -17,6 +17,8 @@ from typing import Any
 
 from experiments.exercises.exercise import Exercise, find
 from experiments.exercises.grading import Grade, grade
+from experiments.exercises.sandbox import Limits
+from experiments.exercises.sandbox_errors import NotGradedError
 from experiments.exercises.submission import Submission, files_of, read
 from experiments.exercises.words import UNSEEN, paragraphs
 from reference.errors import InputError
@@ -98,11 +100,17 @@ def refused(reason: str) -> dict[str, Any]:
     return {"score": 0.0, "output": reason, "visibility": "visible", "stdout_visibility": "hidden", "tests": [test]}
 
 
+def not_graded(reason: str) -> dict[str, Any]:
+    """What is said where the submission is not to blame: no score, which Gradescope shows as a failed autograder."""
+    words = f"This was not graded, which is not your fault: {reason}. Hand it in again, or tell your teacher."
+    return {"output": words, "visibility": "visible", "stdout_visibility": "hidden"}
+
+
 def grade_folder(folder: Path, settings: Mapping[str, Any]) -> dict[str, Any]:
     """The results of the one submission in a folder.
 
     Args:
-        settings: exercise (its name) and key.
+        settings: exercise (its name), key, exposed (`sandbox.Limits`), keyed (`submission.read`).
     """
     exercise = find(str(settings["exercise"]))
     try:
@@ -110,23 +118,30 @@ def grade_folder(folder: Path, settings: Mapping[str, Any]) -> dict[str, Any]:
         named = [f for f in files if Path(f[1]).name == f"{exercise.name}.py"] or files
         if len(named) != 1:
             raise InputError(f"{len(named)} Python files: expected one, {exercise.name}.py")
-        submission = read(*named[0], exercise)
+        submission = read(*named[0], exercise, bool(settings.get("keyed", True)))
     except InputError as error:
         return refused(str(error))
-    return results(submission, grade(submission, settings["key"]))
+    try:
+        limits = Limits(exposed=bool(settings.get("exposed", False)))
+        return results(submission, grade(submission, settings["key"], limits))
+    except NotGradedError as error:
+        return not_graded(str(error))
 
 
-def write_zip(exercise: Exercise, key: str, file: Path) -> None:
+def write_zip(exercise: Exercise, key: str, file: Path, exposed: bool = False, keyed: bool = True) -> None:
     """Write the autograder of an exercise.
 
     Args:
         key: of its hidden check.
+        exposed: whether it grades even where nothing keeps submissions from files and processes.
+        keyed: whether the exercise was handed out with the key.
     """
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        settings = {"exercise": exercise.name, "key": key, "exposed": exposed, "keyed": keyed}
         packages = " ".join(f"{name}=={metadata.version(name)}" for name in PACKAGES)
         _add(archive, "setup.sh", SETUP.format(packages=packages), executable=True)
         _add(archive, "run_autograder", RUN, executable=True)
-        _add(archive, "exercise.json", json.dumps({"exercise": exercise.name, "key": key}) + "\n")
+        _add(archive, "exercise.json", json.dumps(settings) + "\n")
         for name, path in sorted(_carried(exercise)):
             _add(archive, name, path.read_text(encoding="utf-8"))
 
@@ -154,7 +169,7 @@ def main(folder: str, out: str, settings: str) -> None:
     try:
         found = grade_folder(Path(folder), json.loads(Path(settings).read_text(encoding="utf-8")))
     except Exception as error:  # a result that says so is better than none
-        found = refused(f"The checker itself failed, which is not your fault: {type(error).__name__}.")
+        found = not_graded(f"the checker itself failed, {type(error).__name__}")
         print(f"{type(error).__name__}: {error}", file=sys.stderr)
     Path(out).write_text(json.dumps(found, indent=2) + "\n", encoding="utf-8")
 

@@ -8,14 +8,17 @@ import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from time import perf_counter
 
 from experiments.exercises.exercise import Exercise
 from experiments.exercises.findings import clean
-from experiments.exercises.judge import Verdict, judge_all
+from experiments.exercises.judge import Verdict, judge, not_asked
 from experiments.exercises.sandbox import Limits
+from experiments.exercises.sandbox_errors import NotGradedError
 from experiments.exercises.submission import Submission, read
+from experiments.exercises.writing import write_anew
 from reference.errors import InputError
 
 #: The columns of a table of grades; `departs` is the first difference.
@@ -33,6 +36,10 @@ COLUMNS = (
     "seconds",
     "digest",
 )
+
+
+#: What formulas begin with, in full-width signs too.
+FORMULA = tuple("=+-@\uff1d\uff0b\uff0d\uff20")
 
 
 @dataclass(frozen=True)
@@ -61,16 +68,30 @@ class Grade:
 
 
 def grade(submission: Submission, key: str | None = None, limits: Limits | None = None) -> Grade:
-    """Run the public check, and with a key the hidden one.
+    """Run the public check, and with a key the hidden one, in a process of its own: the first knows no hidden question.
 
-    Where all answers depend on the student's seed the two are the same, and run once.
+    Where all answers depend on the student's seed the two are the same, and run once. Where the public check comes to a
+    bad end the hidden one is not run.
+
+    Raises:
+        NotGradedError: where it is not the submission's fault that there is no grade, twice over.
     """
     begin = perf_counter()
     exercise, seed = submission.exercise, submission.seed_with(key)
-    keys = [None] if key is None or exercise.seeded else [None, key]
-    public, *others = judge_all(exercise, submission.source, seed, keys, limits)
-    hidden = None if key is None else others[0] if others else public
+    public = _judged(submission, seed, None, limits)
+    hidden = None if key is None else public
+    if key is not None and not exercise.seeded:
+        bad = public.outcome in ("timed out", "crashed")
+        hidden = not_asked(exercise, seed, key, public) if bad else _judged(submission, seed, key, limits)
     return Grade(public, hidden, perf_counter() - begin)
+
+
+def _judged(submission: Submission, seed: str, key: str | None, limits: Limits | None) -> Verdict:
+    """One check; tried again where the first time it was not the submission's fault that it came to nothing."""
+    try:
+        return judge(submission.exercise, submission.source, seed, key, limits)
+    except NotGradedError:
+        return judge(submission.exercise, submission.source, seed, key, limits)
 
 
 def row_of(submission: Submission, given: Grade, key: str | None) -> dict[str, str]:
@@ -98,10 +119,10 @@ def _row(name: str, **values: str) -> dict[str, str]:
 
 
 def _cell(words: str) -> str:
-    """Words for a table: one line, and nothing that a spreadsheet would take for a formula."""
+    """Words for a table: one line, and nothing that a spreadsheet would take for a formula, also behind a semicolon."""
     plain = clean(words) if len(words) < 200 else f"{clean(words)} ..."
     number = plain.replace(".", "", 1).isdigit()
-    return plain if number or not plain.startswith(("=", "+", "-", "@")) else f"'{plain}"
+    return plain if number or not plain.lstrip(";").startswith(FORMULA) else f"'{plain}"
 
 
 def grade_class(
@@ -112,6 +133,7 @@ def grade_class(
     workers: int | None = None,
     tell: Callable[[str], None] = lambda _: None,
     limits: Limits | None = None,
+    keyed: bool = True,
 ) -> list[dict[str, str]]:
     """Grade many files, each row in the table as soon as it is there; rows that are there already are not done again.
 
@@ -119,6 +141,7 @@ def grade_class(
         files: each with its name.
         table: a CSV file. A row counts as done if its file, its exercise and the key are what they were.
         workers: how many submissions at once; left out, as many as there are cores.
+        keyed: whether the exercise was handed out with the key.
 
     Raises:
         InputError: if the table is something else.
@@ -129,7 +152,7 @@ def grade_class(
     _write(table, earlier.values())
 
     def one(path: Path, name: str) -> dict[str, str]:
-        row = _graded(path, name, exercise, key, earlier, limits)
+        row = _graded(path, name, exercise, key, earlier, limits, keyed)
         with lock, table.open("a", newline="", encoding="utf-8") as file:
             if row is not earlier.get(_cell(name)):
                 csv.DictWriter(file, COLUMNS).writerow(row)
@@ -155,10 +178,11 @@ def _graded(
     key: str | None,
     earlier: dict[str, dict[str, str]],
     limits: Limits | None,
+    keyed: bool,
 ) -> dict[str, str]:
     """A file's row; whatever goes wrong with it is in the row, and nobody else's."""
     try:
-        submission = read(path, name, exercise)
+        submission = read(path, name, exercise, keyed)
     except (InputError, OSError) as error:
         return _row(name, score="0.0", outcome="error", finding="not_a_submission", words=str(error))
     done = earlier.get(_cell(name))
@@ -166,8 +190,10 @@ def _graded(
         return done
     try:
         return row_of(submission, grade(submission, key, limits), key)
+    except NotGradedError as error:
+        return _row(name, outcome="not graded", finding="not_graded", words=str(error))
     except Exception as error:  # the checker's own fault: the class goes on
-        return _row(name, outcome="error", finding="not_graded", words=f"{type(error).__name__}: {error}")
+        return _row(name, outcome="not graded", finding="not_graded", words=f"{type(error).__name__}: {error}")
 
 
 def _earlier(table: Path) -> dict[str, dict[str, str]]:
@@ -189,9 +215,8 @@ def _whole(rows: Iterable[dict[str, str]]) -> Iterator[dict[str, str]]:
 
 def _write(table: Path, rows: Iterable[dict[str, str]]) -> None:
     """The table anew, in one go."""
-    new = table.with_name(table.name + ".new")
-    with new.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
-    new.replace(table)
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, COLUMNS)
+    writer.writeheader()
+    writer.writerows(rows)
+    write_anew(table, text.getvalue().encode("utf-8"))

@@ -29,7 +29,7 @@ def hand_out(exercise: Exercise, folder: Path, seed: str, key: str | None) -> li
         starter = re.sub(r"^SEED = .*$", lambda _: line, starter, flags=re.MULTILINE)
     files = {own.name: starter, "text.md": exercise.text, "text.html": page(exercise)}
     if exercise.files is not None:
-        files |= exercise.files(Submission("", "", exercise, seed, keyed).seed_with(key))
+        files |= exercise.files(Submission("", "", exercise, seed, keyed=keyed).seed_with(key))
     folder.mkdir(parents=True, exist_ok=True)
     for name, text in files.items():
         (folder / name).write_text(text, encoding="utf-8")

@@ -19,6 +19,7 @@ from experiments.exercises.exercise import TOLERANCE, Answer, Exercise, Mistake
 from experiments.exercises.findings import Finding
 from experiments.exercises.first_difference import FirstDifference, Lines, first_difference
 from experiments.exercises.naming import SINGLE, identify
+from experiments.exercises.reply import Reply
 
 #: What a verdict says in a word.
 Outcome = Literal[
@@ -71,38 +72,29 @@ def judge(
         source: its text.
         seed: the student's.
         key: for the hidden check, the teacher's secret; the public check without.
+
+    Raises:
+        NotGradedError: where there is no answer and that is not the submission's fault.
     """
-    return judge_all(exercise, source, seed, [key], limits)[0]
-
-
-def judge_all(
-    exercise: Exercise, source: str, seed: str, keys: Sequence[str | None], limits: sandbox.Limits | None = None
-) -> list[Verdict]:
-    """The verdicts of several checks, of one run: starting a process is most of what a check takes.
-
-    Where the run comes to a bad end, each check gets a run of its own, so that none pays for another.
-    """
-    catalogues = [catalogue_of(exercise, seed, key) for key in keys]
+    catalogue = catalogue_of(exercise, seed, key)
     if _text(source) == _text(exercise.starter):
         words = "This is the starter as it was handed out."
         finding = Finding("not_written_yet", words, "The text says what to write.")
-        return [_failed(catalogue, "error", finding) for catalogue in catalogues]
-    asked = [question.asked() for catalogue in catalogues for question in catalogue.questions]
+        return _failed(catalogue, "error", finding)
+    asked = [question.asked() for question in catalogue.questions]
     files = exercise.files(seed) if exercise.files else {}
     reply = sandbox.run(source, asked, limits, files)
-    if len(reply.answers) != len(asked) and reply.error is None and len(catalogues) > 1:
-        return [judge(exercise, source, seed, key, limits) for key in keys]
-    verdicts, first = [], 0
-    for catalogue in catalogues:
-        part = slice(first, first + len(catalogue.questions))
-        verdict = _verdict(catalogue, replace(reply, answers=reply.answers[part]))
-        if verdict.name == "not_repeatable":
-            again = sandbox.run(source, asked, limits, files)
-            same = len(again.answers) == len(reply.answers) and _same_replies(reply, again)
-            verdict = replace(verdict, findings=(findings.not_repeatable(same),))
-        verdicts.append(replace(verdict, layers=tuple(reply.layers)))
-        first = part.stop
-    return verdicts
+    verdict = _verdict(catalogue, reply)
+    if verdict.name == "not_repeatable":
+        again = sandbox.run(source, asked, limits, files)
+        same = len(again.answers) == len(reply.answers) and _same_replies(reply, again)
+        verdict = replace(verdict, findings=(findings.not_repeatable(same),))
+    return replace(verdict, layers=tuple(reply.layers))
+
+
+def not_asked(exercise: Exercise, seed: str, key: str | None, before: Verdict) -> Verdict:
+    """The verdict on questions that were not put, as the process came to a bad end with others."""
+    return replace(before, passed=(False,) * len(catalogue_of(exercise, seed, key).questions))
 
 
 def _text(source: str) -> list[str]:
@@ -114,7 +106,7 @@ def _failed(catalogue: AnswerCatalogue, outcome: Outcome, finding: Finding, **fo
     return Verdict(outcome, (finding,), (False,) * len(catalogue.questions), **found)
 
 
-def _verdict(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> Verdict:
+def _verdict(catalogue: AnswerCatalogue, reply: Reply) -> Verdict:
     """The verdict on what a process left, whatever that is."""
     if reply.ended != "done":
         word: Outcome = "timed out" if reply.ended == "timed out" else "crashed"
@@ -131,7 +123,7 @@ def _verdict(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> Verdict:
     return _verdict_on_answers(catalogue, reply, given)
 
 
-def _error(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> Finding | None:
+def _error(catalogue: AnswerCatalogue, reply: Reply) -> Finding | None:
     """A function that is missing, or the first exception."""
     missing = [q.function for q in catalogue.questions if q.function not in reply.names]
     if missing and not reply.error:
@@ -140,7 +132,7 @@ def _error(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> Finding | None:
     return findings.of_error(error) if error else None
 
 
-def _comparable(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> list[Answer] | None:
+def _comparable(catalogue: AnswerCatalogue, reply: Reply) -> list[Answer] | None:
     """The answers in the form in which answers are compared; None unless they are as many arrays as were asked for."""
     given: list[Answer] = []
     for question, told in zip(catalogue.questions, reply.answers, strict=True):
@@ -157,7 +149,7 @@ def _comparable(catalogue: AnswerCatalogue, reply: sandbox.Reply) -> list[Answer
     return given
 
 
-def _verdict_on_answers(catalogue: AnswerCatalogue, reply: sandbox.Reply, given: list[Answer]) -> Verdict:
+def _verdict_on_answers(catalogue: AnswerCatalogue, reply: Reply, given: list[Answer]) -> Verdict:
     """The verdict on answers that can be read: their form first, then their numbers."""
     tolerance = catalogue.exercise.tolerance
     different, lines = first_difference(catalogue, given, max(tolerance, TOLERANCE))
@@ -176,7 +168,7 @@ def _verdict_on_answers(catalogue: AnswerCatalogue, reply: sandbox.Reply, given:
 
 def _verdict_on_numbers(
     catalogue: AnswerCatalogue,
-    reply: sandbox.Reply,
+    reply: Reply,
     given: list[Answer],
     passed: tuple[bool, ...],
     found: Mapping[str, Any],
@@ -211,7 +203,7 @@ def _same_arrays(one: Any, other: Any) -> bool:
     return all(a.shape == b.shape and a.tobytes() == b.tobytes() for a, b in zip(one, other, strict=True))
 
 
-def _same_replies(one: sandbox.Reply, other: sandbox.Reply) -> bool:
+def _same_replies(one: Reply, other: Reply) -> bool:
     answers = zip(one.answers, other.answers, strict=True)
     pairs = [pair for a, b in answers for pair in zip(a["values"], b["values"], strict=False)]
     return all(_same_arrays(a, b) for a, b in pairs)

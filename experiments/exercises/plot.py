@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
 
 from experiments.exercises.first_difference import Lines
+from experiments.exercises.writing import write_anew
 
 #: Columns and rows of the plot in the terminal.
 WIDTH, HEIGHT = 56, 9
@@ -46,7 +48,7 @@ def in_terminal(lines: Lines) -> str:
 
 
 def as_png(lines: Lines, file: Path, title: str) -> None:
-    """The plot, as a picture."""
+    """The plot, as a picture, in a file that is made anew."""
     import matplotlib
 
     matplotlib.use("Agg")
@@ -67,7 +69,9 @@ def as_png(lines: Lines, file: Path, title: str) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(frameon=False, loc="best")
-    figure.savefig(file)
+    picture = BytesIO()
+    figure.savefig(picture, format="png")
+    write_anew(file, picture.getvalue())
 
 
 def _range(lines: Lines) -> tuple[float, float]:

@@ -1,9 +1,9 @@
-"""A submission run in a fresh process of its own, that can neither reach the checker nor its files.
+"""A submission run in a fresh process of its own, that can neither reach the checker nor any file.
 
-The process gets the submission's text and the arrays of the questions, works in a folder that has the files which the
-student was given and is removed afterwards, and leaves bytes, in which there is nothing but numbers and words (no
-pickle). This process reads them and judges; it never imports a submission. The layers of the sandbox are those of
-`sandbox_layers`.
+The process gets the submission's text and the arrays of the questions, in a folder that has the files which the student
+was given and in which nobody can write, and leaves bytes, in which there is nothing but numbers and words (no pickle).
+This process reads them (`reply`) and judges; it never imports a submission. The layers of the sandbox are those of
+`sandbox_layers`; where one is missing the submission is not read.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ import sys
 import sysconfig
 import tempfile
 import time
-from collections.abc import Mapping, Sequence
-from contextlib import suppress
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import IO, Any
@@ -26,49 +26,33 @@ from typing import IO, Any
 import numpy as np
 
 from experiments.exercises import child
-from experiments.exercises.sandbox_layers import MEMORY, SECONDS
+from experiments.exercises.reply import LONGEST, Reply, read
+from experiments.exercises.sandbox_errors import NotGradedError
 
-#: A process that sleeps, or waits, is ended after this time [s].
+#: What a submission may have unless told otherwise: seconds of computing, and in all; memory [bytes].
+SECONDS, MEMORY = 10, 2**30
 WALL_CLOCK = 20.0
 
-#: Its folder may fill up to that [bytes].
-FOLDER = 2**26
-
-#: How often it is looked at [s]; and what a look counts for at most: a machine that stood still is not its fault.
+#: How often its process is looked at [s]; and what a look counts for at most: a machine that stood still is not its
+#: fault.
 LOOK, STALL = 0.02, 0.5
-
-#: An answer is no longer than that [bytes].
-LONGEST = 2**23
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a submission may take: seconds of computing, wall-clock seconds, memory [bytes]."""
+    """What a submission may take.
+
+    Attributes:
+        seconds: of computing.
+        wall_clock: seconds in all, but for those in which it waits for a processor.
+        memory: [bytes].
+        exposed: whether it is run even where the machine cannot keep it from files and processes.
+    """
 
     seconds: int = SECONDS
     wall_clock: float = WALL_CLOCK
     memory: int = MEMORY
-
-
-@dataclass(frozen=True)
-class Reply:
-    """What came back.
-
-    Attributes:
-        ended: how the process ended where it gave no answer: "timed out" or "crashed"; else "done".
-        reason: of that, in a line.
-        answers: one for each question, as `child.ask` makes them.
-        error: what reading the submission raised: type, words, line.
-        layers: of the sandbox, those that were active.
-        names: what the submission defines.
-    """
-
-    ended: str
-    reason: str = ""
-    answers: Sequence[Mapping[str, Any]] = ()
-    error: Mapping[str, Any] | None = None
-    layers: Sequence[str] = ()
-    names: Sequence[str] = field(default_factory=list)
+    exposed: bool = False
 
 
 def run(
@@ -83,98 +67,122 @@ def run(
         source: its text.
         questions: each with function, arguments, steps and parts.
         files: what it finds in its folder, by name: what the student was given.
+
+    Raises:
+        NotGradedError: where it is not the submission's fault that there is no answer.
     """
     limits = limits or Limits()
-    scratch = Path(tempfile.mkdtemp(prefix="springlab-submission-"))
-    for name, text in (files or {}).items():
-        (scratch / name).write_text(text, encoding="utf-8")
-        (scratch / name).chmod(0o644)
     task = {
         "source": source,
         "questions": list(questions),
-        "readable": list(_readable()),
         "hidden": [str(_packages())],
-        "scratch": str(scratch),
         "seconds": limits.seconds,
         "memory": limits.memory,
+        "exposed": limits.exposed,
+        "parent": os.getpid(),
     }
     try:
-        # files without a name: nobody can open, replace or remove them
-        with tempfile.TemporaryFile() as asked, tempfile.TemporaryFile() as said, tempfile.TemporaryFile() as printed:
+        with _folder(files or {}) as folder, _file() as asked, _file() as said, _file() as printed:
+            task |= {"folder": str(folder), "readable": [*_readable(), str(folder)]}
             asked.write(child.pack(task))
-            asked.seek(0)
-            ending = _watch(_start(scratch, asked, said, printed), scratch, limits)
-            return _reply(ending, said)
-    finally:
-        shutil.rmtree(scratch, ignore_errors=True)
+            asked.flush()
+            with _for_reading(asked) as given:
+                ending, reason = _Process(given, said, printed, folder, limits).watch()
+            said.seek(0)
+            data = said.read(LONGEST + 1)
+    except OSError as error:  # a full disk, no more processes: the machine's fault
+        raise NotGradedError(f"the checker could not run it: {error.strerror or error}") from error
+    if not data.startswith((child.READY, child.CLOSED)):
+        raise NotGradedError(f"its process never came so far as to read it: {reason or 'it ended early'}")
+    if ending == "not graded":
+        raise NotGradedError(reason)
+    return Reply(ending, reason) if ending != "done" else read(data, limits.exposed, len(questions))
 
 
-def _start(scratch: Path, asked: IO[bytes], said: IO[bytes], printed: IO[bytes]) -> subprocess.Popen[bytes]:
-    begin = f"import sys; sys.path.append({str(_packages())!r}); import runpy; runpy.run_path({child.__file__!r}"
-    command = [sys.executable, "-I", "-S", "-B", "-X", "utf8", "-c", f"{begin}, run_name='__main__')"]
-    # nothing of the environment: it may hold secrets; and one thread, which is all that small arrays are worth
-    bare = {"HOME": str(scratch), "TMPDIR": str(scratch), "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    if sys.platform == "win32":
-        bare["SYSTEMROOT"] = os.environ["SYSTEMROOT"]
-    return subprocess.Popen(
-        command, stdin=asked, stdout=said, stderr=printed, cwd=scratch, env=bare, start_new_session=True
-    )
-
-
-def _watch(process: subprocess.Popen[bytes], scratch: Path, limits: Limits) -> tuple[str, str]:
-    """How it ended: a word and a reason."""
-    waited, last = 0.0, time.monotonic()
-    ending = None
+@contextmanager
+def _folder(files: Mapping[str, str]) -> Iterator[Path]:
+    """A folder with these files, which everybody may read and only its owner may write."""
+    folder = Path(tempfile.mkdtemp(prefix="springlab-submission-"))
     try:
-        while ending is None:
-            with suppress(subprocess.TimeoutExpired):
-                return _cause(process.wait(LOOK), limits)
-            waited, last = waited + min(time.monotonic() - last, STALL), time.monotonic()
-            if waited > limits.wall_clock:
-                ending = ("timed out", f"no answer within {limits.wall_clock:g} s")
-            elif _size(scratch) > FOLDER:
-                ending = ("crashed", f"it wrote more than {FOLDER / 2**20:g} MiB of files")
+        for name, text in files.items():
+            (folder / name).write_text(text, encoding="utf-8")
+            (folder / name).chmod(0o644)
+        folder.chmod(0o755)
+        yield folder
     finally:
-        with suppress(OSError):
-            os.killpg(process.pid, signal.SIGKILL)  # and whatever it may have started
-        process.kill()
-        process.wait()
-    return ending
+        shutil.rmtree(folder, ignore_errors=True)
 
 
-def _cause(code: int, limits: Limits) -> tuple[str, str]:
-    if code == 0:
-        return "done", ""
-    if sys.platform != "win32" and -code in (signal.SIGXCPU, signal.SIGKILL):
-        return "timed out", f"it computed for more than {limits.seconds} s"
-    if code < 0:
-        return "crashed", f"its process was ended by {signal.Signals(-code).name}"
-    return "crashed", f"its process ended with exit code {code}"
+def _file() -> IO[bytes]:
+    """A file without a name: in memory, where that can be, so that no full disk costs an answer."""
+    if sys.platform == "linux":
+        return open(os.memfd_create("springlab"), "w+b")
+    return tempfile.TemporaryFile()
 
 
-def _reply(ending: tuple[str, str], said: IO[bytes]) -> Reply:
-    word, reason = ending
-    if word != "done":
-        return Reply(word, reason)
-    said.seek(0)
-    data = said.read(LONGEST)
-    if not data:
-        return Reply("crashed", "it ended its process before it had answered")
-    try:
-        reply = child.unpack(data)
-        answers = [a for a in reply["answers"] if isinstance(a["values"], list)]
-        return Reply("done", "", answers, reply.get("error"), list(reply["layers"]), list(reply.get("names", [])))
-    except (ValueError, KeyError, TypeError, AttributeError):
-        return Reply("crashed", "what it answered is not readable")
+@contextmanager
+def _for_reading(file: IO[bytes]) -> Iterator[IO[bytes]]:
+    """The same, opened anew, for reading only."""
+    if sys.platform == "linux":
+        with open(f"/proc/self/fd/{file.fileno()}", "rb") as given:
+            yield given
+    else:
+        file.seek(0)
+        yield file
 
 
-def _size(folder: Path) -> int:
-    total = 0
-    for place, _, files in os.walk(folder):
-        for name in files:
+class _Process:
+    """The process of a submission."""
+
+    def __init__(self, asked: IO[bytes], said: IO[bytes], printed: IO[bytes], folder: Path, limits: Limits) -> None:
+        begin = f"import sys; sys.path.append({str(_packages())!r}); import runpy; runpy.run_path({child.__file__!r}"
+        command = [sys.executable, "-I", "-S", "-B", "-X", "utf8", "-c", f"{begin}, run_name='__main__')"]
+        # nothing of the environment: it may hold secrets; and one thread, which is all that small arrays are worth
+        bare = {"HOME": str(folder), "TMPDIR": str(folder), "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+        if sys.platform == "win32":
+            bare["SYSTEMROOT"] = os.environ["SYSTEMROOT"]
+        self._limits = limits
+        self._process = subprocess.Popen(
+            command, stdin=asked, stdout=said, stderr=printed, cwd=folder, env=bare, start_new_session=True
+        )
+
+    def watch(self) -> tuple[str, str]:
+        """How it ended: "done", "timed out", "crashed" or "not graded", and the reason."""
+        waited, last, computed = 0.0, time.monotonic(), 0.0
+        try:
+            while True:
+                with suppress(subprocess.TimeoutExpired):
+                    return self._cause(self._process.wait(LOOK), computed)
+                computed, queued = self._look()
+                waited, last = waited + min(time.monotonic() - last, STALL), time.monotonic()
+                if waited - queued > self._limits.wall_clock:
+                    return "timed out", f"no answer within {self._limits.wall_clock:g} s"
+        finally:
             with suppress(OSError):
-                total += os.lstat(os.path.join(place, name)).st_size
-    return total
+                os.killpg(self._process.pid, signal.SIGKILL)  # and whatever it may have started
+            self._process.kill()
+            self._process.wait()
+
+    def _look(self) -> tuple[float, float]:
+        """How long it has computed and how long it has waited for a processor [s], where the system tells."""
+        with suppress(OSError, ValueError):
+            computed, queued, _ = map(int, Path(f"/proc/{self._process.pid}/schedstat").read_text().split())
+            return computed / 1e9, queued / 1e9
+        return 0.0, 0.0
+
+    def _cause(self, code: int, computed: float) -> tuple[str, str]:
+        if code == 0:
+            return "done", ""
+        at_its_limit = computed > 0.9 * self._limits.seconds
+        if sys.platform != "win32" and (
+            code == -signal.SIGXCPU or (code == -signal.SIGKILL and (at_its_limit or sys.platform != "linux"))
+        ):
+            return "timed out", f"it computed for more than {self._limits.seconds} s"
+        if sys.platform != "win32" and code == -signal.SIGKILL:
+            return "not graded", "its process was ended from outside: the machine may be short of memory"
+        if code < 0:
+            return "crashed", f"its process was ended by {signal.Signals(-code).name}"
+        return "crashed", f"its process ended with exit code {code}"
 
 
 @cache
@@ -193,10 +201,15 @@ def _readable() -> tuple[str, ...]:
     ]
     numpy = [_packages() / "numpy", _packages() / "numpy.libs"]
     system = [p for base in ("/lib", "/usr/lib") for p in Path(base).glob("*-linux-gnu*")]
-    system += [Path(p) for p in ("/dev/urandom", "/dev/zero", "/usr/share/zoneinfo")]
+    system += [Path(p) for p in ("/dev/urandom", "/dev/zero", "/dev/null", "/usr/share/zoneinfo")]
     return tuple(dict.fromkeys(str(p.resolve()) for p in [*own, *numpy, *system] if p.exists()))
 
 
 def layers() -> list[str]:
-    """Which layers of the sandbox this machine has, by trying: of limits, landlock, user, seccomp."""
-    return list(run("", []).layers)
+    """Which layers of the sandbox this machine has, by trying: of `sandbox_layers.LAYERS`."""
+    return list(run("", [], Limits(exposed=True)).layers)
+
+
+def missing() -> list[str]:
+    """Which layers this machine would have to have and has not."""
+    return list(run("", [], Limits(exposed=True)).missing)

@@ -1,9 +1,14 @@
 """The sandbox's layers: restrictions that the process of a submission puts on itself before it reads the submission.
 
-Each layer is the kernel's: limits on time, memory, file size (setrlimit); no file but those that are named (Landlock,
-Linux 5.13), or where that is missing and we are root, another user, who may read only what everybody may; no other
-process, no network, no change of what a file may do (a seccomp filter). None can be lifted again before the process
-ends. Which of them are active is told: on other systems some are missing. Imports Python's own library only.
+Each is the kernel's, allows what is named and refuses all else, and cannot be lifted again before the process ends:
+
+    limits    on time, memory and the size of files (setrlimit)
+    user      who was root becomes a user who owns nothing and has no capability
+    landlock  no file can be opened but those that are named, and these for reading only (Linux 5.13 and later)
+    seccomp   no system call but those of `allowed_calls`
+
+Landlock and the filter are tried out once they are in force: one that does not refuse does not count. Which layers are
+active is told; `child` does not go on without all of them. Imports Python's own library only.
 """
 
 from __future__ import annotations
@@ -19,46 +24,49 @@ from collections.abc import Iterable
 if sys.platform != "win32":
     import resource
 
-#: What a submission may have unless told otherwise: seconds of computing, bytes of memory, bytes in a file.
-SECONDS, MEMORY, FILE = 10, 2**30, 2**24
+#: Bytes in what a submission answers, and in what it prints.
+FILE = 2**24
 
 #: Numbers of system calls, the same on all machines (Linux, include/uapi/asm-generic/unistd.h).
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
 
-#: Rights to files (include/uapi/linux/landlock.h): those to a file, and beyond them those to a folder.
-READ_FILE, READ_FOLDER, WRITE, TRUNCATE = 1 << 2, 1 << 3, 1 << 1, 1 << 14
+#: Where it differs: seccomp on x86-64 and on ARM64.
+SECCOMP = {"x86_64": 317, "aarch64": 277}
+
+#: Rights to files (include/uapi/linux/landlock.h).
+READ_FILE, READ_FOLDER = 1 << 2, 1 << 3
 
 #: How many rights to files, and to the network, each version of Landlock knows; from 6 on it scopes signals.
 FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15}
 SCOPED_FROM, NETWORK_FROM = 6, 4
 
-#: System calls on x86-64 that a submission has no business with.
-REFUSED = {
-    "other processes": (57, 58, 59, 322, 200, 101, 310, 311, 424, 434, 109, 112, 297, 129),
-    "network and shared memory": (41, 42, 43, 49, 50, 53, 288, 29, 64, 68, 240, 425, 426, 427),
-    "rights and times of files": (90, 91, 92, 93, 94, 260, 268, 452, 132, 235, 261, 280, 188, 189, 190, 197, 198, 199),
-    "limits and priorities": (160, 302, 141, 203, 144, 142, 314),
-    "mounts": (155, 161, 165, 166, 167, 168, 272, 303, 304, 308, 428, 429, 430, 431, 432, 433, 442),
-    "the machine": (103, 159, 163, 164, 169, 170, 171, 172, 173, 175, 176, 179, 227, 305, 246, 313, 320),
-    "the kernel's own": (248, 249, 250, 298, 321, 323),
-    "users": (105, 106, 113, 114, 116, 117, 119, 122, 123, 126),
-}
-KILL, SIGNAL_THREAD, CLONE, CLONE3 = 62, 234, 56, 435
+#: Users that own nothing, by custom given out for a while (systemd's dynamic users); and the one without rights.
+NOBODIES, NOBODY = range(61184, 65520), 65534
 
-#: The user without rights, by custom.
-NOBODY = 65534
+#: Of prctl (include/uapi/linux/prctl.h).
+PDEATHSIG, DROP_FROM_BOUNDS, NO_NEW_PRIVILEGES, AMBIENT, CLEAR_ALL = 1, 24, 38, 47, 4
 
-#: A new thread is a clone with this flag; a new process one without.
-THREAD = 0x10000
+#: A system call that there is none of.
+UNKNOWN_CALL = 9999
+
+#: What there is on this system: every one of these has to be active, "user" for root only.
+LAYERS = ("limits", "user", "landlock", "seccomp")
 
 
-def apply(readable: Iterable[str], scratch: str, seconds: int, memory: int) -> list[str]:
-    """Apply all layers that this system has. Returns which of "limits", "landlock", "user", "seccomp" are active.
+def wanted() -> list[str]:
+    """The layers that this process needs; to be asked before any is applied."""
+    root = sys.platform != "win32" and os.geteuid() == 0
+    return [name for name in LAYERS if name != "user" or root]
+
+
+def apply(readable: Iterable[str], seconds: int, memory: int, parent: int, calls: bytes | None) -> list[str]:
+    """Apply all layers that this system has. Returns which of LAYERS are active.
 
     Args:
-        readable: files and folders that may be read; all others may not, nor be written.
-        scratch: the folder that may be written.
+        readable: files and folders that may be read; all others may not, nor may anything be written.
         seconds: of computing. memory: address space [bytes].
+        parent: the process that ends this one with itself.
+        calls: the filter of system calls (`allowed_calls`); None where there is none for this machine.
     """
     if sys.platform == "win32":
         return []
@@ -66,108 +74,100 @@ def apply(readable: Iterable[str], scratch: str, seconds: int, memory: int) -> l
     if sys.platform != "linux":
         return ["limits"]
     libc = ctypes.CDLL(None, use_errno=True)
-    libc.prctl(1, signal.SIGKILL, 0, 0, 0)  # PR_SET_PDEATHSIG: end when the checker does
-    libc.prctl(38, 1, 0, 0, 0)  # PR_SET_NO_NEW_PRIVS: asked for by both of the following
-    active = {"limits": True, "landlock": landlock(libc, readable, scratch)}
-    if not active["landlock"]:
-        active["user"] = become_nobody(scratch)
-    active["seccomp"] = seccomp(libc)
-    if not active["seccomp"]:
-        resource.setrlimit(resource.RLIMIT_NPROC, (0, 0))
+    rules = landlock_rules(libc, readable)
+    active = {"limits": True, "user": become_nobody() if os.geteuid() == 0 else False}
+    drop_capabilities(libc)
+    libc.prctl(NO_NEW_PRIVILEGES, 1, 0, 0, 0)
+    libc.prctl(PDEATHSIG, signal.SIGKILL, 0, 0, 0)  # after the change of user, which forgets it
+    if os.getppid() != parent:
+        os._exit(1)
+    active["landlock"] = rules is not None and landlock(libc, rules)
+    active["seccomp"] = calls is not None and seccomp(libc, calls)
     return [name for name, is_active in active.items() if is_active]
 
 
 def limit(seconds: int, memory: int) -> None:
     """Limits that the kernel keeps: SIGXCPU after these seconds of computing, no memory, no file beyond its size."""
-    wanted = {
+    most_of = {
         resource.RLIMIT_CPU: seconds,
         resource.RLIMIT_AS: memory,
         resource.RLIMIT_FSIZE: FILE,
         resource.RLIMIT_CORE: 0,
         resource.RLIMIT_NOFILE: 64,
     }
-    for what, most in wanted.items():
+    for what, most in most_of.items():
         hard = resource.getrlimit(what)[1]
         allowed = most if hard == resource.RLIM_INFINITY else min(most, hard)
         resource.setrlimit(what, (allowed, allowed))
 
 
-def landlock(libc: ctypes.CDLL, readable: Iterable[str], scratch: str) -> bool:
-    """Leave this process no files but these. False where the kernel has no Landlock."""
+def become_nobody() -> bool:
+    """From root to a user of this process's own, who owns nothing."""
+    for user in (NOBODIES[os.getpid() % len(NOBODIES)], NOBODY):
+        try:
+            os.setgroups([])
+            os.setresgid(user, user, user)
+            os.setresuid(user, user, user)
+        except OSError:  # a container that has no such user
+            continue
+        return os.getresuid() == (user, user, user)
+    return False
+
+
+def drop_capabilities(libc: ctypes.CDLL) -> None:
+    """All of them, for ever (man 7 capabilities)."""
+    for capability in range(64):
+        libc.prctl(DROP_FROM_BOUNDS, capability, 0, 0, 0)
+    libc.prctl(AMBIENT, CLEAR_ALL, 0, 0, 0)
+    header = struct.pack("=Ii", 0x20080522, 0)  # the third version of the interface; this process
+    libc.capset(header, struct.pack("=6I", *[0] * 6))
+
+
+def landlock_rules(libc: ctypes.CDLL, readable: Iterable[str]) -> int | None:
+    """A ruleset of these files alone, opened while they can be; None where the kernel has no Landlock."""
     version = libc.syscall(CREATE_RULESET, None, ctypes.c_size_t(0), 1)
     if version < 1:
-        return False
-    every = (1 << FILE_RIGHTS.get(version, 16)) - 1
-    fields = [every]
+        return None
+    fields = [(1 << FILE_RIGHTS.get(version, 16)) - 1]
     fields += [3] if version >= NETWORK_FROM else []
     fields += [3] if version >= SCOPED_FROM else []
     attributes = struct.pack(f"={len(fields)}Q", *fields)
     rules = libc.syscall(CREATE_RULESET, attributes, ctypes.c_size_t(len(attributes)), 0)
     if rules < 0:
-        return False
-    read = READ_FILE | READ_FOLDER
-    allowed = [*((path, read) for path in readable), (scratch, every), (os.devnull, READ_FILE | WRITE)]
-    for path, rights in allowed:
+        return None
+    for path in readable:
         if os.path.exists(path):
-            of_files = (READ_FILE | WRITE | TRUNCATE) & every
             place = os.open(path, os.O_PATH | os.O_CLOEXEC)
-            rule = struct.pack("=Qi", rights if os.path.isdir(path) else rights & of_files, place)
-            libc.syscall(ADD_RULE, rules, 1, rule, 0)
+            rights = READ_FILE | (READ_FOLDER if os.path.isdir(path) else 0)
+            libc.syscall(ADD_RULE, rules, 1, struct.pack("=Qi", rights, place), 0)
             os.close(place)
-    restricted = libc.syscall(RESTRICT_SELF, rules, 0) == 0
+    return int(rules)
+
+
+def landlock(libc: ctypes.CDLL, rules: int) -> bool:
+    """Leave this process no files but these. False where it can still open another."""
+    libc.syscall(RESTRICT_SELF, rules, 0)
     os.close(rules)
-    return bool(restricted)
+    return refused(lambda: os.close(os.open("/", os.O_RDONLY)))
 
 
-def become_nobody(scratch: str) -> bool:
-    """From root to a user who owns nothing but the folder. False for who is not root."""
-    if sys.platform == "win32" or os.geteuid() != 0:
+def seccomp(libc: ctypes.CDLL, lines: bytes) -> bool:
+    """Refuse all system calls but those that are allowed, in all threads. False where they are not refused."""
+    program = ctypes.create_string_buffer(lines)
+    # struct sock_fprog: the number of lines, and where they stand
+    pointer = ctypes.create_string_buffer(struct.pack("@HP", len(lines) // 8, ctypes.addressof(program)))
+    libc.syscall(SECCOMP[platform.machine()], 1, 1, pointer)  # SECCOMP_SET_MODE_FILTER, for all threads
+    if libc.syscall(UNKNOWN_CALL) != -1 or ctypes.get_errno() != 1:
         return False
-    os.chown(scratch, NOBODY, NOBODY)
-    os.setgroups([])
-    os.setresgid(NOBODY, NOBODY, NOBODY)
-    os.setresuid(NOBODY, NOBODY, NOBODY)
-    return True
+    return refused(os.pipe) and refused(lambda: os.open(".", os.O_WRONLY | os.O_TMPFILE))
 
 
-def seccomp(libc: ctypes.CDLL) -> bool:
-    """Refuse system calls: those of REFUSED, signals to others, new processes. False where there is no filter."""
-    if platform.machine() != "x86_64" or struct.calcsize("P") != 8:
+def refused(attempt: object) -> bool:
+    """Whether the kernel refuses to."""
+    try:
+        attempt()  # type: ignore[operator]
+    except PermissionError:
+        return True
+    except OSError:
         return False
-    lines = _program()
-    program = ctypes.create_string_buffer(b"".join(struct.pack("=HBBI", *line) for line in lines))
-    # struct sock_fprog: the number of lines, and where they stand.
-    pointer = ctypes.create_string_buffer(struct.pack("@HP", len(lines), ctypes.addressof(program)))
-    return bool(libc.prctl(22, 2, pointer, 0, 0) == 0)  # PR_SET_SECCOMP, SECCOMP_MODE_FILTER
-
-
-def _program() -> list[tuple[int, int, int, int]]:
-    """A program for the kernel's packet filter (man 2 seccomp): (code, jump if true, jump if false, number)."""
-    load, equal, at_least, any_bit, give = 0x20, 0x15, 0x35, 0x45, 0x06
-    allow, refuse, missing, kill = 0x7FFF0000, 0x00050001, 0x00050026, 0x80000000
-    lines = [
-        (load, 0, 0, 4),  # the architecture
-        (equal, 1, 0, 0xC000003E),
-        (give, 0, 0, kill),
-        (load, 0, 0, 0),  # which call
-        (at_least, 0, 1, 0x40000000),
-        (give, 0, 0, kill),
-        (equal, 0, 1, CLONE3),  # its flags are out of a filter's sight: without it, the C library takes clone
-        (give, 0, 0, missing),
-        (equal, 0, 4, CLONE),
-        (load, 0, 0, 16),  # the first argument
-        (any_bit, 0, 1, THREAD),
-        (give, 0, 0, allow),
-        (give, 0, 0, refuse),
-    ]
-    for call in (KILL, SIGNAL_THREAD):
-        lines += [
-            (equal, 0, 4, call),
-            (load, 0, 0, 16),
-            (equal, 0, 1, os.getpid()),
-            (give, 0, 0, allow),
-            (give, 0, 0, refuse),
-        ]
-    for call in sorted({call for calls in REFUSED.values() for call in calls}):
-        lines += [(equal, 0, 1, call), (give, 0, 0, refuse)]
-    return [*lines, (give, 0, 0, allow)]
+    return False

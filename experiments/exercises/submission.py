@@ -26,14 +26,17 @@ class Submission:
 
     Attributes:
         name: how it is called in tables.
-        seed: the student's, "" where the exercise has none. keyed: whether its answers depend on the teacher's key.
+        seed: the student's, "" where the exercise has none.
+        says_keyed: whether it says that it was started with a key: a reminder to students, who cannot check it then.
+        keyed: whether its answers depend on the teacher's key: that is for the teacher to say.
     """
 
     name: str
     source: str
     exercise: Exercise
     seed: str = ""
-    keyed: bool = False
+    says_keyed: bool = False
+    keyed: bool = True
 
     def seed_with(self, key: str | None) -> str:
         """The seed that its questions are made from."""
@@ -41,13 +44,14 @@ class Submission:
 
     def digest(self, key: str | None) -> str:
         """Of all that its grade depends on, but for springlab itself."""
-        return hashlib.sha256(f"{self.exercise.name}\0{key}\0{self.source}".encode()).hexdigest()[:16]
+        return hashlib.sha256(f"{self.exercise.name}\0{key}\0{self.keyed}\0{self.source}".encode()).hexdigest()[:16]
 
 
-def read(path: Path, name: str, exercise: Exercise | None = None) -> Submission:
+def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = True) -> Submission:
     """The submission in a file.
 
     Args:
+        keyed: whether it was handed out with the teacher's key.
         exercise: which it is of; left out, the one its line EXERCISE says.
 
     Raises:
@@ -70,7 +74,9 @@ def read(path: Path, name: str, exercise: Exercise | None = None) -> Submission:
     seed = SEED.search(source)
     if exercise.seeded and seed is None:
         raise InputError(f'{name} has no seed: expected the starter\'s line, such as SEED = "example"')
-    return Submission(name, source, exercise, seed[1] if exercise.seeded and seed else "", bool(KEYED.search(source)))
+    return Submission(
+        name, source, exercise, seed[1] if exercise.seeded and seed else "", bool(KEYED.search(source)), keyed
+    )
 
 
 def files_of(paths: Sequence[Path]) -> list[tuple[Path, str]]:

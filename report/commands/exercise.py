@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import secrets
 import shutil
 import sys
@@ -21,10 +22,54 @@ from report.plain import plain
 if TYPE_CHECKING:
     from experiments.exercises.exercise import Exercise
     from experiments.exercises.grading import Grade
+    from experiments.exercises.sandbox import Limits
     from experiments.exercises.submission import Submission
 
-key_option = click.option(
-    "--key", envvar="SPRINGLAB_EXERCISE_KEY", help="The teacher's secret: what is hidden hangs on it."
+#: The exit code where something could not be graded, and that is no fault of what was handed in.
+NOT_GRADED = 3
+
+
+def _key(context: click.Context, parameter: click.Parameter, file: Path | None) -> str | None:
+    """The key in a file, or in the environment: on a command line everybody on the machine could read it."""
+    from reference.errors import InputError
+
+    if file is None:
+        return os.environ.get("SPRINGLAB_EXERCISE_KEY") or None
+    try:
+        key = file.read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError) as error:
+        why = getattr(error, "strerror", None) or "expected text in UTF-8"
+        raise InputError(f"--key-file {file}: {why}") from None
+    if not key:
+        raise InputError(f"--key-file {file}: expected the key, the file is empty")
+    return key
+
+
+def _no_key(context: click.Context, parameter: click.Parameter, given: str | None) -> None:
+    from reference.errors import InputError
+
+    if given is not None:
+        shown = "on a command line everybody on this machine can read it"
+        raise InputError(f"--key: {shown}; expected --key-file FILE, or the variable SPRINGLAB_EXERCISE_KEY")
+
+
+def key_option(command: Any) -> Any:
+    """The teacher's key, as `key`."""
+    secret = "A file with the teacher's secret, what is hidden hangs on it; or the variable SPRINGLAB_EXERCISE_KEY."
+    path = click.Path(path_type=Path, dir_okay=False)
+    command = click.option("--key-file", "key", type=path, callback=_key, help=secret)(command)
+    return click.option("--key", "no_key", hidden=True, expose_value=False, callback=_no_key)(command)
+
+
+exposed_option = click.option(
+    "--let-submissions-reach-my-files",
+    "exposed",
+    is_flag=True,
+    help="Grade on a machine that cannot keep submissions from your files and processes, too.",
+)
+
+without_key_option = click.option(
+    "--started-without-key", is_flag=True, help="The exercise was handed out without the key that it is graded with."
 )
 
 
@@ -78,6 +123,8 @@ def start_command(exercise: str, folder: Path | None, seed: str, key: str | None
     "--csv", "table", type=click.Path(path_type=Path, dir_okay=False), help="Grades of a class; goes on from there."
 )
 @click.option("--jobs", type=click.IntRange(min=1), help="Submissions at once; as many as there are cores.")
+@exposed_option
+@without_key_option
 @click.option("--plot/--no-plot", default=True, help="Draw where numbers differ, beside a file.")
 @json_option
 def check_command(
@@ -86,33 +133,43 @@ def check_command(
     key: str | None,
     table: Path | None,
     jobs: int | None,
+    exposed: bool,
+    started_without_key: bool,
     plot: bool,
     as_json: bool,
 ) -> None:
     """Check FILES, and say what they are: the scheme, or the mistake. A folder is a class.
 
-    Exit code 1 where something is not right.
+    Exit code 1 where something is not right, 3 where something could not be graded.
     """
     from experiments.exercises.exercise import find
+    from experiments.exercises.sandbox import Limits
     from experiments.exercises.submission import files_of, read
+
+    limits, keyed = Limits(exposed=exposed), not started_without_key
 
     chosen = find(exercise) if exercise else None
     found = files_of(files)
     if table is not None or len(found) > 1:
-        sys.exit(_check_class(found, chosen, key, table, jobs, as_json))
-    sys.exit(_check_one(found[0][0], read(*found[0], chosen), key, plot, as_json))
+        sys.exit(_check_class(found, chosen, key, table, jobs, limits, keyed, as_json))
+    sys.exit(_check_one(found[0][0], read(*found[0], chosen, keyed), key, limits, plot, as_json))
 
 
-def _check_one(path: Path, submission: Submission, key: str | None, plot: bool, as_json: bool) -> int:
+def _check_one(path: Path, submission: Submission, key: str | None, limits: Limits, plot: bool, as_json: bool) -> int:
     """Grade one submission, and say what it is; the exit code."""
     from experiments.exercises.grading import grade
+    from experiments.exercises.sandbox_errors import NotGradedError
     from reference.errors import InputError
 
-    if submission.keyed and key is None:
+    if submission.says_keyed and key is None:
         raise InputError(f"{submission.name} was started with a key: only whoever has it can check the answers")
-    with progress("check") as tell:
-        tell(submission.name)
-        given = grade(submission, key)
+    try:
+        with progress("check") as tell:
+            tell(submission.name)
+            given = grade(submission, key, limits)
+    except NotGradedError as error:
+        click.echo(f"springlab: {submission.name} was not graded, which is not its fault: {error}", err=True)
+        return NOT_GRADED
     if as_json:
         _print_grade(submission, given, key)
     else:
@@ -158,14 +215,16 @@ def _check_class(
     key: str | None,
     table: Path | None,
     jobs: int | None,
+    limits: Limits,
+    keyed: bool,
     as_json: bool,
 ) -> int:
     """Grade many submissions, and show a row for each; the exit code."""
     from experiments.exercises.grading import grade_class
 
-    _warn_of_missing_layers()
+    _require_layers(limits)
     with tempfile.TemporaryDirectory() as folder, progress("check") as tell:
-        rows = grade_class(files, table or Path(folder) / "grades.csv", exercise, key, jobs, tell)
+        rows = grade_class(files, table or Path(folder) / "grades.csv", exercise, key, jobs, tell, limits, keyed)
     if as_json:
         click.echo(json.dumps(rows, indent=2))
     else:
@@ -177,18 +236,29 @@ def _check_class(
             click.echo(f"Exercise {number}: {count} files have the seed {seed}.")
     if table is not None:
         click.echo(f"written: {table}", err=as_json)
-    return int(any(row["outcome"] != "right" for row in rows))
-
-
-def _warn_of_missing_layers() -> None:
-    """Say on standard error which layers of the sandbox this machine does not have."""
-    from experiments.exercises import sandbox
-
-    active = sandbox.layers()
-    missing = [name for name in ("limits", "landlock", "seccomp") if name not in active]
-    if missing:
-        words = f"on this machine submissions run without {', '.join(missing)}: see report/docs/exercises.md"
+    left = sum(row["outcome"] == "not graded" for row in rows)
+    if left:
+        words = f"{left} not graded, which is not their fault: the same command tries them again"
         click.echo(f"springlab: {words}", err=True)
+    return NOT_GRADED if left else int(any(row["outcome"] != "right" for row in rows))
+
+
+def _require_layers(limits: Limits) -> None:
+    """Where layers of the sandbox are missing: nothing is graded, or it is said on standard error which.
+
+    Raises:
+        InputError: with what could be done.
+    """
+    from experiments.exercises import sandbox
+    from reference.errors import InputError
+
+    missing = sandbox.missing()
+    if not missing:
+        return
+    words = f"this machine has no {', '.join(missing)} to keep submissions in (report/docs/exercises.md)"
+    if not limits.exposed:
+        raise InputError(f"{words}: expected one that has, or --let-submissions-reach-my-files")
+    click.echo(f"springlab: {words}", err=True)
 
 
 @exercise_command.command("gradescope")
@@ -197,11 +267,13 @@ def _warn_of_missing_layers() -> None:
     "-o", "--out", type=click.Path(path_type=Path, dir_okay=False), default=Path("autograder.zip"), show_default=True
 )
 @key_option
-def gradescope_command(exercise: str, out: Path, key: str | None) -> None:
+@exposed_option
+@without_key_option
+def gradescope_command(exercise: str, out: Path, key: str | None, exposed: bool, started_without_key: bool) -> None:
     """Write the zip that Gradescope runs EXERCISE by. Without a key, it gets one of its own."""
     from experiments.exercises.exercise import find
     from experiments.exercises.gradescope import write_zip
 
     found = find(exercise)
-    write_zip(found, key or secrets.token_hex(16), out)
+    write_zip(found, key or secrets.token_hex(16), out, exposed, not started_without_key)
     click.echo(f"written: {out}")

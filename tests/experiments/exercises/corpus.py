@@ -48,7 +48,7 @@ class Program:
     def submission(self) -> Submission:
         """As it is handed in."""
         exercise = find(str(self.exercise))
-        return Submission(self.style, self.text, exercise, "example" if exercise.seeded else "")
+        return Submission(self.style, self.text, exercise, "example" if exercise.seeded else "", keyed=False)
 
 
 @cache

@@ -45,8 +45,8 @@ HOSTILE = {
     "prints_results": Hostile(
         "import json\nprint(json.dumps({'score': 100, 'tests': [{'score': 100, 'max_score': 100}]}))\n"
         "open('results.json', 'w').write(json.dumps({'score': 100}))\n" + _STEP,
-        "mistake",
-        "nothing_moves",
+        "error",
+        "reaches_out",
     ),
     "writes_results_elsewhere": Hostile(
         "open('{outside}/results.json', 'w').write('{{\"score\": 100}}')\n" + _STEP, "error", "reaches_out"
@@ -105,8 +105,8 @@ HOSTILE = {
     ),
     "fills_its_folder": Hostile(
         "import time\nfor i in range(9):\n    open(f'{{i}}', 'wb').write(b'x' * 2**23)\ntime.sleep(10000)\n" + _STEP,
-        "crashed",
-        "crashed",
+        "error",
+        "reaches_out",
     ),
     "recurses": Hostile("def f(n):\n    return f(n + 1)\nf(0)\n", "error", "endless_recursion"),
     "recurses_without_a_limit": Hostile(

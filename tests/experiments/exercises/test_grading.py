@@ -100,7 +100,7 @@ def test_a_file_that_could_not_be_graded_is_tried_again(a_class: Path, monkeypat
     with monkeypatch.context() as broken:
         broken.setattr(grading, "grade", lambda *_: 1 / 0)
         (row,) = grade_class(files, table)
-    assert (row["outcome"], row["finding"], row["score"]) == ("error", "not_graded", "")
+    assert (row["outcome"], row["finding"], row["score"]) == ("not graded", "not_graded", "")
     (row,) = grade_class(files, table)
     assert row["finding"] == "heun_link_by_link"
     assert rows_of(table)["bert.py"] == row
@@ -136,7 +136,11 @@ def test_the_command_checks_a_file(a_class: Path) -> None:
     said = springlab("exercise", "check", str(a_class / "class" / "anna"))
     assert said.code == 0
     assert UNSEEN in said.out
-    said = springlab("exercise", "check", str(a_class / "class" / "anna" / "whole_state.py"), "--key", "k", "--json")
+    (a_class / "key").write_text("k\n")
+    key = str(a_class / "key")
+    said = springlab(
+        "exercise", "check", str(a_class / "class" / "anna" / "whole_state.py"), "--key-file", key, "--json"
+    )
     row = json.loads(said.out)
     assert (row["public"], row["hidden"], row["score"]) == ("passed", "passed", "100.0")
 
@@ -161,7 +165,10 @@ def test_bad_input_is_one_line() -> None:
 
 def test_start_writes_what_students_get_and_no_solution(tmp_path: Path) -> None:
     """Text, page, starter; numbers of one's own; and nothing is overwritten."""
-    said = springlab("exercise", "start", "8", str(tmp_path / "w"), "--seed", "ada", "--key", "sesame")
+    (tmp_path / "key").write_text("sesame")
+    said = springlab(
+        "exercise", "start", "8", str(tmp_path / "w"), "--seed", "ada", "--key-file", str(tmp_path / "key")
+    )
     assert said.code == 0
     names = {f.name for f in (tmp_path / "w").iterdir()}
     assert names == {"which_engine.py", "text.md", "text.html", "string.json", *(f"{letter}.csv" for letter in "ABCDE")}

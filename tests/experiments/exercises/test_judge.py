@@ -149,7 +149,7 @@ def test_a_call_that_answers_differently_the_second_time(here: None, memory: str
 
 
 def test_a_crash_at_a_hidden_question_costs_the_hidden_check_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Both checks run in one process; where it crashes each gets one of its own."""
+    """Each check has a process of its own, so that the first cannot know what the second asks."""
     public = len(catalogue_of(find("1"), "", None).questions)
 
     def crashes_at_others(source: str, questions: Sequence[Mapping[str, Any]], *_: object) -> Reply:
@@ -159,6 +159,16 @@ def test_a_crash_at_a_hidden_question_costs_the_hidden_check_only(monkeypatch: p
     given = grade(Submission("own.py", STEP, find("1")), "sesame")
     assert given.hidden is not None
     assert (given.public.outcome, given.hidden.outcome, given.score) == ("right", "crashed", 50.0)
+
+
+def test_what_does_not_end_is_asked_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The hidden check of a program that comes to no end in the public one is not run, and has no points."""
+    runs = []
+    monkeypatch.setattr(sandbox, "run", lambda *_: runs.append(1) or Reply("timed out", "no answer within 20 s"))
+    given = grade(Submission("own.py", STEP, find("1")), "sesame")
+    assert given.hidden is not None
+    assert (len(runs), given.public.outcome, given.hidden.outcome, given.score) == (1, "timed out", "timed out", 0.0)
+    assert len(given.hidden.passed) == len(catalogue_of(find("1"), "", "sesame").questions)
 
 
 def test_a_starter_with_another_seed_is_still_the_starter() -> None:

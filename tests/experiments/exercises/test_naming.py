@@ -30,7 +30,11 @@ def graded(files: list[Path]) -> dict[str, Grade]:
     """Public and hidden check of many files."""
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         return dict(
-            zip([f.stem for f in files], pool.map(lambda f: grade(read(f, f.name), "sesame"), files), strict=True)
+            zip(
+                [f.stem for f in files],
+                pool.map(lambda f: grade(read(f, f.name, keyed=False), "sesame"), files),
+                strict=True,
+            )
         )
 
 

@@ -1,0 +1,133 @@
+"""What a submission's process leaves, read strictly: one form, bounded, refused as a whole where anything is off.
+
+Whoever wrote it may have been the submission: it shares the process. So nothing is believed but its form, and numbers
+that the checker compares itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises import child
+from experiments.exercises.sandbox_errors import NotGradedError
+
+#: An answer is no longer than that [bytes]; no more names, no longer words than that.
+LONGEST, MOST_NAMES, LONGEST_WORDS = 2**23, 10_000, 2_000
+
+#: What a question's answer may hold beside its values.
+FLAGS = ("modified", "overwritten")
+
+
+@dataclass(frozen=True)
+class Reply:
+    """What came back.
+
+    Attributes:
+        ended: how the process ended where it gave no answer: "timed out" or "crashed"; else "done".
+        reason: of that, in a line.
+        answers: one for each question, as `child.ask` makes them.
+        error: what reading the submission raised: type, words, line.
+        layers: of the sandbox, those that were active.
+        names: what the submission defines.
+        missing: layers that should have been active, and were not.
+    """
+
+    ended: str
+    reason: str = ""
+    answers: Sequence[Mapping[str, Any]] = ()
+    error: Mapping[str, Any] | None = None
+    layers: Sequence[str] = ()
+    names: Sequence[str] = ()
+    missing: Sequence[str] = ()
+
+
+def read(data: bytes, exposed: bool, count: int) -> Reply:
+    """The reply in what a process that came to its end has left.
+
+    Args:
+        exposed: whether it was to go on without all layers of the sandbox.
+        count: of the questions.
+
+    Raises:
+        NotGradedError: where the submission was not read, as the sandbox did not stand.
+    """
+    if data.startswith(child.CLOSED):
+        missing = ", ".join(child.unpack(data[len(child.CLOSED) :])["missing"])
+        raise NotGradedError(
+            f"this machine has no {missing} to keep submissions in; see --let-submissions-reach-my-files"
+        )
+    if len(data) > LONGEST:
+        return Reply("crashed", f"it answered more than {LONGEST / 2**20:g} MiB")
+    if data == child.READY:
+        return Reply("crashed", "it ended its process before it had answered")
+    try:
+        reply = child.unpack(data[len(child.READY) :])
+        _check(reply, exposed, count)
+    except (ValueError, UnicodeError):
+        return Reply("crashed", "what it answered is not readable")
+    found = (reply.get("answers", ()), reply.get("error"), reply["layers"], reply.get("names", ()), reply["missing"])
+    return Reply("done", "", *found)
+
+
+def _check(reply: Any, exposed: bool, count: int) -> None:
+    """Raises ValueError unless everything in it is as `child` writes it."""
+    _is_dict(reply, {"layers", "missing"}, {"names", "answers", "error"})
+    for words in ("layers", "missing", "names"):
+        _are_words(reply.get(words, []))
+    _expect(exposed or not reply["missing"])
+    answers = reply.get("answers", [])
+    _expect(isinstance(answers, list) and len(answers) == (0 if "error" in reply else count))
+    for answer in answers:
+        _is_answer(answer)
+    if "error" in reply:
+        _is_error(reply["error"])
+
+
+def _is_answer(answer: Any) -> None:
+    _is_dict(answer, {"values"}, {"again", "error", *FLAGS})
+    _expect(isinstance(answer["values"], list) and all(map(_are_arrays, answer["values"])))
+    _expect("again" not in answer or _are_arrays(answer["again"]))
+    _expect("again" in answer or "error" in answer)
+    _expect(all(isinstance(answer.get(flag, False), bool) for flag in FLAGS))
+    if "error" in answer:
+        _is_error(answer["error"])
+
+
+def _is_error(error: Any) -> None:
+    _is_dict(error, {"type", "words", "line"}, set())
+    _are_words([error["type"], error["words"]])
+    _expect(error["line"] is None or (type(error["line"]) is int and 0 <= error["line"] <= 2**31))
+
+
+def _are_arrays(values: Any) -> bool:
+    if not (isinstance(values, list) and all(isinstance(value, np.ndarray) for value in values)):
+        return False
+    for value in values:
+        if value.dtype.kind == "U" and not _are_letters(np.ascontiguousarray(value).ravel().view(np.uint32)):
+            return False
+    return True
+
+
+def _are_letters(numbers: Any) -> bool:
+    """Whether they are code points, and no halves of one."""
+    return bool((numbers < 0x110000).all() and not ((numbers >= 0xD800) & (numbers < 0xE000)).any())
+
+
+def _are_words(words: Any) -> None:
+    _expect(isinstance(words, list) and len(words) <= MOST_NAMES)
+    for word in words:
+        _expect(isinstance(word, str) and len(word) <= LONGEST_WORDS)
+        word.encode("utf-8")  # half of a code point cannot be written anywhere
+
+
+def _is_dict(value: Any, needed: set[str], possible: set[str]) -> None:
+    _expect(isinstance(value, dict) and needed <= set(value) <= needed | possible)
+
+
+def _expect(true: bool) -> None:
+    if not true:
+        raise ValueError("not a reply")

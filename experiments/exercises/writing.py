@@ -1,0 +1,24 @@
+"""Files written beside submissions: in place of whatever has the name, never through a link to somewhere else."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+
+def write_anew(file: Path, content: bytes) -> None:
+    """A file with this content, in one go; a link of that name is replaced, what it leads to stays as it was.
+
+    Raises:
+        OSError: where nothing can be written there.
+    """
+    handle, name = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}.")
+    try:
+        with os.fdopen(handle, "wb") as new:
+            new.write(content)
+        os.chmod(name, 0o644)
+        os.replace(name, file)
+    except BaseException:
+        os.unlink(name)
+        raise

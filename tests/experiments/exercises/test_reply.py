@@ -1,0 +1,130 @@
+"""What a submission's process leaves is read strictly: the form that `child` writes, or nothing of it."""
+
+from __future__ import annotations
+
+import json
+import struct
+from typing import Any
+
+import numpy as np
+import pytest
+
+from experiments.exercises import child
+from experiments.exercises.reply import LONGEST, read
+from experiments.exercises.sandbox_errors import NotGradedError
+
+#: As `child` writes it, to two questions.
+GOOD: dict[str, Any] = {
+    "layers": ["limits", "landlock", "seccomp"],
+    "missing": [],
+    "names": ["step"],
+    "answers": [
+        {"values": [[np.ones(2), np.zeros(())]], "overwritten": False, "again": [np.ones(2), np.zeros(())]},
+        {"values": [], "error": {"type": "ValueError", "words": "no", "line": 3}},
+    ],
+}
+
+
+def packed(reply: Any) -> bytes:
+    """After the mark that the submission is about to be read."""
+    return child.READY + child.pack(reply)
+
+
+def test_what_the_child_writes_is_read() -> None:
+    """Answers, names, layers."""
+    found = read(packed(GOOD), False, 2)
+    assert (found.ended, len(found.answers), found.names) == ("done", 2, ["step"])
+    failed = {"layers": [], "missing": [], "error": {"type": "SyntaxError", "words": "bad", "line": None}}
+    assert read(packed(failed), False, 2).error == failed["error"]
+
+
+def answers(**changed: Any) -> dict[str, Any]:
+    """The good reply, its first answer changed."""
+    first = {**GOOD["answers"][0], **changed}
+    return {**GOOD, "answers": [{k: v for k, v in first.items() if v is not None}, GOOD["answers"][1]]}
+
+
+@pytest.mark.parametrize(
+    "reply",
+    [
+        [],
+        {},
+        {**GOOD, "layers": "limits"},
+        {**GOOD, "layers": [np.ones(3)]},
+        {**GOOD, "missing": ["landlock"]},
+        {**GOOD, "names": [1]},
+        {**GOOD, "names": ["\ud800"]},
+        {**GOOD, "names": ["x" * 10_000]},
+        {**GOOD, "names": ["x"] * 20_000},
+        {**GOOD, "walls": np.ones(3)},
+        {**GOOD, "answers": GOOD["answers"][:1]},
+        {**GOOD, "answers": GOOD["answers"] * 2},
+        {**GOOD, "error": {"type": "E", "words": "w", "line": 1}},
+        answers(again=[1, 2]),
+        answers(again=None),
+        answers(values=None),
+        answers(values=[[1, 2]]),
+        answers(values=[np.ones(2)]),
+        answers(modified=1),
+        answers(score=100),
+        answers(error={"type": "E", "words": "\udfff", "line": 1}),
+        answers(error={"type": "E", "words": "w", "line": True}),
+        answers(error={"type": "E", "words": "w", "line": -1}),
+        answers(error={"type": "E", "words": "w"}),
+        answers(error="E"),
+    ],
+)
+def test_anything_else_is_refused_as_a_whole(reply: Any) -> None:
+    """One thing of another kind, too much, or missing: nothing of it counts."""
+    found = read(packed(reply), False, 2)
+    assert (found.ended, found.reason, found.answers) == ("crashed", "what it answered is not readable", ())
+
+
+def raw(head: str, rest: bytes = b"") -> bytes:
+    """Bytes with a head of one's own."""
+    return child.READY + struct.pack("<Q", len(head)) + head.encode() + rest
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        child.READY + b"short",
+        child.READY + b"\xff" * 64,
+        child.READY + struct.pack("<Q", 2**63) + b"{}",
+        raw("[" * 100_000),
+        raw(json.dumps({"fields": {"layers": {"dtype": "<U1", "shape": [1]}}}), struct.pack("<I", 0x110000)),
+        raw(json.dumps({"dtype": "<f8", "shape": [2**40, 2**40]})),
+        raw(json.dumps({"dtype": "O", "shape": [1]}), b"\0" * 8),
+        raw(json.dumps({"dtype": "<f8", "shape": [-1]}), b"\0" * 8),
+        raw('{"fields": {"layers": NaN}}'),
+        packed(GOOD)[:-4],
+    ],
+)
+def test_bytes_of_other_kinds_are_refused(data: bytes) -> None:
+    """Cut short, nested, of shapes that no memory holds, letters that are none."""
+    assert read(data, False, 2).ended == "crashed"
+
+
+def test_letters_that_are_none_are_refused() -> None:
+    """An array of words whose numbers are no code points."""
+    bad = np.frombuffer(struct.pack("<2I", 0xD800, 0x110000), "<U1")
+    assert read(packed(answers(again=[bad, bad])), False, 2).ended == "crashed"
+
+
+def test_an_answer_is_bounded() -> None:
+    """By its bytes."""
+    assert "MiB" in read(child.READY + b"x" * LONGEST, False, 2).reason
+
+
+def test_a_process_that_ends_itself_has_not_answered() -> None:
+    """Only the mark is there."""
+    assert read(child.READY, False, 2).ended == "crashed"
+
+
+def test_where_a_layer_is_missing_nothing_is_graded() -> None:
+    """It is told which, and the way out; and where that way was taken, it is read."""
+    closed = child.CLOSED + child.pack({"layers": ["limits"], "missing": ["landlock", "seccomp"]})
+    with pytest.raises(NotGradedError, match=r"landlock, seccomp .*--let-submissions-reach-my-files"):
+        read(closed, False, 2)
+    exposed = {**GOOD, "layers": ["limits"], "missing": ["landlock", "seccomp"]}
+    assert read(packed(exposed), True, 2).missing == ["landlock", "seccomp"]
