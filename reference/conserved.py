@@ -11,12 +11,22 @@ from reference.system import MassSpringSystem
 
 def energy(system: MassSpringSystem, state: State) -> float:
     """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + that of the law of a spring - sum m g.x."""
+    return energy_parts(system, state)["total"]
+
+
+def energy_parts(system: MassSpringSystem, state: State) -> dict[str, float]:
+    """The same, part by part [J]: kinetic, elastic, gravitational (zero at height zero) and total."""
     a, b = system.springs.T
     stretch = np.linalg.norm(state.positions[b] - state.positions[a], axis=1) - system.rest_lengths
     kinetic = 0.5 * system.masses @ (state.velocities**2).sum(axis=1)
     elastic = elastic_energy(system.stiffness, stretch).sum()
     weight = system.masses @ (state.positions @ system.gravity)
-    return float(kinetic + elastic - weight)
+    return {
+        "kinetic": float(kinetic),
+        "elastic": float(elastic),
+        "gravitational": -float(weight),
+        "total": float(kinetic + elastic - weight),
+    }
 
 
 def momentum(system: MassSpringSystem, state: State) -> Array:

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from reference.changes import Change
+from reference.lengths import lengths, spring_lengths
 from reference.spring_law import elastic_energy
 from reference.state import Array, Trajectory
 from reference.system import FIELDS, BoolArray, MassSpringSystem
@@ -19,6 +20,9 @@ Ending = Literal["done", "diverged", "crashed", "timed out", "unsupported"]
 
 #: How many times as long, as far or as fast as it may be something is when a run has blown up.
 RATIO = 100.0
+
+#: How many springs and masses in frames are looked at at once.
+AT_ONCE = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -60,10 +64,10 @@ def blow_up(
         lost = ~np.isfinite(values).all(axis=1)
         if lost.any():
             return f"the {name} of mass {np.argmax(lost)} is not a number at t = {time}"
-    stretch = _stretch_ratios(system, trajectory)[frame]
+    stretch = _stretch_ratios(system, trajectory.frames([0, frame]))[1]
     if (stretch > ratio).any():
         return f"spring {np.argmax(stretch)} is over {ratio:g} times its length at t = {time}"
-    distance = _distance_ratios(system, trajectory, changes)[frame]
+    distance = _distance_ratios(system, trajectory.frames([0, frame]), changes)[1]
     if (distance > ratio).any():
         return f"mass {np.argmax(distance)} is over {ratio:g} times as far as it could have come at t = {time}"
     return f"the energy is over {ratio**2:g} times what the system was given at t = {time}"
@@ -73,13 +77,26 @@ def first_blown_up_frame(
     system: MassSpringSystem, trajectory: Trajectory, ratio: float = RATIO, changes: Sequence[Change] = ()
 ) -> int:
     """The first frame that `blow_up` tells of; where there is none, their number."""
-    blown_up = [
-        ~(np.isfinite(trajectory.positions) & np.isfinite(trajectory.velocities)).all(axis=(1, 2)),
-        (_stretch_ratios(system, trajectory) > ratio).any(axis=1),
-        (_distance_ratios(system, trajectory, changes) > ratio).any(axis=1),
-        _energy_ratios(system, trajectory, changes) > ratio**2,
-    ]
-    return _first(np.asarray(np.any(np.array(blown_up), axis=0)))
+
+    def blown_up(part: Trajectory) -> BoolArray:
+        with np.errstate(over="ignore", invalid="ignore"):
+            length = spring_lengths(part.positions, system.springs)
+        told = [
+            ~(np.isfinite(part.positions) & np.isfinite(part.velocities)).all(axis=(1, 2)),
+            (length > ratio * _natural_lengths(system, part)).any(axis=1),
+            (_distance_ratios(system, part, changes) > ratio).any(axis=1),
+            _energy_ratios(system, part, length, changes) > ratio**2,
+        ]
+        return np.asarray(np.any(np.array(told), axis=0))
+
+    # a few frames at a time, so that what is computed of each spring and mass does not fill the memory
+    many = max(1, AT_ONCE // max(1, len(system.springs) + len(system.masses)))
+    for begin in range(0, len(trajectory), many):
+        # the start comes first in every part, as all is told by it
+        told = blown_up(trajectory.frames([0, *range(begin, min(begin + many, len(trajectory)))]))[1:]
+        if told.any():
+            return begin + _first(told)
+    return len(trajectory)
 
 
 def first_diverged_frame(system: MassSpringSystem, trajectory: Trajectory, stretch_ratio: float) -> int:
@@ -99,19 +116,14 @@ def _first(told: BoolArray) -> int:
 
 def _stretch_ratios(system: MassSpringSystem, trajectory: Trajectory) -> Array:
     """Stretch ratio: length over natural length, of every spring in every frame, shape (m, s)."""
-    x = trajectory.positions
-    a, b = system.springs.T
     with np.errstate(over="ignore", invalid="ignore"):
-        length = np.linalg.norm(x[:, b] - x[:, a], axis=2)
+        length = spring_lengths(trajectory.positions, system.springs)
         return np.asarray(length / _natural_lengths(system, trajectory))
 
 
 def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory) -> Array:
     """Of every spring the longer of its rest length and its length at the start [m], shape (s,)."""
-    a, b = system.springs.T
-    return np.maximum(
-        system.rest_lengths, np.linalg.norm(trajectory.positions[0, b] - trajectory.positions[0, a], axis=1)
-    )
+    return np.maximum(system.rest_lengths, spring_lengths(trajectory.positions[0], system.springs))
 
 
 def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change]) -> Array:
@@ -125,26 +137,28 @@ def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: 
     reach = system.size + _natural_lengths(system, trajectory).sum() or 1.0
     allowed = reach + fastest * t + np.linalg.norm(_most(system, "gravity", changes)) * t**2 / 2
     with np.errstate(over="ignore", invalid="ignore"):
-        return np.asarray(np.linalg.norm(trajectory.positions - trajectory.positions[0], axis=2) / allowed[:, None])
+        return np.asarray(lengths(trajectory.positions - trajectory.positions[0]) / allowed[:, None])
 
 
-def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change]) -> Array:
+def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Array, changes: Sequence[Change]) -> Array:
     """Kinetic and elastic energy over all that a system can have been given, in every frame, shape (m,).
 
     That is what both were at the start, what gravity does at most on the way, sum m g |x - x0|, and what would stretch
     every spring to twice its natural length, a scale for what starts at rest. Zero where all of that is zero.
+
+    Args:
+        length: of every spring in every frame [m], shape (m, s).
     """
     x, y = trajectory.positions, trajectory.positions[0]
     mass, stiffness = _most(system, "mass", changes), _most(system, "stiffness", changes)
     gravity = np.linalg.norm(_most(system, "gravity", changes))
-    a, b = system.springs.T
+    v = trajectory.velocities
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        stretch = np.linalg.norm(x[:, b] - x[:, a], axis=2) - system.rest_lengths
-        at_start = np.linalg.norm(y[b] - y[a], axis=1) - system.rest_lengths
-        energy = 0.5 * (trajectory.velocities**2).sum(axis=2) @ mass + elastic_energy(stiffness, stretch).sum(axis=1)
-        given = 0.5 * mass @ (trajectory.velocities[0] ** 2).sum(axis=1) + elastic_energy(stiffness, at_start).sum()
+        elastic = elastic_energy(stiffness, length - system.rest_lengths).sum(axis=1)
+        energy = 0.5 * np.einsum("mnd,mnd,n->m", v, v, mass) + elastic
+        given = 0.5 * mass @ (v[0] ** 2).sum(axis=1) + elastic[0]
         given += elastic_energy(stiffness, _natural_lengths(system, trajectory)).sum()
-        given = given + gravity * np.linalg.norm(x - y, axis=2) @ mass
+        given = given + gravity * lengths(x - y) @ mass
         return np.where(given > 0, energy / given, 0.0)
 
 

@@ -9,11 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import demands
-from engines.process.isolation import EngineStepper
 from experiments.runs.progress import Progress
+from experiments.runs.room import check_room
 from experiments.runs.side_by_side import side_by_side
-from reference.errors import InputError
 from reference.identification import Identification, identify_all
 from reference.outcome import Outcome
 from reference.scenes import Setup
@@ -111,7 +109,8 @@ def compare(
         InputError: for a dt or duration that makes no sense; where the trajectories would not fit into the memory.
     """
     steps = setup.steps
-    _check_room([s for s in steppers if patient or not too_slow(s, setup.system)], setup.system, steps)
+    kept = [s for s in steppers if patient or not too_slow(s, setup.system)]
+    check_room(kept, setup.system, steps, beside=1)
     progress("true motion")
     true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
 
@@ -131,21 +130,6 @@ def compare(
         deviation = None if trajectory is None or scheme is None else trajectory.distance(scheme)
         runs.append(Run(stepper, outcome, identification, error, deviation))
     return Comparison(setup, true, tuple(runs))
-
-
-def _check_room(steppers: Sequence[Stepper], system: MassSpringSystem, steps: int) -> None:
-    """Refuse what could not be kept: a trajectory of every stepper that can take the system, and the true one."""
-    import psutil
-
-    asked = demands(system)
-    able = [s for s in steppers if not isinstance(s, EngineStepper) or s.engine.capabilities.issuperset(asked)]
-    needed = (len(able) + 1) * (steps + 1) * (system.positions.nbytes + system.velocities.nbytes)
-    free = psutil.virtual_memory().available
-    if needed > free:
-        raise InputError(
-            f"{len(able)} steppers, {len(system.masses)} masses and {steps} steps take {needed / 2**30:.3g} GiB of "
-            f"memory, where {free / 2**30:.3g} are free: expected fewer of them; see --stepper and --duration"
-        )
 
 
 def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:

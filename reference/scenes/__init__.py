@@ -8,7 +8,7 @@ SI units, angles in degrees. They stand in files by subject.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
@@ -127,6 +127,17 @@ class Setup:
     def run_duration(self) -> float:
         """How long these steps truly take [s], up to half a step from the duration."""
         return self.steps * self.dt
+
+    def systems_at(self, steps: Sequence[int]) -> list[MassSpringSystem]:
+        """The system as it is at each of some steps, in their order: parameters may change on the fly."""
+        pending = sorted(changes_by_step(self.changes, self.dt).items())
+        system, found = self.system, []
+        for step in steps:
+            while pending and pending[0][0] < step:
+                for change in pending.pop(0)[1]:
+                    system = system.with_parameter(change.parameter, change.value)
+            found.append(system)
+        return found
 
     def check(self) -> None:
         """Refuse now what would only be met midway in a run, or never. Raises InputError."""

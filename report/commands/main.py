@@ -18,6 +18,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 #: Command, and what `--help` says of it without importing it. It is the function NAME_command of the module NAME.
 COMMANDS = {
     "list": "Scenes, schemes, engines and experiments.",
+    "simulate": "Run steppers, and show what the scene did: positions, forces, sag, energies; files of it.",
     "compare": "Run many steppers on one scene: how far from the true motion, and why.",
     "identify": "Say which scheme a stepper is.",
     "stability": "Predict and measure the largest stable dt; map growth.",

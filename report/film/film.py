@@ -9,7 +9,6 @@ import numpy as np
 
 from experiments.runs.comparison import Comparison, Run
 from experiments.runs.progress import Progress
-from reference.changes import changes_by_step
 from reference.errors import InputError
 from reference.identification import TOLERANCE
 from reference.line import obstacle_in_plane
@@ -86,18 +85,6 @@ def frame_steps(setup: Setup, steps: int, slow: float = 1.0) -> list[int]:
     return np.linspace(0, steps, shown).round().astype(int).tolist()
 
 
-def parameters_at(setup: Setup, steps: Sequence[int]) -> list[MassSpringSystem]:
-    """The system as it is at each of some steps, in their order: parameters may change on the fly."""
-    pending = sorted(changes_by_step(setup.changes, setup.dt).items())
-    system, found = setup.system, []
-    for step in steps:
-        while pending and pending[0][0] < step:
-            for change in pending.pop(0)[1]:
-                system = system.with_parameter(change.parameter, change.value)
-        found.append(system)
-    return found
-
-
 def look_at(system: MassSpringSystem, motions: Sequence[Trajectory]) -> Look:
     """A view, a window and a scale of strain for the first motion: others are seen so far as they go no further.
 
@@ -151,7 +138,7 @@ class Film:
             self.setup.system, self.shots, self.look, f"{self.setup.name}, dt = {self.setup.dt:g} s{behind}"
         )
         canvas = FigureCanvasAgg(sheet.figure)
-        systems = parameters_at(self.setup, self.steps)
+        systems = self.setup.systems_at(self.steps)
         for i, (step, system) in enumerate(zip(self.steps, systems, strict=True)):
             progress(f"{i} of {len(self.steps)} frames")
             time = step * self.setup.dt
@@ -172,17 +159,20 @@ def film(comparison: Comparison, names: Sequence[str] = (), slow: float = 1.0) -
     Raises:
         InputError: where no run has left a motion.
     """
-    shown = shots(comparison, names)
+    return film_of(comparison.setup, shots(comparison, names), comparison.true, slow)
+
+
+def film_of(setup: Setup, shown: Sequence[Shot], true: Trajectory | None, slow: float = 1.0) -> Film:
+    """The film of some panels. Raises InputError where there is none."""
     if not shown:
-        raise InputError(f"nothing to show of {comparison.setup.name}: no stepper that was asked for has left a motion")
+        raise InputError(f"nothing to show of {setup.name}: no stepper that was asked for has left a motion")
     sane = [shot.motion for shot in shown if shot.outcome.ending == "done"]
-    if comparison.true is not None:
-        sane.insert(0, comparison.true)
-    look = look_at(comparison.setup.system, sane or [_start(shown[0].motion)])
+    if true is not None:
+        sane.insert(0, true)
+    look = look_at(setup.system, sane or [_start(shown[0].motion)])
     shown = [Shot(s.names, s.caption, s.outcome, leaves(s.motion, look.view, look.window)) for s in shown]
-    steps = frame_steps(comparison.setup, len(comparison.times) - 1, slow)
-    true = comparison.true if len(comparison.setup.system.masses) <= FEW else None
-    return Film(comparison.setup, shown, steps, look, true)
+    steps = frame_steps(setup, setup.steps, slow)
+    return Film(setup, shown, steps, look, true if len(setup.system.masses) <= FEW else None)
 
 
 def _start(motion: Trajectory) -> Trajectory:

@@ -20,7 +20,7 @@ from reference.scenes import Setup, find
 from reference.stepper import catalogued
 from reference.system import MassSpringSystem
 from report.film.drawing import FAR, Look, colour_map, lines, strain
-from report.film.film import RATE, Film, film, frame_steps, leaves, look_at, parameters_at, shots
+from report.film.film import RATE, Film, film, frame_steps, leaves, look_at, shots
 from report.film.film_file import write_film
 from report.film.obstacle_image import obstacle_image
 from report.film.view import View, view_of
@@ -124,7 +124,7 @@ def test_what_blows_up_leaves_the_picture_and_changes_nothing_for_the_others() -
 def test_strain_is_length_over_rest_length_less_one() -> None:
     """A spring of 0.125 m stretched by 0.01 m: 8 %. One whose rest length changes on the fly is measured by the new."""
     setup = Setup("spring", find("spring").system({}), 1e-3, 0.01, (Change(0.005, "rest_length", 0.1),))
-    before, after = parameters_at(setup, [5, 6])
+    before, after = setup.systems_at([5, 6])
     x = setup.system.positions
     assert strain(before, x) == pytest.approx([0.01 / 0.125], rel=1e-12)
     assert strain(after, x) == pytest.approx([0.035 / 0.1], rel=1e-12)

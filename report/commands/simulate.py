@@ -1,0 +1,206 @@
+"""The command that runs steppers and shows what the scene did: simulate."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from report.commands.options import json_option, out_option, setup_options, steppers_option
+from report.commands.terminal import RESULTS, progress, show_table
+
+if TYPE_CHECKING:
+    from experiments.simulation.simulation import Largest, Run, Simulation
+    from reference.scenes import Setup
+    from reference.stepper import Stepper
+
+#: The stepper where none is named: the lecture's.
+DEFAULT = "heun"
+
+#: A run that takes more memory than that [bytes] is told before, and so are tables of more rows.
+TOLD_FROM, MANY_ROWS = 2**28, 2_000_000
+
+
+@click.command("simulate")
+@setup_options
+@steppers_option(f"Who steps; any number of times. {DEFAULT} where left out; see `springlab list`.")
+@json_option
+@out_option(None, "Also write files here: CSV, NPZ, ParaView's PVD, JSON.")
+@click.option(
+    "--plot",
+    "plots",
+    multiple=True,
+    metavar="WHAT",
+    help="Draw paths, energy, forces, or a mass's coordinate, as 10:y; any number of times; into OUT, or results.",
+)
+@click.option("--every", type=click.IntRange(min=1), default=1, help="Only every so many steps in files.")
+@click.option("--animate", is_flag=True, help="Also a film of each, NAME.gif.")
+@click.option("--time-limit", type=click.FloatRange(min=0, min_open=True), help="How long an engine may take [s].")
+def simulate_command(
+    setup: Setup,
+    names: tuple[str, ...],
+    as_json: bool,
+    out: Path | None,
+    plots: tuple[str, ...],
+    every: int,
+    animate: bool,
+    time_limit: float | None,
+) -> None:
+    """Run steppers on SCENE (a name or a TOML file), and show what it did: where, how far, with which forces."""
+    from experiments.runs.steppers import find_steppers
+    from experiments.simulation.simulation import simulate_all
+    from report.figures.motions import wanted
+
+    system = setup.system
+    asked = [wanted(word, len(system.masses), system.dimension) for word in plots]
+    steppers = [_patient(stepper, time_limit) for stepper in find_steppers(names or (DEFAULT,))]
+    _tell_room(setup, steppers)
+    with progress("simulate") as tell:
+        simulation = simulate_all(setup, steppers, tell)
+        if out is not None:
+            _write(simulation, out, every, tell)
+    if as_json:
+        click.echo(json.dumps(simulation.document, indent=2))
+    else:
+        _show(simulation)
+    folder = out or RESULTS / "simulate"
+    for what in asked:
+        _plot(simulation, what, folder / f"{setup.name}-{what.name}.svg")
+    if animate:
+        _animate(simulation, folder)
+
+
+def _patient(stepper: Stepper, time_limit: float | None) -> Stepper:
+    """An engine with another limit on its time."""
+    from dataclasses import replace
+
+    from engines.process.isolation import EngineStepper
+
+    if time_limit is None or not isinstance(stepper, EngineStepper):
+        return stepper
+    return replace(stepper, time_limit=time_limit)
+
+
+def _tell_room(setup: Setup, steppers: Sequence[Stepper]) -> None:
+    """Say on standard error how much memory it will take, where that is much."""
+    from experiments.runs.room import room_of
+
+    room = room_of(steppers, setup.system, setup.steps)
+    if room > TOLD_FROM:
+        masses, steps = len(setup.system.masses), setup.steps
+        print(f"springlab: {masses:,} masses, {steps:,} steps: {room / 2**30:.2g} GiB of memory", file=sys.stderr)
+
+
+def _show(simulation: Simulation) -> None:
+    """A summary of each run, and with few masses where they are at the end."""
+    setup = simulation.setup
+    title = f"{setup.name}: dt = {setup.dt:g} s, {setup.run_duration:.6g} s"
+    if abs(setup.run_duration - setup.duration) > 1e-9 * setup.duration:
+        title += f", which is {setup.steps} whole steps ({setup.duration:g} s were asked for)"
+    names = [run.stepper.name for run in simulation.runs]
+    rows = [[label, *(cell(run) for run in simulation.runs)] for label, cell in SUMMARY.items()]
+    show_table(title, ["", *names], rows)
+    for run in simulation.runs:
+        if run.outcome.reason:
+            click.echo(f"{run.stepper.name}: {run.outcome.ending}: {run.outcome.reason}")
+    for run in simulation.runs:
+        _show_end(run)
+
+
+#: So many masses are listed at the end of a run.
+FEW = 30
+
+
+def _show_end(run: Run) -> None:
+    if run.motion is None or len(run.motion.end.positions) > FEW:
+        return
+    end = run.motion.end
+    axes = "xyz"[: end.positions.shape[1]]
+    columns = ["mass", *(f"{axis} [m]" for axis in axes), *(f"v{axis} [m/s]" for axis in axes)]
+    rows = [
+        [str(i), *x, *v] for i, (x, v) in enumerate(zip(end.positions.tolist(), end.velocities.tolist(), strict=True))
+    ]
+    show_table(f"{run.stepper.name}, t = {end.time:.6g} s", columns, rows)
+
+
+def _of_motion(cell: Any) -> Any:
+    return lambda run: None if run.motion is None else cell(run.motion)
+
+
+def _largest(found: Largest | None, what: str, unit: str) -> str | None:
+    if found is None:
+        return "none"
+    return f"{found.value:.4g} {unit}, {what} {found.which}, t = {found.time:.4g} s"
+
+
+def _vector(values: Any) -> str:
+    return ", ".join(f"{value:.4g}" for value in values.tolist())
+
+
+#: What is said of every run.
+SUMMARY = {
+    "outcome": lambda run: run.outcome.ending,
+    "blew up at [s]": lambda run: run.blew_up_at,
+    "largest sag": _of_motion(lambda m: _largest(m.sag, "mass", "m")),
+    "largest stretch": _of_motion(lambda m: _largest(m.stretched, "spring", "m")),
+    "largest tension": _of_motion(lambda m: None if m.forces is None else _largest(m.tension, "spring", "N")),
+    "largest compression": _of_motion(lambda m: None if m.forces is None else _largest(m.compression, "spring", "N")),
+    "energy at the start [J]": _of_motion(lambda m: f"{m.energy_at_start['total']:.6g}"),
+    "energy at the end [J]": _of_motion(lambda m: f"{m.energy['total']:.6g}"),
+    "of it kinetic, elastic, gravitational [J]": _of_motion(
+        lambda m: ", ".join(f"{m.energy[name]:.4g}" for name in ("kinetic", "elastic", "gravitational"))
+    ),
+    "momentum at the end [kg m/s]": _of_motion(lambda m: _vector(m.momentum)),
+}
+
+
+def _write(simulation: Simulation, out: Path, every: int, tell: Any) -> None:
+    """All files of all runs; which, on standard error."""
+    from experiments.simulation import files
+
+    out.mkdir(parents=True, exist_ok=True)
+    written = [out / "simulate.json"]
+    written[0].write_text(json.dumps(simulation.document, indent=2) + "\n", encoding="utf-8")
+    for run in simulation.runs:
+        if run.motion is None:
+            continue
+        frames = files.frames_of(run.motion, every)
+        rows = files.rows_of(simulation.setup.system, frames)
+        if rows > MANY_ROWS:
+            print(f"springlab: {rows:,} rows for {run.stepper.name}; --every N makes fewer", file=sys.stderr)
+        writers = {
+            "masses.csv": files.write_masses,
+            "springs.csv": files.write_springs,
+            "arrays.npz": files.write_arrays,
+            "frames.pvd": files.write_time_series,
+        }
+        for ending, write in writers.items():
+            written.append(out / f"{run.stepper.name}-{ending}")
+            tell(f"writing {written[-1].name}")
+            write(written[-1], simulation.setup, run.motion, frames)
+    print(*(f"written: {file}" for file in written), sep="\n", file=sys.stderr)
+
+
+def _plot(simulation: Simulation, what: Any, file: Path) -> None:
+    from report.figures.motions import draw
+
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(draw(simulation, what).svg(), encoding="utf-8")
+    print(f"written: {file}", file=sys.stderr)
+
+
+def _animate(simulation: Simulation, folder: Path) -> None:
+    from report.film.contact_sheet import Shot
+    from report.film.film import RATE, film_of
+    from report.film.film_file import whole_file, write_film
+
+    shown = [Shot((run.stepper.name,), "", run.outcome) for run in simulation.runs if run.motion is not None]
+    path = folder / f"{simulation.setup.name}.gif"
+    made = film_of(simulation.setup, shown, None)
+    with whole_file(path) as part, progress("animate") as tell:
+        write_film(part, path, made.frames(tell), RATE)
+    print(f"written: {path}", file=sys.stderr)
