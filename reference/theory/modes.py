@@ -1,12 +1,84 @@
-"""Small oscillations about an equilibrium: frequencies, in closed form where there is one."""
+"""Small oscillations about an equilibrium: natural modes, frequencies, in closed form where there is one."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from reference.assembly import assemble, spring_blocks
 from reference.state import Array, State
 from reference.system import MassSpringSystem
+from reference.theory.linearisation import Linearisation
+
+
+@dataclass(frozen=True, eq=False)
+class NaturalModes:
+    """The modes of M q'' + K q = 0 about a rest, slowest first, and what damping and drag make of each.
+
+    Attributes:
+        frequencies: natural, without damping [Hz], shape (k,); zero where nothing brings a mass back.
+        shapes: moves of all masses, the largest 1, shape (k, n, d).
+        rates: of decay, g in q'' + g q' + w^2 q = 0 [1/s], shape (k,).
+        coupled: how much of the damping does not act within modes but between them, as a part of it: where that is
+            not zero, `rates` are what is left of it.
+    """
+
+    frequencies: Array
+    shapes: Array
+    rates: Array
+    coupled: float
+
+    @property
+    def damping_ratios(self) -> Array:
+        """Zeta = g / (2 w), shape (k,); NaN where w is zero."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.where(self.frequencies > 0, self.rates / (4 * np.pi * self.frequencies), np.nan)
+
+
+#: A square of a frequency below this part of the largest is zero but for rounding.
+UNRESISTED = 1e-10
+
+
+def natural_modes(linear: Linearisation, lowest: int | None = None) -> NaturalModes:
+    """Of a linearised system (Meirovitch, *Fundamentals of Vibrations* (2001), 7.5, 7.15).
+
+    With shapes of unit mass, phi^T M phi = 1, the damping within a mode is g = phi^T (C + D) phi.
+
+    Args:
+        lowest: only this many, by sparse matrices.
+    """
+    squares, vectors = _eigenvectors(linear, lowest)
+    largest = float(linear.scaled_stiffness.diagonal().max(initial=0.0))
+    squares = np.where(squares > UNRESISTED * largest, squares, 0.0)
+    drag = linear.on_masses(np.full(len(linear.system.masses), linear.system.drag))
+    damping = vectors.T @ (linear.scaled(linear.damping + drag) @ vectors)
+    rates = np.diag(damping)
+    beyond = damping - np.diag(rates)
+    whole = float(np.linalg.norm(damping))
+    shapes = np.zeros((len(squares), *linear.system.positions.shape))
+    for shape, vector in zip(shapes, vectors.T, strict=True):
+        moves = linear.moves(vector / np.sqrt(linear.mass))
+        shape[~linear.system.fixed] = moves.reshape(-1, linear.system.dimension) / np.abs(moves).max()
+    coupled = float(np.linalg.norm(beyond)) / whole if whole else 0.0
+    return NaturalModes(np.sqrt(squares) / (2 * np.pi), shapes, rates, coupled)
+
+
+def _eigenvectors(linear: Linearisation, lowest: int | None) -> tuple[Array, Array]:
+    """Of M^-1/2 K M^-1/2, rising; vectors as columns."""
+    matrix = linear.scaled_stiffness
+    size = matrix.shape[0]
+    if lowest is None or lowest >= size - 1:
+        values, vectors = np.linalg.eigh(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
+        return values[:lowest], vectors[:, :lowest]
+    from scipy.sparse.linalg import eigsh
+
+    # a little below zero, so that what nothing resists is no singular matrix
+    shift = -1e-6 * float(matrix.diagonal().max())
+    start = np.random.default_rng(0).normal(size=size)
+    values, vectors = eigsh(matrix.tocsc(), lowest, sigma=shift, v0=start)
+    order = np.argsort(values)
+    return values[order], vectors[:, order]
 
 
 def squared_frequencies(system: MassSpringSystem, state: State, lowest: int | None = None) -> Array:

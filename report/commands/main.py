@@ -19,6 +19,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 COMMANDS = {
     "list": "Scenes, schemes, engines and experiments.",
     "simulate": "Run steppers, and show what the scene did: positions, forces, sag, energies; files of it.",
+    "modes": "Natural frequencies, shapes and damping about the rest, and what springs carry there.",
     "compare": "Run many steppers on one scene: how far from the true motion, and why.",
     "identify": "Say which scheme a stepper is.",
     "stability": "Predict and measure the largest stable dt; map growth.",

@@ -1,0 +1,174 @@
+"""At which frequencies a scene swings about its rest, what its springs carry there, and what steppers make of both."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from experiments.runs.comparison import finite
+from experiments.runs.progress import Progress
+from experiments.runs.runner import current
+from reference.lengths import spring_lengths
+from reference.scenes import Setup
+from reference.spring_law import spring_force
+from reference.state import Array
+from reference.stepper import SchemeStepper, Stepper
+from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
+from reference.theory.modes import NaturalModes, natural_modes
+from reference.theory.oscillators import step_matrices
+
+#: Up to so many coordinates all modes are computed unless a number is asked for; of larger systems so many.
+ALL_UP_TO, LOWEST = 600, 20
+
+#: A measured swing starts so far from rest, as a part of the system's size, and lasts so many steps at most.
+START, STEPS = 1e-5, 2_000
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """A scene at rest, and how it swings about that.
+
+    Attributes:
+        rest: where it is.
+        about: which rest that is, where there are obstacles.
+        natural: its modes, slowest first.
+        forces: of springs at rest [N], tension positive, shape (s,).
+        asked: how many modes there are in all.
+    """
+
+    setup: Setup
+    rest: Equilibrium
+    about: str
+    natural: NaturalModes
+    forces: Array
+    asked: int
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """As the command line's JSON has it."""
+        return {
+            "scene": self.setup.name,
+            "equilibrium_m": self.rest.state.positions.tolist(),
+            "frequencies_hz": self.natural.frequencies.tolist(),
+            "damping_ratios": [finite(value) for value in self.natural.damping_ratios.tolist()],
+            "spring_forces_n": self.forces.tolist(),
+            "modes_in_all": self.asked,
+            "damping_couples_modes": self.natural.coupled,
+            "about": self.about,
+        }
+
+
+@dataclass(frozen=True)
+class Swing:
+    """What a stepper makes of a mode.
+
+    Attributes:
+        frequency: how often it swings [Hz]; NaN where it does not, or is not known.
+        damping_ratio: how its swings get smaller.
+    """
+
+    frequency: float
+    damping_ratio: float
+
+    @property
+    def document(self) -> dict[str, float | None]:
+        """For JSON."""
+        return {"frequency_hz": finite(self.frequency), "damping_ratio": finite(self.damping_ratio)}
+
+
+UNKNOWN = Swing(np.nan, np.nan)
+
+
+@dataclass(frozen=True)
+class StepperSwing:
+    """A mode under one stepper at the scene's dt.
+
+    Attributes:
+        mode: its number, from 0.
+        predicted: from the scheme's step of an oscillator with this frequency and damping; None of an engine.
+        measured: from a run, started in the mode's shape; None where there is none.
+        reason: why, where one is missing.
+    """
+
+    stepper: str
+    mode: int
+    predicted: Swing | None
+    measured: Swing | None
+    reason: str = ""
+
+
+def modes_of(setup: Setup, lowest: int | None = None) -> Modes:
+    """The modes of a scene, about the rest of its system at the start (changes on the fly are not looked at).
+
+    Raises:
+        SolverError: if it comes to no rest.
+    """
+    system = setup.system
+    rest, about = equilibrium_on_obstacles(system) if system.obstacles else (spring_equilibrium(system), "")
+    assert rest.linear is not None
+    count = len(rest.linear.mass)
+    kept = lowest if lowest is not None else None if count <= ALL_UP_TO else LOWEST
+    stretch = spring_lengths(rest.state.positions, system.springs) - system.rest_lengths
+    forces = spring_force(system.stiffness, stretch, system.damping, np.zeros_like(stretch))
+    return Modes(setup, rest, about, natural_modes(rest.linear, kept), forces, count)
+
+
+def swings(modes: Modes, steppers: Sequence[Stepper], progress: Progress) -> list[StepperSwing]:
+    """What steppers make of the modes at the scene's dt, predicted and measured."""
+    found = []
+    with current().threads() as pool:
+        for stepper in steppers:
+            progress(stepper.name)
+            predicted = _predicted(stepper, modes) if isinstance(stepper, SchemeStepper) else None
+            which = range(len(modes.natural.frequencies))
+            measured = list(pool.map(lambda i, stepper=stepper: _measured(stepper, modes, i), which))
+            for i, (swing, reason) in enumerate(measured):
+                found.append(StepperSwing(stepper.name, i, predicted[i] if predicted else None, swing, reason))
+    return found
+
+
+def _predicted(stepper: SchemeStepper, modes: Modes) -> list[Swing] | None:
+    """By the eigenvalues l of the scheme's step: its swing is arg l / dt, and ln |l| tells how it decays."""
+    scheme, dt = stepper.scheme, modes.setup.dt
+    if stepper.on_rods or not scheme.linear or not scheme.one_step or scheme.needs == "accelerations of one mass":
+        return None
+    natural = modes.natural
+    squares = (2 * np.pi * natural.frequencies) ** 2
+    matrices = step_matrices(scheme, dt, np.ones_like(squares), squares, natural.rates)
+    return [_swing(np.linalg.eigvals(matrix), dt) for matrix in matrices]
+
+
+def _swing(values: Any, dt: float) -> Swing:
+    """Of the eigenvalues of a step of an oscillator; the slower decay where it does not swing."""
+    value = complex(max(values, key=abs))
+    if value == 0:
+        return UNKNOWN
+    exponent = np.log(value) / dt
+    ratio = -exponent.real / abs(exponent) if exponent else 0.0
+    return Swing(abs(exponent.imag) / (2 * np.pi) if abs(value.imag) > 1e-12 * abs(value) else np.nan, float(ratio))
+
+
+def _measured(stepper: Stepper, modes: Modes, i: int) -> tuple[Swing | None, str]:
+    """From a run started in the shape of the mode: x_(n+1) = p x_n + q x_(n-1), with the roots a step multiplies by."""
+    system, rest, natural, dt = modes.setup.system, modes.rest, modes.natural, modes.setup.dt
+    if natural.frequencies[i] == 0 or (rest.contacts is None and system.obstacles):
+        return None, "nothing brings it back" if natural.frequencies[i] == 0 else modes.about
+    shape = natural.shapes[i]
+    at_rest = rest.state.positions
+    started = replace(
+        system, positions=at_rest + START * system.scale * shape, velocities=np.zeros_like(at_rest), obstacles=()
+    )
+    if rest.contacts is not None:
+        return None, "on obstacles it is not measured"
+    steps = int(min(STEPS, max(8, 3 / (natural.frequencies[i] * dt))))
+    outcome = stepper.run(started, dt, steps)
+    if outcome.trajectory is None or outcome.ending != "done":
+        return None, outcome.reason
+    weights = (system.masses * ~system.fixed)[:, None] * shape
+    moved = ((outcome.trajectory.positions - at_rest) * weights).sum(axis=(1, 2))
+    pairs = np.stack([moved[1:-1], moved[:-2]], axis=1)
+    (p, q), *_ = np.linalg.lstsq(pairs, moved[2:], rcond=None)
+    return _swing(np.roots([1.0, -p, -q]), dt), ""

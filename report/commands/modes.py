@@ -1,0 +1,145 @@
+"""The command that says how a scene swings about its rest, and what its springs carry there: modes."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from report.commands.options import json_option, out_option, setup_options, steppers_option
+from report.commands.terminal import progress, show_table
+
+if TYPE_CHECKING:
+    from experiments.simulation.modes_of_scene import Modes, StepperSwing, Swing
+    from reference.scenes import Setup
+
+#: So many modes and springs are shown in the terminal; JSON has all that are computed.
+SHOWN = 20
+
+#: How long a mode's film is [s], and how many frames it has in a swing.
+FILM_MODES, FILM_FRAMES = 4, 25
+
+
+@click.command("modes")
+@setup_options
+@steppers_option("Also what this stepper makes of each mode at the scene's dt; any number of times.")
+@json_option
+@click.option("--lowest", type=click.IntRange(min=1), help="Only so many modes, the slowest.")
+@out_option(None, "Also draw the modes here (SVG), and write a table (CSV).")
+@click.option("--animate", is_flag=True, help="Also a film of the slowest modes into OUT.")
+def modes_command(
+    setup: Setup, names: tuple[str, ...], as_json: bool, lowest: int | None, out: Path | None, animate: bool
+) -> None:
+    """Frequencies, damping ratios and shapes of the modes of SCENE about its rest, and what its springs carry there."""
+    from experiments.runs.steppers import find_steppers
+    from experiments.simulation.modes_of_scene import modes_of, swings
+
+    if animate and out is None:
+        raise click.UsageError("--animate: expected --out FOLDER with it")
+    steppers = find_steppers(names) if names else []
+    with progress("modes") as tell:
+        found = modes_of(setup, lowest)
+        made = swings(found, steppers, tell)
+    if as_json:
+        document = found.document
+        if steppers:
+            document["steppers"] = [_document(swing) for swing in made]
+        click.echo(json.dumps(document, indent=2))
+    else:
+        _show(found, made)
+    if out is not None:
+        _write(found, out, animate)
+
+
+def _document(swing: StepperSwing) -> dict[str, Any]:
+    both = {"predicted": swing.predicted, "measured": swing.measured}
+    told = {name: each.document if each is not None else None for name, each in both.items()}
+    return {"stepper": swing.stepper, "mode": swing.mode, **told, "reason": swing.reason}
+
+
+def _show(modes: Modes, made: list[StepperSwing]) -> None:
+    natural = modes.natural
+    rows = [
+        [str(i + 1), float(f), float(2 * 3.141592653589793 * f), 1 / f if f else None, _ratio(ratio)]
+        for i, (f, ratio) in enumerate(zip(natural.frequencies, natural.damping_ratios, strict=True))
+    ]
+    columns = ["mode", "frequency [Hz]", "angular [rad/s]", "period [s]", "damping ratio"]
+    show_table(f"{modes.setup.name}: natural modes about its rest", columns, rows[:SHOWN])
+    if len(rows) > SHOWN or len(rows) < modes.asked:
+        click.echo(f"{min(SHOWN, len(rows))} of {modes.asked} modes are shown; --json has {len(rows)}.")
+    if natural.coupled > 1e-9:
+        click.echo(
+            f"Damping couples the modes ({natural.coupled:.1%} of it): the damping ratios are what acts within each."
+        )
+    if modes.about:
+        click.echo(f"These are {modes.about}.")
+    springs = modes.setup.system.springs.tolist()
+    forces = [
+        [str(j), f"{a} - {b}", float(force), "tension" if force > 0 else "compression" if force < 0 else "none"]
+        for j, ((a, b), force) in enumerate(zip(springs, modes.forces, strict=True))
+    ]
+    show_table("Springs at rest", ["spring", "masses", "force [N]", ""], forces[:SHOWN])
+    if len(forces) > SHOWN:
+        click.echo(f"{SHOWN} of {len(forces)} springs are shown; --json has all.")
+    if made:
+        _show_swings(modes, made)
+
+
+def _show_swings(modes: Modes, made: list[StepperSwing]) -> None:
+    """Period and damping of each mode under each stepper."""
+    columns = ["stepper", "mode", "natural [Hz]", "predicted [Hz]", "measured [Hz]"]
+    columns += ["predicted damping ratio", "measured damping ratio", "reason"]
+    rows = [
+        [
+            swing.stepper,
+            str(swing.mode + 1),
+            float(modes.natural.frequencies[swing.mode]),
+            *_pair(swing.predicted, swing.measured, "frequency"),
+            *_pair(swing.predicted, swing.measured, "damping_ratio"),
+            swing.reason,
+        ]
+        for swing in made
+        if swing.mode < SHOWN
+    ]
+    show_table(f"What steppers make of the modes at dt = {modes.setup.dt:g} s", columns, rows)
+
+
+def _pair(predicted: Swing | None, measured: Swing | None, what: str) -> list[float | None]:
+    return [None if swing is None else _ratio(getattr(swing, what)) for swing in (predicted, measured)]
+
+
+def _ratio(value: float) -> float | None:
+    return float(value) if value == value else None
+
+
+def _write(modes: Modes, out: Path, animate: bool) -> None:
+    """Pictures and a table; which, on standard error."""
+    import csv
+
+    from report.figures.modes import draw
+
+    out.mkdir(parents=True, exist_ok=True)
+    written = [out / f"{modes.setup.name}-modes.svg", out / f"{modes.setup.name}-modes.csv"]
+    written[0].write_text(draw(modes).svg(), encoding="utf-8")
+    with written[1].open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["mode", "frequency [Hz]", "damping ratio"])
+        pairs = zip(modes.natural.frequencies.tolist(), modes.natural.damping_ratios.tolist(), strict=True)
+        writer.writerows((i + 1, f, ratio) for i, (f, ratio) in enumerate(pairs))
+    if animate:
+        written.append(out / f"{modes.setup.name}-modes.gif")
+        _animate(modes, written[-1])
+    print(*(f"written: {file}" for file in written), sep="\n", file=sys.stderr)
+
+
+def _animate(modes: Modes, path: Path) -> None:
+    """The slowest modes side by side, each through one swing of its own."""
+    from report.figures.modes import swinging
+    from report.film.film_file import whole_file, write_film
+
+    made = swinging(modes, FILM_MODES, FILM_FRAMES)
+    with whole_file(path) as part, progress("animate") as tell:
+        write_film(part, path, made.frames(tell), FILM_FRAMES)

@@ -1,0 +1,1 @@
+"""Tests of what a run did, and of natural modes."""
