@@ -28,6 +28,7 @@ BARE_REFERENCE = (
     "changes",
     "errors",
     "growth_factor",
+    "lengths",
     "limit",
     "line",
     "measured_stability",
