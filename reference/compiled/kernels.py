@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 
 from reference.compiled.loops import Loops
+from reference.compiled.run_loops import RunLoops
+from reference.compiled.runs import has_runs, runs_of
 from reference.compiled.tracing import numbers_of, trace, trace_obstacles
 from reference.forces import springs_of_masses
 from reference.jit import module
@@ -80,6 +82,8 @@ def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, thr
     n, springs = len(system.masses), system.springs
     string = len(springs) == n - 1 and bool((springs == np.arange(n - 1)[:, None] + [0, 1]).all())
     obstacles = trace_obstacles(system.obstacles, system.dimension) if system.obstacles else None
+    if not lanes and has_runs(system):
+        return RunLoops(program, system.dimension, False, obstacles, lanes, threads, _noalias())
     return Loops(program, system.dimension, string, obstacles, lanes, threads, _noalias())
 
 
@@ -102,6 +106,8 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
         arrays |= {f"x{i}": x, f"v{i}": v, f"xs{i}": x.copy(), f"vs{i}": v.copy(), f"sum{i}": np.zeros(1)}
         arrays |= {f"force{i}": np.zeros(s + 2 if loops.string else s), f"weight{i}": system.masses * system.gravity[i]}
         arrays |= {f"a{k}_{i}": np.zeros(n) for k in loops.kept}
+    if isinstance(loops, RunLoops):
+        arrays |= runs_of(system, chunks=(os.cpu_count() or 1) if loops.threads else 1)
     return arrays
 
 
@@ -111,7 +117,7 @@ def lists(system: MassSpringSystem, loops: Loops) -> list[Any]:
     Indices are unsigned, as Numba asks of signed ones if they are negative.
     """
     obstacles = [np.array(numbers_of(system.obstacles))] if loops.obstacles else []
-    if loops.string:
+    if loops.string or isinstance(loops, RunLoops):
         return obstacles
     first, spring, sign = springs_of_masses(system)
     ends = [np.ascontiguousarray(end, dtype=np.uint32) for end in system.springs.T]
