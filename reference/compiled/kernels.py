@@ -56,10 +56,20 @@ class Kernel:
         self._function = compiled(self._loops).advance
 
     @property
+    def text(self) -> str:
+        """The text of its loops."""
+        return self._loops.text()
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """What they work on, by the names it has in the text."""
+        named = {**self._arrays, **dict(zip(self._loops.lists, self._lists, strict=True))}
+        return {name: array for name, array in named.items() if isinstance(array, np.ndarray)}
+
+    @property
     def bytes(self) -> int:
         """How much memory its arrays take."""
-        arrays = {id(a): a.nbytes for a in [*self._arrays.values(), *self._lists] if isinstance(a, np.ndarray)}
-        return sum(arrays.values())
+        return sum(array.nbytes for array in self.arrays.values())
 
     def advance(self, dt: float, steps: int) -> None:
         """A number of steps of dt [s]."""
