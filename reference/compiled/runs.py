@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from reference.forces import springs_of_masses
+from reference.jit import compiled
 from reference.state import Array
 from reference.system import BoolArray, IntArray, MassSpringSystem
 
@@ -44,12 +45,25 @@ def runs_of(system: MassSpringSystem, chunks: int = 1) -> dict[str, Any]:
     Args:
         chunks: into how many parts the blocks are shared out.
     """
+    lists, place = _runs(system, chunks)
+    axes = range(system.dimension)
+    return {
+        **lists,
+        **_sums(system, place),
+        **{f"force{i}": np.zeros(place.max(initial=0) + 1) for i in axes},
+        **{f"sum{i}": np.zeros((chunks, BLOCK)) for i in axes},
+    }
+
+
+def _runs(system: MassSpringSystem, chunks: int) -> tuple[dict[str, Any], IntArray]:
+    """The springs run by run, and where each spring's force has its place."""
     blocks = -(-len(system.masses) // BLOCK)
     edges = np.arange(chunks + 1) * blocks // chunks
     home, reach = _homes(system.springs, edges)
     order = np.argsort(home, kind="stable")
-    of_block = np.searchsorted(home[order], np.arange(blocks + 2))
-    place = (_places(of_block, edges, reach) - of_block[:-1])[home[order]] + np.arange(len(order))
+    home = home[order]
+    of_block = np.searchsorted(home, np.arange(blocks + 2))
+    place = (_places(of_block, edges, reach) - of_block[:-1])[home] + np.arange(len(order))
     begins = _begins(system, order)
     begins[of_block[of_block < len(order)]] = True
     run = np.flatnonzero(begins)
@@ -60,25 +74,21 @@ def runs_of(system: MassSpringSystem, chunks: int = 1) -> dict[str, Any]:
         "run_spring": np.append(run, len(order)),
         "block_runs": np.searchsorted(run, of_block),
         "edges": edges,
-    }
-    place_of = np.empty_like(place)
-    place_of[order] = place
-    axes = range(system.dimension)
-    return {
-        **lists,
-        **_sums(system, place_of),
         "rest_length": system.rest_lengths[order],
         "stiffness": system.stiffness[order[run]],
         "damping": system.damping[order[run]],
-        **{f"force{i}": np.zeros(place.max(initial=0) + 1) for i in axes},
-        **{f"sum{i}": np.zeros((chunks, BLOCK)) for i in axes},
     }
+    place_of = np.empty_like(place)
+    place_of[order] = place
+    return lists, place_of
 
 
 def _begins(system: MassSpringSystem, order: IntArray) -> BoolArray:
     """Which springs, taken in an order, begin a run: all that do not go on one mass further with the same numbers."""
-    begins = np.ones(len(order), dtype=bool)
-    begins[1:] = (np.diff(system.springs[order], axis=0) != 1).any(axis=1)
+    begins = np.zeros(len(order), dtype=bool)
+    begins[:1] = True
+    for ends in system.springs.T:
+        begins[1:] |= np.diff(ends[order]) != 1
     for number in (system.stiffness, system.damping):
         begins[1:] |= np.diff(number[order]) != 0
     return begins
@@ -86,7 +96,8 @@ def _begins(system: MassSpringSystem, order: IntArray) -> BoolArray:
 
 def _homes(springs: IntArray, edges: IntArray) -> tuple[IntArray, int]:
     """The block each spring is computed with, those between chunks after all; and over how many blocks others reach."""
-    low, high = springs.min(axis=1) // BLOCK, springs.max(axis=1) // BLOCK
+    a, b = springs.T // BLOCK
+    low, high = np.minimum(a, b), np.maximum(a, b)
     chunk = np.repeat(np.arange(len(edges) - 1), np.diff(edges))
     crossing = chunk[low] != chunk[high]
     reach = int((high - low)[~crossing].max(initial=0))
@@ -104,15 +115,11 @@ def _places(of_block: IntArray, edges: IntArray, reach: int) -> IntArray:
 def _sums(system: MassSpringSystem, place: IntArray) -> dict[str, IntArray | Array]:
     """Masses in a row whose springs' forces are in a row, in their springs' order: what each such row adds up."""
     first, spring, sign = springs_of_masses(system)
-    n, count, where = len(system.masses), np.diff(first), place[spring]
-    mass = np.repeat(np.arange(n), count)
-    before = np.maximum(np.arange(len(where)) - count[mass], 0)
-    alike = (where == where[before] + 1) & (sign == sign[before])
+    n, where = len(system.masses), place[spring]
     goes_on = np.zeros(n, dtype=bool)
-    goes_on[1:] = (count[1:] == count[:-1]) & (np.arange(1, n) % BLOCK != 0)
-    goes_on[mass[~alike]] = False
-    row = np.flatnonzero(~goes_on)
-    kept = ~goes_on[mass]
+    _write_which_go_on(first, where, sign, BLOCK, goes_on)
+    row, count = np.flatnonzero(~goes_on), np.diff(first)
+    kept = np.repeat(~goes_on, count)
     return {
         "row_mass": np.append(row, n),
         "row_entry": np.concatenate([[0], np.cumsum(count[row])]),
@@ -120,3 +127,18 @@ def _sums(system: MassSpringSystem, place: IntArray) -> dict[str, IntArray | Arr
         "entry_sign": sign[kept],
         "block_rows": np.searchsorted(row, np.append(np.arange(0, n, BLOCK), n)),
     }
+
+
+def which_go_on(first: IntArray, where: IntArray, sign: Array, block: int, goes_on: BoolArray) -> None:
+    """Write for each mass whether it goes on with the row of the one before: each force one place further."""
+    for i in range(1, len(goes_on)):
+        count = first[i + 1] - first[i]
+        alike = i % block != 0 and count == first[i] - first[i - 1]
+        if alike:
+            for entry in range(first[i], first[i + 1]):
+                before = entry - count
+                alike = alike and where[entry] == where[before] + 1 and sign[entry] == sign[before]
+        goes_on[i] = alike
+
+
+(_write_which_go_on,) = compiled(which_go_on)
