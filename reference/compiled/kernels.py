@@ -12,9 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from reference.compiled import runs
 from reference.compiled.loops import Loops
+from reference.compiled.mesh_loops import MeshLoops, lists_of, numbering
 from reference.compiled.run_loops import RunLoops
-from reference.compiled.runs import has_runs, runs_of
 from reference.compiled.tracing import numbers_of, trace, trace_obstacles
 from reference.forces import springs_of_masses
 from reference.jit import module
@@ -83,6 +84,8 @@ class Kernel:
     def state(self) -> tuple[Array, Array]:
         """Positions [m] and velocities [m/s] now, each (n, d)."""
         x, v = (np.stack([self._arrays[f"{q}{i}"] for i in self._loops.axes], axis=1) for q in "xv")
+        if "order" in self._arrays:
+            x, v = (q[np.argsort(self._arrays["order"])] for q in (x, v))
         return x, v
 
 
@@ -92,9 +95,10 @@ def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, thr
     n, springs = len(system.masses), system.springs
     string = len(springs) == n - 1 and bool((springs == np.arange(n - 1)[:, None] + [0, 1]).all())
     obstacles = trace_obstacles(system.obstacles, system.dimension) if system.obstacles else None
-    if not lanes and has_runs(system):
-        return RunLoops(program, system.dimension, False, obstacles, lanes, threads, _noalias())
-    return Loops(program, system.dimension, string, obstacles, lanes, threads, _noalias())
+    kind: type[Loops] = Loops
+    if not lanes and runs.is_large(system):
+        kind = RunLoops if runs.has_runs(system) else MeshLoops
+    return kind(program, system.dimension, string and kind is Loops, obstacles, lanes, threads, _noalias())
 
 
 def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
@@ -103,6 +107,13 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
     A fixed mass is divided by infinity, so that it needs no question in the loop; the forces of a string have a zero at
     either end for the same reason.
     """
+    if isinstance(loops, MeshLoops):
+        order = numbering(system)
+        return _arrays_of(system.renumbered(order), loops) | {"order": order}
+    return _arrays_of(system, loops)
+
+
+def _arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
     n, s = len(system.masses), len(system.springs)
     arrays: dict[str, Any] = {
         "rest_length": system.rest_lengths,
@@ -117,7 +128,8 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
         arrays |= {f"force{i}": np.zeros(s + 2 if loops.string else s), f"weight{i}": system.masses * system.gravity[i]}
         arrays |= {f"a{k}_{i}": np.zeros(n) for k in loops.kept}
     if isinstance(loops, RunLoops):
-        arrays |= runs_of(system, chunks=(os.cpu_count() or 1) if loops.threads else 1)
+        chunks = (os.cpu_count() or 1) if loops.threads else 1
+        arrays |= (lists_of if isinstance(loops, MeshLoops) else runs.runs_of)(system, chunks)
     return arrays
 
 

@@ -21,7 +21,6 @@ from reference.spring_law import spring_force
 #: How many terms of a sum are added at a time.
 TERMS = 4
 
-_RUNS = ["run_a", "run_b", "run_place", "run_spring"]
 _ENTRIES = ["row_entry", "entry_place", "entry_sign"]
 _SPRINGS = ["rest_length", "stiffness", "damping"]
 
@@ -33,7 +32,12 @@ class RunLoops(Loops):
     @property
     def arrays(self) -> list[str]:
         """Arguments that hold numbers of masses and springs, and the lists of `runs_of`."""
-        return [*super().arrays, *_RUNS, "block_runs", "row_mass", *_ENTRIES, "block_rows", "edges"]
+        return [*super().arrays, *self.run_lists, "block_runs", "row_mass", *_ENTRIES, "block_rows", "edges"]
+
+    @property
+    def run_lists(self) -> list[str]:
+        """Where runs begin, and what their springs join."""
+        return ["run_a", "run_b", "run_place", "run_spring"]
 
     @property
     def lists(self) -> list[str]:
@@ -56,33 +60,48 @@ class RunLoops(Loops):
 
     def _springs_function(self) -> list[str]:
         """The forces of the springs of some runs, with masses where x and v are."""
-        force = self._force("x", "v", "a", "b", "begin + t", "rest_length[k]", "stiffness[r]", "damping[r]")
         run = [
             "begin = np.uint64(run_place[r])",
             "first = np.uint64(run_spring[r])",
-            "first_a = np.uint64(run_a[r])",
-            "first_b = np.uint64(run_b[r])",
-            "for t in range(np.uint64(run_spring[r + 1]) - first):",
-            *indented(["k = first + t", "a = first_a + t", "b = first_b + t", *force]),
+            "n = np.uint64(run_spring[r + 1]) - first",
+            *self._run(),
         ]
-        arguments = ["begin_run", "end_run", *self._each("x", "v", "force"), *_SPRINGS, *_RUNS]
+        arguments = ["begin_run", "end_run", *self._each("x", "v", "force"), *_SPRINGS, *self.run_lists]
         return _function("springs", arguments, ["for r in range(begin_run, end_run):", *indented(run)])
+
+    def _run(self) -> list[str]:
+        """The springs of run r: n from the first on."""
+        force = self._force("x", "v", "a", "b", "begin + t", "rest_length[first + t]", "stiffness[r]", "damping[r]")
+        spring = ["a = first_a + t", "b = first_b + t", *force]
+        ends = ["first_a = np.uint64(run_a[r])", "first_b = np.uint64(run_b[r])"]
+        return [*ends, "for t in range(n):", *indented(spring)]
 
     def _sums_function(self) -> list[str]:
         """The weights of row r's masses, n from `mass` on, and the forces of their springs."""
         weight = [f"sum{i}[t] = weight{i}[mass + t]" for i in self.axes]
-        body = ["for t in range(n):", *indented(weight), "e = row_entry[r]", "end = row_entry[r + 1]"]
+        body = ["for t in range(n):", *indented(weight), "e = np.uint64(row_entry[r])"]
+        body += ["end = np.uint64(row_entry[r + 1])"]
         for terms in (TERMS, 1):
-            body += [f"while e + {terms} <= end:", *indented(self._terms(terms))]
+            body += [f"while e + {self._entries(terms)} <= end:", *indented(self._terms(terms))]
         arguments = ["r", "mass", "n", *self._each("sum", "force", "weight"), *_ENTRIES]
         return _function("sums", arguments, body)
 
+    def _entries(self, terms: int) -> str:
+        """How many entries some terms of a row take."""
+        return f"np.uint64({terms})"
+
     def _terms(self, terms: int) -> list[str]:
         """Some terms, added one after the other."""
-        known = [f"{name} = {text}" for m in range(terms) for name, text in _term(m)]
-        added = [f"s{m} * force{{0}}[p{m} + t]" for m in range(terms)]
-        lines = [f"sum{i}[t] = {' + '.join([f'sum{i}[t]', *added]).format(i)}" for i in self.axes]
-        return [*known, "for t in range(n):", *indented(lines), f"e += {terms}"]
+        known = []
+        for m in range(terms):
+            entry = f"e + np.uint64({m})"
+            known += [f"p{m} = np.uint64(entry_place[{entry}])", f"s{m} = entry_sign[{entry}]"]
+        return [*known, *self._added([f"s{m} * force{{i}}[p{m} + t]" for m in range(terms)])]
+
+    def _added(self, terms: list[str]) -> list[str]:
+        """Terms added to the sums of a row, axis by axis."""
+        sums = [f"sum{i}[t] = {' + '.join([f'sum{i}[t]', *terms])}".replace("{i}", str(i)) for i in self.axes]
+        return ["for t in range(n):", *indented(sums), f"e += {self._entries(len(terms))}"]
 
     def _stage_functions(self) -> list[list[str]]:
         """Of every stage the loop over masses, and the loop over blocks."""
@@ -112,7 +131,7 @@ class RunLoops(Loops):
 
     def _springs_call(self, k: int, begin: str, end: str) -> str:
         arrays = self._each(*self._place(k), "force")
-        return f"springs({', '.join([begin, end, *arrays, *_SPRINGS, *_RUNS])})"
+        return f"springs({', '.join([begin, end, *arrays, *_SPRINGS, *self.run_lists])})"
 
     def _advance_function(self) -> list[str]:
         """Springs between chunks first, and then all chunks."""
@@ -131,10 +150,6 @@ class RunLoops(Loops):
     def _sum(self) -> tuple[list[str], list[str]]:
         """Summed before."""
         return [], [f"f{i} = sum{i}[t]" for i in self.axes]
-
-
-def _term(m: int) -> list[tuple[str, str]]:
-    return [(f"p{m}", f"np.uint64(entry_place[e + {m}])"), (f"s{m}", f"entry_sign[e + {m}]")]
 
 
 def _function(name: str, arguments: list[str], body: list[str]) -> list[str]:

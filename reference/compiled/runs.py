@@ -10,10 +10,13 @@ masses: they may be moved at once.
 
 Blocks are shared out among chunks, which may be done at the same time. Springs from one chunk to another are computed
 before, each with places of their own. So neither the blocks nor the chunks change a bit of the result.
+
+Large meshes without runs have blocks too: see `mesh_loops`.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -26,61 +29,86 @@ from reference.system import BoolArray, IntArray, MassSpringSystem
 #: How many masses in a row are a block.
 BLOCK = 1024
 
-#: From this many springs on, which no cache holds, it pays to find runs (`springlab run speed` shows where).
-RUNS_FROM = 100_000
+#: From this many springs on, which no cache holds, blocks pay (`springlab run speed` shows where).
+LARGE = 100_000
 
 #: Runs are long enough at this many springs in the mean: a lattice of 20 masses a row has them.
 LONG = 16
 
 
+def is_large(system: MassSpringSystem) -> bool:
+    """Whether a system is large enough for blocks."""
+    return len(system.springs) >= LARGE
+
+
 def has_runs(system: MassSpringSystem) -> bool:
-    """Whether a system is large enough, and its springs in the mean long enough in a row, for loops over runs."""
+    """Whether its springs are in the mean long enough in a row for loops over runs."""
     s = len(system.springs)
-    return s >= RUNS_FROM and int(_begins(system, np.arange(s)).sum()) * LONG <= s
+    return int(_begins(system, np.arange(s)).sum()) * LONG <= s
 
 
 def runs_of(system: MassSpringSystem, chunks: int = 1) -> dict[str, Any]:
-    """The lists and arrays that loops over runs need of a system, by the loops' names.
+    """The lists and arrays that loops over runs need of a system, by the loops' names; chunks as in `blocks_of`."""
+    blocks = blocks_of(system, chunks)
+    begins = _begins(system, blocks.order)
+    begins[blocks.first[blocks.first < len(begins)]] = True
+    run = np.flatnonzero(begins)
+    return {
+        "run_a": system.springs[blocks.order[run], 0],
+        "run_b": system.springs[blocks.order[run], 1],
+        "run_place": blocks.place[blocks.order[run]],
+        "run_spring": np.append(run, len(begins)),
+        "block_runs": np.searchsorted(run, blocks.first),
+        "rest_length": system.rest_lengths[blocks.order],
+        "stiffness": system.stiffness[blocks.order[run]],
+        "damping": system.damping[blocks.order[run]],
+        **_sums(system, blocks.place),
+        **blocks.arrays(system.dimension),
+    }
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """In which order springs are taken, and where their forces have their places.
+
+    Attributes:
+        order: of the springs: block by block, and those that are computed before the blocks.
+        first: where in that order each block's springs begin, those before, and what is behind all.
+        first_place: of each block's forces.
+        place: of each spring's force.
+        edges: at which block each chunk begins, and the end of the last.
+    """
+
+    order: IntArray
+    first: IntArray
+    first_place: IntArray
+    place: IntArray
+    edges: IntArray
+
+    def arrays(self, dimension: int) -> dict[str, Any]:
+        """The chunks, and room for forces and sums."""
+        places, chunks = self.place.max(initial=0) + 1, len(self.edges) - 1
+        forces = {f"force{i}": np.zeros(places) for i in range(dimension)}
+        return {"edges": self.edges, **forces, **{f"sum{i}": np.zeros((chunks, BLOCK)) for i in range(dimension)}}
+
+
+def blocks_of(system: MassSpringSystem, chunks: int, near: float = 1.0) -> Blocks:
+    """The blocks of a system.
 
     Args:
-        chunks: into how many parts the blocks are shared out.
+        chunks: into how many parts they are shared out.
+        near: the part of the springs that places are kept for; those that reach further are computed before.
     """
-    lists, place = _runs(system, chunks)
-    axes = range(system.dimension)
-    return {
-        **lists,
-        **_sums(system, place),
-        **{f"force{i}": np.zeros(place.max(initial=0) + 1) for i in axes},
-        **{f"sum{i}": np.zeros((chunks, BLOCK)) for i in axes},
-    }
-
-
-def _runs(system: MassSpringSystem, chunks: int) -> tuple[dict[str, Any], IntArray]:
-    """The springs run by run, and where each spring's force has its place."""
     blocks = -(-len(system.masses) // BLOCK)
     edges = np.arange(chunks + 1) * blocks // chunks
-    home, reach = _homes(system.springs, edges)
+    home, reach = _homes(system.springs, edges, near)
     order = np.argsort(home, kind="stable")
     home = home[order]
-    of_block = np.searchsorted(home, np.arange(blocks + 2))
-    place = (_places(of_block, edges, reach) - of_block[:-1])[home] + np.arange(len(order))
-    begins = _begins(system, order)
-    begins[of_block[of_block < len(order)]] = True
-    run = np.flatnonzero(begins)
-    lists = {
-        "run_a": system.springs[order[run], 0],
-        "run_b": system.springs[order[run], 1],
-        "run_place": place[run],
-        "run_spring": np.append(run, len(order)),
-        "block_runs": np.searchsorted(run, of_block),
-        "edges": edges,
-        "rest_length": system.rest_lengths[order],
-        "stiffness": system.stiffness[order[run]],
-        "damping": system.damping[order[run]],
-    }
-    place_of = np.empty_like(place)
-    place_of[order] = place
-    return lists, place_of
+    first = np.searchsorted(home, np.arange(blocks + 2))
+    place = np.empty_like(order)
+    first_place = _places(first, edges, reach)
+    place[order] = (first_place - first[:-1])[home] + np.arange(len(order))
+    return Blocks(order, first, first_place, place, edges)
 
 
 def _begins(system: MassSpringSystem, order: IntArray) -> BoolArray:
@@ -94,19 +122,20 @@ def _begins(system: MassSpringSystem, order: IntArray) -> BoolArray:
     return begins
 
 
-def _homes(springs: IntArray, edges: IntArray) -> tuple[IntArray, int]:
-    """The block each spring is computed with, those between chunks after all; and over how many blocks others reach."""
+def _homes(springs: IntArray, edges: IntArray, near: float) -> tuple[IntArray, int]:
+    """The block each spring is computed with, those computed before after all; over how many blocks others reach."""
     a, b = springs.T // BLOCK
     low, high = np.minimum(a, b), np.maximum(a, b)
     chunk = np.repeat(np.arange(len(edges) - 1), np.diff(edges))
-    crossing = chunk[low] != chunk[high]
-    reach = int((high - low)[~crossing].max(initial=0))
-    return np.where(crossing, edges[-1], low), reach
+    within = np.sort((high - low)[chunk[low] == chunk[high]])
+    reach = int(within[int(near * (len(within) - 1))]) if len(within) else 0
+    before = (chunk[low] != chunk[high]) | (high - low > reach)
+    return np.where(before, edges[-1], low), reach
 
 
-def _places(of_block: IntArray, edges: IntArray, reach: int) -> IntArray:
-    """Where each block's forces begin, those between chunks behind all others: used again after `reach` more blocks."""
-    width = int(np.diff(of_block[:-1]).max(initial=0))
+def _places(first: IntArray, edges: IntArray, reach: int) -> IntArray:
+    """Where each block's forces begin, those computed before behind all others: used again after `reach` more."""
+    width = int(np.diff(first[:-1]).max(initial=0))
     chunk = np.repeat(np.arange(len(edges) - 1), np.diff(edges))
     turn = (np.arange(edges[-1]) - edges[chunk]) % (reach + 1)
     return np.append(chunk * (reach + 1) + turn, (len(edges) - 1) * (reach + 1)) * width

@@ -41,7 +41,7 @@ def test_a_mesh_moves_its_lists_too() -> None:
 
 def test_runs_move_a_rest_length_of_each_spring_and_little_else(monkeypatch: pytest.MonkeyPatch) -> None:
     """Beside masses and rest lengths: what is kept in the cache, and lists for each run and row, of 8 bytes."""
-    monkeypatch.setattr(runs, "RUNS_FROM", 0)
+    monkeypatch.setattr(runs, "LARGE", 0)
     monkeypatch.setattr(runs, "LONG", 0)
     system = lattice((300, 20), CLOTH)
     kernel = Kernel(system, find("heun"), 1)

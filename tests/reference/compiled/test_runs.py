@@ -1,4 +1,4 @@
-"""Loops over runs: the bits of the scheme's function, whatever the blocks, the chunks and the threads.
+"""Loops in blocks: the bits of the scheme's function, whatever the runs, the blocks, the chunks and the threads.
 
 Their text is run by Python itself, which refuses to go beyond an array; once compiled, by one thread and by two.
 """
@@ -14,7 +14,8 @@ import numpy as np
 import pytest
 
 from experiments.benchmark.meshes import CLOTH, JELLO, lattice
-from reference.compiled import kernels, runs
+from reference.compiled import kernels, mesh_loops, runs
+from reference.compiled.mesh_loops import MeshLoops
 from reference.compiled.run_loops import RunLoops
 from reference.forces import springs_of_masses
 from reference.obstacles import Plane
@@ -48,10 +49,16 @@ SYSTEMS = {
 }
 
 
+#: Each by loops over runs, and by loops over lists; without springs there is one run, of none.
+KINDS = [
+    (name, kind) for name in SYSTEMS for kind in (RunLoops, MeshLoops) if (name, kind) != ("no springs", MeshLoops)
+]
+
+
 @pytest.fixture(autouse=True)
 def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """Small systems are taken for large ones, of three chunks where there are threads, in blocks of four masses."""
-    for name, value in {"RUNS_FROM": 0, "LONG": 0, "BLOCK": 4}.items():
+    for name, value in {"LARGE": 0, "LONG": 0, "BLOCK": 4}.items():
         monkeypatch.setattr(runs, name, value)
     monkeypatch.setattr(os, "cpu_count", lambda: 3)
 
@@ -62,10 +69,12 @@ def by_python(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kernels, "compiled", interpreted)
 
 
-def check_same_bits(system: MassSpringSystem, scheme: str, threads: int) -> None:
-    """Loops over runs, with fresh blocks, end where the scheme's function ends."""
+def check_same_bits(system: MassSpringSystem, scheme: str, threads: int, kind: type[RunLoops] = RunLoops) -> None:
+    """Loops of a kind, with fresh blocks, end where the scheme's function ends."""
+    if kind is MeshLoops:
+        runs.LONG = len(system.springs) + 1
     kernel = kernels.Kernel(system, find(scheme), threads)
-    assert isinstance(kernel._loops, RunLoops)
+    assert type(kernel._loops) is kind
     kernel.advance(DT, STEPS)
     positions, velocities = kernel.state()
     end = simulate(system, find(scheme), DT, STEPS * DT)
@@ -76,22 +85,30 @@ def check_same_bits(system: MassSpringSystem, scheme: str, threads: int) -> None
 @pytest.mark.usefixtures("by_python")
 @pytest.mark.parametrize("threads", [1, 2])
 @pytest.mark.parametrize("scheme", ["euler", "kick_drift", "velocity_verlet", "heun", "rk4"])
-@pytest.mark.parametrize("name", SYSTEMS)
-def test_runs_give_the_bits_of_the_schemes_function(name: str, scheme: str, threads: int) -> None:
+@pytest.mark.parametrize(("name", "kind"), KINDS)
+def test_blocks_give_the_bits_of_the_schemes_function(
+    name: str, kind: type[RunLoops], scheme: str, threads: int
+) -> None:
     """Also where a stage moves the very masses that springs of later blocks lie beside, and where runs are short."""
-    check_same_bits(SYSTEMS[name], scheme, threads)
+    check_same_bits(SYSTEMS[name], scheme, threads, kind)
 
 
-@pytest.mark.parametrize(("name", "scheme", "threads"), [("jello on the ground", "heun", 1), ("cloth", "euler", 2)])
-def test_compiled_runs_give_the_bits_of_the_schemes_function(name: str, scheme: str, threads: int) -> None:
+@pytest.mark.parametrize(
+    ("name", "scheme", "threads", "kind"),
+    [("jello on the ground", "heun", 1, RunLoops), ("cloth", "euler", 2, RunLoops), ("cloth", "heun", 1, MeshLoops)],
+)
+def test_compiled_blocks_give_the_bits_of_the_schemes_function(
+    name: str, scheme: str, threads: int, kind: type[RunLoops]
+) -> None:
     """In blocks as large as they are of large systems, and in ones that end within rows of the lattice."""
     for block in (4, 1024):
         runs.BLOCK = block
-        check_same_bits(SYSTEMS[name], scheme, threads)
+        check_same_bits(SYSTEMS[name], scheme, threads, kind)
 
 
 @pytest.mark.usefixtures("by_python")
-def test_same_bits_fail_on_a_sum_in_another_order(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize("kind", [RunLoops, MeshLoops])
+def test_same_bits_fail_on_a_sum_in_another_order(monkeypatch: pytest.MonkeyPatch, kind: type[RunLoops]) -> None:
     """Of each mass's springs, taken from the last to the first."""
 
     def backwards(system: MassSpringSystem) -> Any:
@@ -99,9 +116,10 @@ def test_same_bits_fail_on_a_sum_in_another_order(monkeypatch: pytest.MonkeyPatc
         order = np.concatenate([np.arange(b, a, -1) - 1 for a, b in pairwise(first)])
         return first, spring[order], sign[order]
 
-    monkeypatch.setattr(runs, "springs_of_masses", backwards)
-    with pytest.raises(AssertionError):
-        check_same_bits(CLOTH_2D, "heun", 1)
+    for file in (runs, mesh_loops):
+        monkeypatch.setattr(file, "springs_of_masses", backwards)
+    with pytest.raises(AssertionError, match="At index"):
+        check_same_bits(CLOTH_2D, "heun", 1, kind)
 
 
 @pytest.mark.usefixtures("by_python")
@@ -110,8 +128,8 @@ def test_same_bits_fail_where_a_place_is_used_again_too_early(monkeypatch: pytes
     """One block before the last that needs the force in it."""
     homes = runs._homes
 
-    def nearer(springs: IntArray, edges: IntArray) -> tuple[IntArray, int]:
-        home, reach = homes(springs, edges)
+    def nearer(springs: IntArray, edges: IntArray, near: float) -> tuple[IntArray, int]:
+        home, reach = homes(springs, edges, near)
         return home, reach - 1
 
     monkeypatch.setattr(runs, "_homes", nearer)
@@ -170,7 +188,27 @@ def test_long_runs_are_found_in_lattices(
     assert runs.has_runs(system) is wanted
 
 
-def test_small_systems_have_loops_over_lists(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_small_systems_have_no_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     """They are in the cache anyway."""
-    monkeypatch.setattr(runs, "RUNS_FROM", len(WIDE.springs) + 1)
-    assert not runs.has_runs(WIDE)
+    monkeypatch.setattr(runs, "LARGE", len(WIDE.springs))
+    assert isinstance(kernels.loops_for(find("heun"), WIDE), RunLoops)
+    monkeypatch.setattr(runs, "LARGE", len(WIDE.springs) + 1)
+    assert not isinstance(kernels.loops_for(find("heun"), WIDE), RunLoops)
+
+
+def test_springs_that_reach_far_are_computed_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One spring from the first mass of a long cloth to its last: room for 2 more, in place of room for all."""
+    long = lattice((200, 4), CLOTH)
+    one_more = {name: np.append(getattr(long, name), 1.0) for name in ("rest_lengths", "stiffness", "damping")}
+    tied = replace(long, springs=np.vstack([long.springs, [0, 799]]), **one_more)
+    assert runs.blocks_of(tied, 1, near=0.99).place.max() <= 3 * 4 * 6 + 1
+    assert runs.blocks_of(tied, 1).place.max() > len(long.springs)
+
+
+def test_numbering_brings_neighbours_together() -> None:
+    """A narrow cloth numbered at random: then springs reach 4 rows of it at most, in blocks of 4 masses."""
+    order = np.random.default_rng(1).permutation(800)
+    mixed = lattice((200, 4), CLOTH).renumbered(order)
+    found = mixed.renumbered(mesh_loops.numbering(mixed))
+    assert np.abs(np.diff(mixed.springs)).max() > 700
+    assert np.abs(np.diff(found.springs)).max() <= 4 * 4 + 4
