@@ -40,7 +40,8 @@ plane, with what depends on dt alone in c0 = dt, the text is
             v1[i] = new_v1
 
 No mass writes what another reads in the same loop, so neither the order of the masses nor the number of threads can
-change a bit of the result. A string needs no lists of who is joined to whom: spring j joins masses j and j + 1.
+change a bit of the result. A string needs no lists of who is joined to whom: spring j joins masses j and j + 1. Systems
+too large for a cache go through the same lines in blocks (`run_loops`, `mesh_loops`).
 """
 
 from __future__ import annotations
