@@ -12,6 +12,7 @@ from engines.engine import Engine, registry
 from engines.process.isolation import isolated
 from experiments.benchmark.meshes import LARGE, cases, peak_per_mass, string
 from experiments.benchmark.timing import adapter_overhead, seconds_of
+from experiments.benchmark.traffic import bytes_per_step, seconds_to_copy
 from experiments.benchmark.tuned import TunedHeun
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.environment import processor
@@ -39,6 +40,8 @@ class Timing:
 
     Attributes:
         bytes_per_mass: of the arrays that are stepped.
+        moved_per_mass: how many bytes a step reads and writes, counted.
+        bound: node-steps per second if that took what a copy of as many bytes takes on as many threads, measured.
         peak_per_mass: the most memory [bytes] that making the system and stepping it took a process, for large ones.
     """
 
@@ -49,12 +52,19 @@ class Timing:
     ours: float
     tuned: float | None
     bytes_per_mass: float | None
+    moved_per_mass: float | None = None
+    bound: float | None = None
     peak_per_mass: float | None = None
 
     @property
     def ratio(self) -> float | None:
         """Our time over tuned C's, for the same work."""
         return None if self.tuned is None else self.tuned / self.ours
+
+    @property
+    def over_bound(self) -> float | None:
+        """Our time over the bound's."""
+        return None if self.bound is None else self.bound / self.ours
 
 
 def time_adapter(engine: Engine) -> list[list[object]]:
@@ -100,20 +110,21 @@ def result_of(rows: Sequence[Timing], adapters: Sequence[Sequence[object]]) -> R
         "tuned C, node-steps/s",
         "time / tuned C",
         "bytes/mass",
+        "bytes moved/mass and step",
+        "bound by memory, node-steps/s",
+        "time / bound by memory",
         "peak bytes/mass",
     ]
-    table = Table(
-        "speed",
-        columns,
-        [
-            [r.what, r.threads, r.masses, r.springs, r.ours, r.tuned, r.ratio, r.bytes_per_mass, r.peak_per_mass]
-            for r in rows
-        ],
-    )
+    table = Table("speed", columns, [_row(r) for r in rows])
     columns = ["engine", "masses", "step [s]", "engine's own step [s]", "ratio", "reason"]
     ratios = {str(row[0]): row[4] for row in adapters if isinstance(row[4], float) and row[1] == 100}
     findings = [*_findings(rows), _adapter_finding(ratios)]
     return Result(findings, [table, Table("adapters", columns, adapters)], {"rows": rows})
+
+
+def _row(r: Timing) -> list[object]:
+    work = [r.what, r.threads, r.masses, r.springs, r.ours, r.tuned, r.ratio]
+    return [*work, r.bytes_per_mass, r.moved_per_mass, r.bound, r.over_bound, r.peak_per_mass]
 
 
 def time_mesh(name: str, system: MassSpringSystem) -> list[Timing]:
@@ -123,17 +134,22 @@ def time_mesh(name: str, system: MassSpringSystem) -> list[Timing]:
 
 
 def _time_kernel(name: str, system: MassSpringSystem, threads: int) -> Timing:
-    """The least of ROUNDS times of each, one after the other, so that both see the same machine."""
+    """The least of ROUNDS times of each, one after the other, so that all see the same machine."""
     n = len(system.masses)
     steps = max(2, WORK // n)
     kernel, tuned = Kernel(system, catalogue.find("heun"), threads), _anchor(system)
     kernel.advance(DT, 1)
+    moved = bytes_per_step(kernel.text, kernel.arrays)
     times = [
-        (seconds_of(lambda: kernel.advance(DT, steps)), tuned.advance(DT, steps) if tuned else np.inf)
+        (
+            seconds_of(lambda: kernel.advance(DT, steps)),
+            tuned.advance(DT, steps) if tuned else np.inf,
+            steps * seconds_to_copy(moved, threads),
+        )
         for _ in range(ROUNDS)
     ]
-    ours, theirs = (n * steps / min(column) for column in zip(*times, strict=True))
-    return Timing(name, threads, n, len(system.springs), ours, theirs or None, kernel.bytes / n)
+    ours, theirs, bound = (n * steps / min(column) for column in zip(*times, strict=True))
+    return Timing(name, threads, n, len(system.springs), ours, theirs or None, kernel.bytes / n, moved / n, bound)
 
 
 def time_sweep(systems: int = 65_536, masses: int = 20) -> list[Timing]:
@@ -199,6 +215,14 @@ def _findings(rows: Sequence[Timing]) -> list[str]:
         sentences.append(
             f"A large system's arrays take at most {max(r.bytes_per_mass or 0.0 for r in peaks):.0f} bytes a mass; "
             f"making and stepping it takes a process at most {most.peak_per_mass:.0f} ({most.what})."
+        )
+    bound = [r for r in single if r.over_bound is not None and r.masses >= LARGE]
+    if bound:
+        largest = max(bound, key=lambda r: r.springs)
+        sentences.append(
+            f"On the largest mesh ({largest.what}) one thread takes {largest.ratio:.2f} times the time of tuned C, and "
+            f"{largest.over_bound:.1f} times what a copy of the {largest.moved_per_mass:.0f} bytes takes that a step "
+            "reads and writes for each mass: as many times at most could it be quicker with its arrays as they are."
         )
     sentences += [
         f"The sweep is {1 / r.ratio:.2f} times as fast as tuned C on {r.threads} thread{'s' if r.threads > 1 else ''}."

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reference.changes import Change, changes_by_step, whole_steps
+from reference.compiled.in_place import step_of
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf
 from reference.obstacles import project_out
@@ -44,13 +45,13 @@ def simulate(
     motion = equations(system)
     state = motion.start
     states = [state]
-    step = scheme.on(motion)
+    step = step_of(scheme, motion)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for i in range(steps):
             for change in pending.get(i, ()):
                 system = system.with_parameter(change.parameter, change.value)
                 motion = equations(system)
-                step = scheme.on(motion)
+                step = step_of(scheme, motion)
             state = projected(system, step(state, dt), (i + 1) * dt)
             states.append(state)
             if not (np.isfinite(state.positions).all() and np.isfinite(state.velocities).all()):

@@ -66,6 +66,28 @@ def cloth_on_a_sphere(n: int) -> MassSpringSystem:
     )
 
 
+def triangles(masses: int, at_random: bool = False) -> MassSpringSystem:
+    """Masses strewn over a square, joined by a Delaunay triangulation; numbered by rows 0.4 m wide, or at random."""
+    from scipy.spatial import Delaunay
+
+    places = 0.1 * np.sqrt(masses) * np.random.default_rng(0).uniform(size=(masses, 2))
+    if not at_random:
+        places = places[np.lexsort((places[:, 1], places[:, 0] // 0.4))]
+    corners = Delaunay(places).simplices
+    sides = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [0, 2]]]), axis=1)
+    springs = np.unique(sides, axis=0)
+    return MassSpringSystem(
+        positions=places,
+        springs=springs,
+        masses=np.array(0.02),
+        rest_lengths=np.linalg.norm(places[springs[:, 1]] - places[springs[:, 0]], axis=1),
+        stiffness=np.array(200.0),
+        damping=np.array(0.05),
+        drag=0.02,
+        fixed=np.arange(masses) == 0,
+    )
+
+
 def string(masses: int) -> MassSpringSystem:
     """The default string with a number of masses, damped in both ways."""
     return find("string").system({"masses": masses, "damping": 0.05, "drag": 0.02})
@@ -77,7 +99,11 @@ def cases() -> dict[str, Callable[[], MassSpringSystem]]:
     cloths = {f"cloth {n} x {n}": lambda n=n: lattice((n, n), CLOTH) for n in (30, 300, 1000)}
     jellos = {f"jello {n}^3": lambda n=n: lattice((n, n, n), JELLO) for n in (10, 50)}
     spheres = {f"cloth {n} x {n} on a sphere": lambda n=n: cloth_on_a_sphere(n) for n in (1000,)}
-    return {**strings, **cloths, **spheres, **jellos}
+    sheets = {
+        "triangles 300,000": lambda: triangles(300_000),
+        "triangles 300,000, numbered at random": lambda: triangles(300_000, at_random=True),
+    }
+    return {**strings, **cloths, **spheres, **jellos, **sheets}
 
 
 #: What Linux says of a process.

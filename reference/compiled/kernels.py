@@ -12,7 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from reference.compiled import runs
 from reference.compiled.loops import Loops
+from reference.compiled.mesh_loops import MeshLoops, lists_of, numbering
+from reference.compiled.run_loops import RunLoops
 from reference.compiled.tracing import numbers_of, trace, trace_obstacles
 from reference.forces import springs_of_masses
 from reference.jit import module
@@ -54,10 +57,20 @@ class Kernel:
         self._function = compiled(self._loops).advance
 
     @property
+    def text(self) -> str:
+        """The text of its loops."""
+        return self._loops.text()
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """What they work on, by the names it has in the text."""
+        named = {**self._arrays, **dict(zip(self._loops.lists, self._lists, strict=True))}
+        return {name: array for name, array in named.items() if isinstance(array, np.ndarray)}
+
+    @property
     def bytes(self) -> int:
         """How much memory its arrays take."""
-        arrays = {id(a): a.nbytes for a in [*self._arrays.values(), *self._lists] if isinstance(a, np.ndarray)}
-        return sum(arrays.values())
+        return sum(array.nbytes for array in self.arrays.values())
 
     def advance(self, dt: float, steps: int) -> None:
         """A number of steps of dt [s]."""
@@ -71,6 +84,8 @@ class Kernel:
     def state(self) -> tuple[Array, Array]:
         """Positions [m] and velocities [m/s] now, each (n, d)."""
         x, v = (np.stack([self._arrays[f"{q}{i}"] for i in self._loops.axes], axis=1) for q in "xv")
+        if "order" in self._arrays:
+            x, v = (q[np.argsort(self._arrays["order"])] for q in (x, v))
         return x, v
 
 
@@ -80,7 +95,10 @@ def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, thr
     n, springs = len(system.masses), system.springs
     string = len(springs) == n - 1 and bool((springs == np.arange(n - 1)[:, None] + [0, 1]).all())
     obstacles = trace_obstacles(system.obstacles, system.dimension) if system.obstacles else None
-    return Loops(program, system.dimension, string, obstacles, lanes, threads, _noalias())
+    kind: type[Loops] = Loops
+    if not lanes and runs.is_large(system):
+        kind = RunLoops if runs.has_runs(system) else MeshLoops
+    return kind(program, system.dimension, string and kind is Loops, obstacles, lanes, threads, _noalias())
 
 
 def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
@@ -89,6 +107,13 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
     A fixed mass is divided by infinity, so that it needs no question in the loop; the forces of a string have a zero at
     either end for the same reason.
     """
+    if isinstance(loops, MeshLoops):
+        order = numbering(system)
+        return _arrays_of(system.renumbered(order), loops) | {"order": order}
+    return _arrays_of(system, loops)
+
+
+def _arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
     n, s = len(system.masses), len(system.springs)
     arrays: dict[str, Any] = {
         "rest_length": system.rest_lengths,
@@ -102,6 +127,9 @@ def arrays_of(system: MassSpringSystem, loops: Loops) -> dict[str, Any]:
         arrays |= {f"x{i}": x, f"v{i}": v, f"xs{i}": x.copy(), f"vs{i}": v.copy(), f"sum{i}": np.zeros(1)}
         arrays |= {f"force{i}": np.zeros(s + 2 if loops.string else s), f"weight{i}": system.masses * system.gravity[i]}
         arrays |= {f"a{k}_{i}": np.zeros(n) for k in loops.kept}
+    if isinstance(loops, RunLoops):
+        chunks = (os.cpu_count() or 1) if loops.threads else 1
+        arrays |= (lists_of if isinstance(loops, MeshLoops) else runs.runs_of)(system, chunks)
     return arrays
 
 
@@ -111,7 +139,7 @@ def lists(system: MassSpringSystem, loops: Loops) -> list[Any]:
     Indices are unsigned, as Numba asks of signed ones if they are negative.
     """
     obstacles = [np.array(numbers_of(system.obstacles))] if loops.obstacles else []
-    if loops.string:
+    if loops.string or isinstance(loops, RunLoops):
         return obstacles
     first, spring, sign = springs_of_masses(system)
     ends = [np.ascontiguousarray(end, dtype=np.uint32) for end in system.springs.T]

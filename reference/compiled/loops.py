@@ -40,7 +40,8 @@ plane, with what depends on dt alone in c0 = dt, the text is
             v1[i] = new_v1
 
 No mass writes what another reads in the same loop, so neither the order of the masses nor the number of threads can
-change a bit of the result. A string needs no lists of who is joined to whom: spring j joins masses j and j + 1.
+change a bit of the result. A string needs no lists of who is joined to whom: spring j joins masses j and j + 1. Systems
+too large for a cache go through the same lines in blocks (`run_loops`, `mesh_loops`).
 """
 
 from __future__ import annotations
@@ -135,7 +136,7 @@ class Loops:
             "",
             f"@njit(cache=True, nogil=True, error_model='numpy', {options})",
             f"def advance({', '.join(self.arguments)}):",
-            *_indented(self._body()),
+            *indented(self._body()),
         ]
         if self.lanes:
             one = [f"{name}[b]" for name in (*self.arrays, *self.per_system)]
@@ -152,26 +153,31 @@ class Loops:
 
     def _body(self) -> list[str]:
         whole = "np.int64" if self.string else "np.uint32"
-        step: list[str] = []
-        first = self.program.stages[0]
-        if not (_is("x", first[0]) and _is("v", first[1])):
-            step += self._loop("i", "n", [], self._assign(first))
+        step = self._start("n")
         following = [*self.program.stages[1:], None]
         for k, after in enumerate(following):
             step += self._loop("j", "s", *self._spring(k))
             step += self._loop("i", "n", *self._mass(k, after))
         counts = [f"n = {whole}(len(x0))", f"s = {whole}(len(rest_length))"]
-        numbers = [f"o{k} = obstacles[{k}]" for k in range(self.obstacles.numbers if self.obstacles else 0)]
-        return [*counts, *numbers, "for step in range(steps):", *_indented(step)]
+        return [*counts, *self._obstacle_numbers(), "for step in range(steps):", *indented(step)]
+
+    def _start(self, count: str) -> list[str]:
+        """The loop over masses to where the first stage wants them, if that is not where they are."""
+        first = self.program.stages[0]
+        at_once = _is("x", first[0]) and _is("v", first[1])
+        return [] if at_once else self._loop("i", count, [], self._assign(first))
+
+    def _obstacle_numbers(self) -> list[str]:
+        return [f"o{k} = obstacles[{k}]" for k in range(self.obstacles.numbers if self.obstacles else 0)]
 
     def _loop(self, index: str, count: str, before: list[str], body: list[str]) -> list[str]:
         """A loop over springs or masses; with lanes, all but what comes `before` is done for every lane."""
         if self.lanes:
-            return [f"for {index} in range({count}):", *_indented(before + self._each_lane(body))]
-        return [f"for {index} in {'prange' if self.threads else 'range'}({count}):", *_indented(before + body)]
+            return [f"for {index} in range({count}):", *indented(before + self._each_lane(body))]
+        return [f"for {index} in {'prange' if self.threads else 'range'}({count}):", *indented(before + body)]
 
     def _each_lane(self, body: list[str]) -> list[str]:
-        return [f"for w in range({LANES}):", *_indented(body)]
+        return [f"for w in range({LANES}):", *indented(body)]
 
     def _at(self, array: str, place: str) -> str:
         """An entry of an array; with lanes, the one of lane w."""
@@ -187,17 +193,23 @@ class Loops:
 
     def _spring(self, k: int) -> tuple[list[str], list[str]]:
         """The loop over springs: as forces.force_of_spring, one axis after the other."""
-        x, v = self._place(k)
-        a, b, place = ("j", "j + 1", "j + 1") if self.string else ("a", "b", "j")
-        at = self._at
         before = [] if self.string else ["a = ends_a[j]", "b = ends_b[j]"]
+        a, b, place = ("j", "j + 1", "j + 1") if self.string else ("a", "b", "j")
+        coefficients = [self._at(name, "j") for name in ("rest_length", "stiffness", "damping")]
+        return before, self._force(*self._place(k), a, b, place, *coefficients)
+
+    def _force(
+        self, x: str, v: str, a: str, b: str, place: str, rest_length: str, stiffness: str, damping: str
+    ) -> list[str]:
+        """The force of one spring between masses a and b, whose state is in the arrays x and v, to its place."""
+        at = self._at
         lines = [f"separation{i} = {at(f'{x}{i}', b)} - {at(f'{x}{i}', a)}" for i in self.axes]
         lines += [f"length = np.sqrt({' + '.join(f'separation{i} * separation{i}' for i in self.axes)})"]
         lines += [f"unit{i} = separation{i} / length" for i in self.axes]
         rates = [f"unit{i} * ({at(f'{v}{i}', b)} - {at(f'{v}{i}', a)})" for i in self.axes]
-        lines += [f"rate = {' + '.join(rates)}", f"stretch = length - {at('rest_length', 'j')}"]
-        lines += [f"force = spring_force({at('stiffness', 'j')}, stretch, {at('damping', 'j')}, rate)"]
-        return before, [*lines, *(f"{at(f'force{i}', place)} = unit{i} * force" for i in self.axes)]
+        lines += [f"rate = {' + '.join(rates)}", f"stretch = length - {rest_length}"]
+        lines += [f"force = spring_force({stiffness}, stretch, {damping}, rate)"]
+        return [*lines, *(f"{at(f'force{i}', place)} = unit{i} * force" for i in self.axes)]
 
     def _mass(self, k: int, following: Place | None) -> tuple[list[str], list[str]]:
         """The loop over masses: the acceleration at stage k, and the state at the next stage or the step's end."""
@@ -230,11 +242,11 @@ class Loops:
             return [], weight + forces
         each = "for e in range(first[i], first[i + np.uint32(1)]):"
         if not self.lanes:
-            return [], [*weight, each, *_indented([f"f{i} += sign[e] * force{i}[spring[e]]" for i in axes])]
+            return [], [*weight, each, *indented([f"f{i} += sign[e] * force{i}[spring[e]]" for i in axes])]
         # With lanes the innermost loop must be the one along them: the sum is kept in memory meanwhile.
         begin = [f"sum{i}[w] = {at(f'weight{i}', 'i')}" for i in axes]
         added = ["p = spring[e]", *self._each_lane([f"sum{i}[w] += sign[e] * force{i}[p, w]" for i in axes])]
-        return [*self._each_lane(begin), each, *_indented(added)], [f"f{i} = sum{i}[w]" for i in axes]
+        return [*self._each_lane(begin), each, *indented(added)], [f"f{i} = sum{i}[w]" for i in axes]
 
     def _assign(self, place: Place, target: tuple[str, str] = ("xs", "vs"), now: int = -1) -> list[str]:
         """Both expressions, computed before either is written, for every axis."""
@@ -264,5 +276,6 @@ def _is(name: str, expression: Expression) -> bool:
     return not expression.parts and expression.template == name
 
 
-def _indented(lines: list[str]) -> list[str]:
+def indented(lines: list[str]) -> list[str]:
+    """Lines one level further in."""
     return ["    " + line for line in lines]

@@ -12,7 +12,7 @@ from reference.schemes.catalogue import scheme
 from reference.state import State
 
 
-@scheme(order=1, kind="in_place", interactive_up_to=500)
+@scheme(order=1, kind="in_place", interactive_up_to=5000)
 def euler_in_place(motion: MotionByMass, state: State, dt: float) -> State:
     """Euler, but each mass is advanced before the next has looked at it."""
     end = _copy(state, dt)
@@ -24,7 +24,7 @@ def euler_in_place(motion: MotionByMass, state: State, dt: float) -> State:
     return end
 
 
-@scheme(order=1, kind="in_place", interactive_up_to=500)
+@scheme(order=1, kind="in_place", interactive_up_to=5000)
 def heun_link_by_link(motion: MotionByMass, state: State, dt: float) -> State:
     """Heun, but predictor and corrector of one mass are done before the next mass begins."""
     end = _copy(state, dt)
@@ -40,7 +40,7 @@ def heun_link_by_link(motion: MotionByMass, state: State, dt: float) -> State:
     return end
 
 
-@scheme(order=1, kind="in_place", interactive_up_to=500)
+@scheme(order=1, kind="in_place", interactive_up_to=5000)
 def heun_aliased(motion: MotionByMass, state: State, dt: float) -> State:
     """Heun in the two loops of slide 11, but the temporary state *is* the state.
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from engines.engine import Engine, find, registry, version
 from engines.process.session import EngineStopped, Session
+from reference.compiled.in_place import step_of
 from reference.compiled.kernels import Kernel, loops_for
 from reference.compiled.loops import Loops
 from reference.errors import InputError, SolverError, Unsupported, unknown_name
@@ -119,7 +120,7 @@ class SchemeStepping:
         return self._state
 
     def _one_by_one(self, steps: int) -> State:
-        state, system, step = self._state, self._system, self._scheme.on(self._motion)
+        state, system, step = self._state, self._system, step_of(self._scheme, self._motion)
         try:
             for _ in range(steps):
                 state = projected(system, step(state, self._dt), state.time + self._dt)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from experiments.benchmark import meshes
-from experiments.benchmark.meshes import CLOTH, JELLO, cases, cloth_on_a_sphere, lattice, string
+from experiments.benchmark.meshes import CLOTH, JELLO, cases, cloth_on_a_sphere, lattice, string, triangles
 
 
 @pytest.mark.parametrize(("rows", "columns"), [(3, 3), (4, 6)])
@@ -33,6 +33,17 @@ def test_a_jello_joins_every_mass_to_its_26_neighbours() -> None:
     ends = np.bincount(found.springs.ravel(), minlength=27)
     assert ends[13] == 26
     assert ends[[0, 2, 6, 8, 18, 20, 24, 26]].tolist() == [7] * 8
+
+
+def test_triangles_fill_their_hull() -> None:
+    """Of n masses, h of them on the hull, there are 3 n - 3 - h sides (Euler), 6 at a mass in the mean of many."""
+    from scipy.spatial import ConvexHull
+
+    by_rows, at_random = triangles(500), triangles(500, at_random=True)
+    hull = len(ConvexHull(by_rows.positions).vertices)
+    assert len(by_rows.springs) == len(at_random.springs) == 3 * 500 - 3 - hull
+    near, far = (np.median(np.ptp(mesh.springs, axis=1)) for mesh in (by_rows, at_random))
+    assert near < 25 < 100 < far
 
 
 def test_the_cloth_lies_on_the_sphere() -> None:

@@ -19,6 +19,9 @@ def test_the_table_has_each_number_in_its_column() -> None:
         assert row["time / tuned C"] == pytest.approx(ratio)
         assert table[name, 2]["time / tuned C"] == pytest.approx(ratio / 2)
         assert (row["bytes/mass"], row["peak bytes/mass"]) == (arrays, peak)
+        assert row["bytes moved/mass and step"] == 3 * arrays
+        assert row["bound by memory, node-steps/s"] == pytest.approx(4 * TUNED / ratio)
+        assert row["time / bound by memory"] == pytest.approx(4)
 
 
 def test_the_table_of_adapters_is_there() -> None:
@@ -41,6 +44,12 @@ def test_memory_is_the_most_of_large_systems() -> None:
     said = finding(speed.usual(), "bytes a mass")
     assert numbers(said)[:2] == [80, 160]
     assert "jello 50^3" in said
+
+
+def test_the_largest_mesh_is_named_with_its_bound() -> None:
+    """Its ratio, how far it is from the bound, and the bytes for each mass that this is of."""
+    said = finding(speed.usual(), "On the largest mesh")
+    assert in_order(said, "jello 50^3", "1.10 times the time of tuned C", "4.0 times what a copy of the 240 bytes")
 
 
 def test_the_sweep_is_as_many_times_as_fast() -> None:
