@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import importlib
 import os
 import platform
 import shutil
@@ -14,6 +16,7 @@ from datetime import date
 from itertools import count
 from pathlib import Path
 from time import sleep
+from unittest import mock
 
 import pytest
 
@@ -22,6 +25,7 @@ from experiments.exercises.exercise import find
 from experiments.exercises.gradescope import grade_folder
 from experiments.exercises.grading import grade_class
 from experiments.exercises.judge import judge
+from experiments.exercises.library_finder import LibraryFinder
 from experiments.exercises.sandbox_errors import NotGradedError
 from tests.experiments.exercises.hostile import HOSTILE, Hostile, text_of
 from tests.experiments.exercises.hostile_calls import HOSTILE_CALLS
@@ -222,3 +226,49 @@ def test_a_key_on_the_command_line_is_refused(tmp_path: Path) -> None:
     (tmp_path / "empty").write_text("\n")
     assert springlab("exercise", "check", "x.py", "--key-file", str(tmp_path / "empty")).code == 2
     assert "nowhere: No such file" in springlab("exercise", "check", "x.py", "--key-file", "nowhere").err
+
+
+def test_a_submission_ends_with_its_checker(tmp_path: Path) -> None:
+    """The checker is killed while a submission sleeps: the kernel ends the submission, which cannot undo that."""
+    marker = "import time, ctypes\nctypes.CDLL(None).prctl(1, 0, 0, 0, 0)\ntime.sleep(1000)\n"
+    script = f"""
+import sys
+sys.path.insert(0, {str(Path(__file__).parents[3])!r})
+from experiments.exercises import sandbox
+sandbox.run({marker!r}, [], sandbox.Limits(wall_clock=3600.0))
+"""
+    with subprocess.Popen([sys.executable, "-c", script]) as checker:
+        while not (asleep := _children_asleep(checker.pid)):
+            sleep(0.02)
+        checker.kill()
+        checker.wait()
+    while any(Path(f"/proc/{pid}").exists() for pid in asleep):
+        sleep(0.02)
+
+
+def _children_asleep(parent: int) -> list[int]:
+    """The processes that a process has started, and that sleep by the clock."""
+    found = []
+    for pid in Path(f"/proc/{parent}/task/{parent}/children").read_text().split():
+        with contextlib.suppress(OSError):
+            if Path(f"/proc/{pid}/syscall").read_text().startswith("230 "):
+                found.append(int(pid))
+    return found
+
+
+def test_pythons_own_modules_are_found_through_an_open_folder(tmp_path: Path) -> None:
+    """As where the way to them is closed to a submission's user: modules, packages and those within; nothing else."""
+    library = tmp_path / "library"
+    (library / "animals" / "birds").mkdir(parents=True)
+    (library / "single.py").write_text("VALUE = 1\n")
+    (library / "animals" / "__init__.py").write_text("")
+    (library / "animals" / "birds" / "__init__.py").write_text("from animals.birds.owl import NAME\n")
+    (library / "animals" / "birds" / "owl.py").write_text("NAME = 'owl'\n")
+    handle = os.open(library, os.O_RDONLY)
+    finder = LibraryFinder(handle, str(library))
+    with mock.patch.object(sys, "meta_path", [*sys.meta_path, finder]), mock.patch.dict(sys.modules):
+        assert importlib.import_module("single").VALUE == 1
+        assert importlib.import_module("animals.birds").NAME == "owl"
+        with pytest.raises(ModuleNotFoundError):
+            importlib.import_module("animals.fish")
+    os.close(handle)
