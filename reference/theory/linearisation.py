@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from reference.assembly import Blocks, assemble, damping_blocks, spring_blocks
+from reference.assembly import assemble, damping_blocks, spring_blocks
 from reference.state import Array, State
 from reference.system import MassSpringSystem
 from reference.theory.linear_motion import LinearMotion
@@ -59,8 +59,9 @@ class Linearisation:
 
     def on_masses(self, coefficients: Array) -> Any:
         """A diagonal matrix of one coefficient per mass, shape (n,), the same along each axis: shape (m, m)."""
-        blocks = Blocks(np.zeros((len(self.system.springs), *2 * (self.system.dimension,))), coefficients)
-        return -assemble(self.system, blocks, sparse=True)
+        from scipy.sparse import diags_array
+
+        return diags_array(np.repeat(coefficients[~self.system.fixed], self.system.dimension)).tocsc()
 
     def moves(self, along: Array) -> Array:
         """Moves of the free masses, coordinate by coordinate, from the coordinates q, shape (m,)."""
