@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference.conserved import angular_momentum, energy, momentum
+from reference.conserved import angular_momentum, energies, energy, momentum
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
@@ -206,3 +206,13 @@ def test_momentum_and_angular_momentum_by_hand() -> None:
         velocities=np.array([[5.0, 0.0, 0.0]]),
     )
     assert angular_momentum(solid, solid.start).tolist() == [0.0, 10.0, 0.0]
+
+
+def test_energies_of_a_trajectory_are_those_of_its_states() -> None:
+    """Added up in another order: to a few roundings of what is added, the largest part of it, some J."""
+    for name in ("string", "jello"):
+        system = find_scene(name).system({})
+        trajectory = simulate(system, find("heun"), 1e-3, 0.05)
+        one_by_one = [energy(system, state) for state in trajectory.states()]
+        size = max(1.0, float(np.abs(one_by_one).max()))
+        np.testing.assert_allclose(energies(system, trajectory), one_by_one, rtol=0, atol=1e-14 * size)
