@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from reference.assembly import assemble, damping_blocks, spring_blocks
+from reference.assembly import Blocks, assemble, damping_blocks, spring_blocks
 from reference.state import Array, State
 from reference.system import MassSpringSystem
 from reference.theory.linear_motion import LinearMotion
@@ -56,6 +56,17 @@ class Linearisation:
     def along_springs(self, coefficients: Array) -> Any:
         """Sum of the coefficients, shape (s,), times u u^T over the springs: sparse, shape (m, m)."""
         return -assemble(self.system, damping_blocks(self.system, self.state, coefficients), sparse=True)
+
+    @cached_property
+    def _unit_blocks(self) -> Array:
+        """U u^T of every spring, shape (s, d, d)."""
+        return damping_blocks(self.system, self.state, np.ones(len(self.system.springs))).springs
+
+    def scaled_array(self, springs: Array, masses: Array) -> Array:
+        """M^-1/2 (that along the springs + that on the masses) M^-1/2 as an array, of small systems: shape (m, m)."""
+        blocks = Blocks(-springs[:, None, None] * self._unit_blocks, -masses)
+        root = self.mass**-0.5
+        return np.asarray(root[:, None] * assemble(self.system, blocks, sparse=False) * root)
 
     def on_masses(self, coefficients: Array) -> Any:
         """A diagonal matrix of one coefficient per mass, shape (n,), the same along each axis: shape (m, m)."""

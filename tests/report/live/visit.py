@@ -25,6 +25,10 @@ WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshad
 #: So long [ms] something may take to be seen, on a busy machine; and [s] the server to end.
 PATIENCE, FAREWELL = 60_000, 30
 
+#: So many pictures a second, as of a page of a machine without a graphics card: the processor draws each of them.
+PICTURES = 10
+SLOWLY = f"window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), {1000 // PICTURES})"
+
 #: What viser's own page has to say against itself when something is dragged; nothing comes of it.
 THEIRS = ("Unable to preventDefault inside passive event listener invocation.",)
 
@@ -102,6 +106,7 @@ class Visitor:
         self.page.on("request", lambda request: self.asked.append(request.url))
         self.page.on("console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.add_init_script(SLOWLY + "; window.cancelAnimationFrame = clearTimeout")
         self.page.goto(address)
         self.status.wait_for()
 
