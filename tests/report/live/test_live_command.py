@@ -18,7 +18,7 @@ from tests.soak.guests import Guest
 
 def refused(words: Sequence[str]) -> str:
     """The line on which it ends, with exit code 2."""
-    done = subprocess.run(command_line(*words), capture_output=True, text=True, cwd=ROOT, timeout=120)
+    done = subprocess.run(command_line(*words), capture_output=True, text=True, cwd=ROOT, timeout=600)
     assert done.returncode == 2, done.stderr
     (line,) = done.stderr.splitlines()
     return line
@@ -64,7 +64,7 @@ def test_on_loopback_alone_nothing_is_said_and_nobody_else_gets_in() -> None:
     with server() as (address, process):
         assert process.said == []  # type: ignore[attr-defined]
         with pytest.raises(ConnectionRefusedError):
-            socket.create_connection(("127.0.0.2", int(address.rpartition(":")[2])), timeout=5)
+            socket.create_connection(("127.0.0.2", int(address.rpartition(":")[2])), timeout=600)
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere there always is one")
@@ -83,7 +83,7 @@ def test_viewers_who_vanish_in_the_middle_of_a_frame_are_no_news() -> None:
             guest = Guest(address)
             guest.leave(politely=False)
         guest = Guest(address)
-        before, deadline = stays.messages, time.monotonic() + 60
+        before, deadline = stays.messages, time.monotonic() + 600
         while min(stays.messages - before, guest.messages) < 30 and time.monotonic() < deadline:
             time.sleep(0.02)
         assert min(stays.messages - before, guest.messages) >= 30
