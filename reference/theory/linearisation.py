@@ -62,11 +62,15 @@ class Linearisation:
         """U u^T of every spring, shape (s, d, d)."""
         return damping_blocks(self.system, self.state, np.ones(len(self.system.springs))).springs
 
-    def scaled_array(self, springs: Array, masses: Array) -> Array:
-        """M^-1/2 (that along the springs + that on the masses) M^-1/2 as an array, of small systems: shape (m, m)."""
+    def array_of(self, springs: Array, masses: Array) -> Array:
+        """What is along the springs and what is on the masses together, as an array, of small systems: shape (m, m)."""
         blocks = Blocks(-springs[:, None, None] * self._unit_blocks, -masses)
+        return np.asarray(assemble(self.system, blocks, sparse=False))
+
+    def scaled_array(self, springs: Array, masses: Array) -> Array:
+        """M^-1/2 A M^-1/2 of that array."""
         root = self.mass**-0.5
-        return np.asarray(root[:, None] * assemble(self.system, blocks, sparse=False) * root)
+        return root[:, None] * self.array_of(springs, masses) * root
 
     def on_masses(self, coefficients: Array) -> Any:
         """A diagonal matrix of one coefficient per mass, shape (n,), the same along each axis: shape (m, m)."""
