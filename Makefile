@@ -3,6 +3,9 @@ PYTHON ?= python3.11
 BIN := .venv/bin
 READY := .venv/ready
 
+# Programs are started by the hundred: what Python compiles them to is kept, also where it is told to leave nothing.
+unexport PYTHONDONTWRITEBYTECODE
+
 .DEFAULT_GOAL := help
 .PHONY: help report test soak mutants check lock clean
 
@@ -13,7 +16,7 @@ report: $(READY)  ## Run the lab's main job: every experiment, on one page in re
 	$(BIN)/springlab report
 
 test: $(READY)  ## Run all tests, with formatting and types
-	$(BIN)/python -m pytest --numprocesses auto
+	$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
 soak: $(READY)  ## What `make test` does in small, in full: thousands of runs and kills, all kept versions of the engines
 	$(BIN)/python -m pytest tests/soak tests/reference/files/test_fuzzed_files.py tests/report/live tests/experiments/exercises \

@@ -22,6 +22,7 @@ from experiments.runs.claims import claimed
 from experiments.runs.comparison import finite
 from experiments.runs.environment import processor
 from experiments.runs.progress import Progress
+from experiments.runs.runner import current
 from experiments.runs.steppers import all_steppers
 from reference.compiled.kernels import advance, arrays_of, compiled, lists, loops_for
 from reference.compiled.tracing import why_not_compiled
@@ -31,6 +32,7 @@ from reference.motion import EquationsOf
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.schemes.catalogue import Scheme
+from reference.schemes.catalogue import find as find_scheme
 from reference.simulate import simulate
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper
@@ -89,11 +91,25 @@ class Cost:
 
 def run(progress: Progress) -> Result:
     """All costs, one stepper after the other: what runs beside it would slow it down."""
+    progress("kernels")
+    compile_kernels()
     costs = []
     for stepper in steppers():
         progress(stepper.name)
         costs.append(engine(stepper) if isinstance(stepper, EngineStepper) else scheme(stepper))
     return result_of(costs)
+
+
+def compile_kernels() -> None:
+    """All kernels, side by side in processes of their own: from the disk this one then has them in no time."""
+    compilable = [s.scheme.name for s in steppers() if isinstance(s, SchemeStepper) and not why_not_compiled(s.scheme)]
+    with current().threads() as pool:
+        list(pool.map(partial(isolated, compile_kernel), compilable))
+
+
+def compile_kernel(name: str) -> None:
+    """A scheme's kernel, by its first step."""
+    advance(string(), find_scheme(name), DT, 1)
 
 
 def result_of(costs: Sequence[Cost]) -> Result:

@@ -17,7 +17,7 @@ from experiments.runs.comparison import finite
 from experiments.runs.progress import Progress
 from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import all_steppers
-from reference.conserved import angular_momentum, energy, momentum
+from reference.conserved import angular_momentum, energies, energy, momentum
 from reference.identification import candidates, identify_beginning, scheme_of
 from reference.motion import EquationsOf
 from reference.outcome import Outcome, first_blown_up_frame
@@ -159,9 +159,9 @@ def energy_errors(system: MassSpringSystem, trajectory: Trajectory | None) -> tu
         return np.zeros(0), np.zeros(0)
     whole = slice(0, first_blown_up_frame(system, trajectory))
     with np.errstate(over="ignore"):
-        energies = np.array([energy(system, state) for state in trajectory.frames(whole).states()])
+        found = energies(system, trajectory.frames(whole))
     released = energy(system, system.start) - energy(system, hanging_string(system))
-    return trajectory.times[whole], (energies - energy(system, system.start)) / released
+    return trajectory.times[whole], (found - energy(system, system.start)) / released
 
 
 def measured_trend(errors: Array) -> EnergyTrend | None:

@@ -8,6 +8,7 @@ masses a and b depends on their difference only, so one (d, d) block B_j says it
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -98,27 +99,55 @@ def assemble(system: MassSpringSystem, blocks: Blocks, sparse: bool | None = Non
 
     A NumPy array where that is small, else a SciPy sparse matrix; `sparse` insists on one of them.
     """
+    d = system.dimension
+    size = int((~system.fixed).sum()) * d
+    pattern = _small_pattern(system) if size <= DENSE_UP_TO else _pattern(system)
+    own = blocks.masses[pattern.free, None, None] * np.eye(d)
+    values = np.concatenate([blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own])
+    values = values[pattern.kept].ravel()
+    if sparse if sparse is not None else size > DENSE_UP_TO:
+        from scipy.sparse import coo_array
+
+        return coo_array((values, (pattern.rows, pattern.columns)), shape=(size, size)).tocsc()
+    # entries of one place are added in their order
+    return np.bincount(pattern.rows * size + pattern.columns, values, size**2).reshape(size, size)
+
+
+@dataclass(frozen=True, eq=False)
+class _Pattern:
+    """Where the entries of blocks are in the matrix.
+
+    Attributes:
+        free: the free masses.
+        kept: which of the blocks (at (a, b), (b, a), (a, a), (b, b), then each mass's own) are of free masses.
+        rows, columns: of all entries of those, block after block.
+    """
+
+    free: IntArray
+    kept: BoolArray
+    rows: IntArray
+    columns: IntArray
+
+
+def _pattern(system: MassSpringSystem) -> _Pattern:
     n, d = system.positions.shape
     free = np.flatnonzero(~system.fixed)
     index = np.full(n, -1)
     index[free] = np.arange(len(free))
     a, b = index[system.springs.T]
-    own = blocks.masses[free, None, None] * np.eye(d)
     i = np.concatenate([a, b, a, b, np.arange(len(free))])
     j = np.concatenate([b, a, a, b, np.arange(len(free))])
-    values = np.concatenate([blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own])
     kept = (i >= 0) & (j >= 0)
     axes = np.arange(d)
     rows = np.broadcast_to((i[kept, None] * d + axes)[:, :, None], (kept.sum(), d, d)).ravel()
     columns = np.broadcast_to((j[kept, None] * d + axes)[:, None, :], (kept.sum(), d, d)).ravel()
-    size = len(free) * d
-    if sparse if sparse is not None else size > DENSE_UP_TO:
-        from scipy.sparse import coo_array
+    return _Pattern(free, kept, rows, columns)
 
-        return coo_array((values[kept].ravel(), (rows, columns)), shape=(size, size)).tocsc()
-    matrix = np.zeros((size, size))
-    np.add.at(matrix, (rows, columns), values[kept].ravel())
-    return matrix
+
+@lru_cache(maxsize=16)
+def _small_pattern(system: MassSpringSystem) -> _Pattern:
+    """The same, kept: an implicit scheme asks for that of a small system thousands of times."""
+    return _pattern(system)
 
 
 def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> Array:

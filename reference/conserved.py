@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reference.spring_law import elastic_energy
-from reference.state import Array, State
+from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 
 
@@ -27,6 +27,16 @@ def energy_parts(system: MassSpringSystem, state: State) -> dict[str, float]:
         "gravitational": -float(weight),
         "total": float(kinetic + elastic - weight),
     }
+
+
+def energies(system: MassSpringSystem, trajectory: Trajectory) -> Array:
+    """The same at each time of a trajectory [J], shape (m,)."""
+    a, b = system.springs.T
+    x = trajectory.positions
+    stretch = np.linalg.norm(x[:, b] - x[:, a], axis=2) - system.rest_lengths
+    kinetic = 0.5 * (trajectory.velocities**2).sum(axis=2) @ system.masses
+    elastic = elastic_energy(system.stiffness, stretch).sum(axis=1)
+    return np.asarray(kinetic + elastic - (x @ system.gravity) @ system.masses)
 
 
 def momentum(system: MassSpringSystem, state: State) -> Array:

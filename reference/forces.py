@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from reference.assembly import Blocks, spring_blocks
-from reference.jit import compiled
+from reference.jit import array, compiled
 from reference.spring_law import spring_force
 from reference.state import Array, Slope, State, Trajectory
 from reference.system import BoolArray, IntArray, MassSpringSystem
@@ -110,8 +110,20 @@ def one_acceleration(
     acceleration_of_mass(i, v, forces, masses, drag, gravity, fixed, first, spring, sign, out)
 
 
+#: Whoever may write what: each function is compiled once.
+KINDS = {
+    "i": "int64",
+    **dict.fromkeys(("x", "v"), array(2)),
+    "springs": array(2, "int64"),
+    **dict.fromkeys(("rest_lengths", "stiffness", "damping", "masses", "gravity", "sign"), array(1)),
+    "drag": "float64",
+    "fixed": array(1, "boolean"),
+    **dict.fromkeys(("first", "spring"), array(1, "int64")),
+    **dict.fromkeys(("forces", "out"), array(2, written=True)),
+}
+
 *_, _all_accelerations, _one_acceleration = compiled(
-    spring_force, force_of_spring, acceleration_of_mass, all_accelerations, one_acceleration
+    spring_force, force_of_spring, acceleration_of_mass, all_accelerations, one_acceleration, kinds=KINDS
 )
 
 
@@ -138,14 +150,14 @@ class SpringMotion:
         """
         out = np.empty_like(state.positions)
         springs = (*self._springs, self.system.damping if damping else self._none)
-        _all_accelerations(state.positions, state.velocities, *springs, *self._masses_and_weight, self._forces, out)
+        _all_accelerations(*_rows(state), *springs, *self._masses_and_weight, self._forces, out)
         return out
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Acceleration of mass i alone [m/s^2], shape (d,): all the lecture's per-link function sees."""
         out = np.empty_like(state.positions)
         springs = (*self._springs, self.system.damping)
-        _one_acceleration(i, state.positions, state.velocities, *springs, *self._masses_and_weight, self._forces, out)
+        _one_acceleration(i, *_rows(state), *springs, *self._masses_and_weight, self._forces, out)
         return out[i]
 
     def slope(self, state: State) -> Slope:
@@ -167,6 +179,11 @@ class SpringMotion:
     def trajectory(self, states: list[State]) -> Trajectory:
         """The states of a run as the trajectory of the masses."""
         return Trajectory.of(states)
+
+
+def _rows(state: State) -> tuple[Array, Array]:
+    """Positions and velocities as the compiled functions take them: row by row."""
+    return np.ascontiguousarray(state.positions, np.float64), np.ascontiguousarray(state.velocities, np.float64)
 
 
 def springs_of_masses(system: MassSpringSystem) -> tuple[IntArray, IntArray, Array]:

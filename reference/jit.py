@@ -15,7 +15,7 @@ import os
 import sys
 import tempfile
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -26,17 +26,33 @@ from reference.cache import cache_folder
 HEADER = "import numpy as np\nfrom numba import njit, prange\n"
 
 
-def compiled(*functions: Callable[..., Any]) -> tuple[Any, ...]:
+def compiled(*functions: Callable[..., Any], kinds: Mapping[str, str] | None = None) -> tuple[Any, ...]:
     """The functions, compiled: each may call those before it, NumPy, and nothing else.
 
     A division by zero gives what it gives in NumPy, and no exception.
+
+    Args:
+        kinds: Numba's types of parameters, by name. Functions of which all are known are compiled for these alone, at
+            once; others for whatever they are called with, anew for each kind of array.
     """
-    made = module("\n\n".join([HEADER, *map(text_of, functions)]))
+    made = module("\n\n".join([HEADER, *(text_of(function, kinds) for function in functions)]))
     return tuple(getattr(made, function.__name__) for function in functions)
 
 
-def text_of(function: Callable[..., Any]) -> str:
+def array(dimension: int, entries: str = "float64", written: bool = False) -> str:
+    """Numba's type of an array, row by row; one that is not written may be given whether it can be written or not.
+
+    >>> array(2)
+    "Array(float64, 2, 'C', True)"
+    """
+    return f"Array({entries}, {dimension}, 'C', {not written})"
+
+
+def text_of(function: Callable[..., Any], kinds: Mapping[str, str] | None = None) -> str:
     """The text of a function as it is compiled: without its types, which Numba finds out itself, and its docstring.
+
+    Args:
+        kinds: see `compiled`.
 
     >>> from reference.spring_law import spring_force
     >>> print(text_of(spring_force))
@@ -51,7 +67,11 @@ def text_of(function: Callable[..., Any]) -> str:
         argument.annotation = None
     if ast.get_docstring(definition) is not None:
         definition.body = definition.body[1:]
-    return f"@njit(cache=True, error_model='numpy')\n{ast.unparse(definition)}"
+    names = [argument.arg for argument in definition.args.args]
+    signature = ""
+    if kinds is not None and kinds.keys() >= set(names):
+        signature = f'"void({", ".join(kinds[name] for name in names)})", '
+    return f"@njit({signature}cache=True, error_model='numpy')\n{ast.unparse(definition)}"
 
 
 @cache

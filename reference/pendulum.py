@@ -46,7 +46,7 @@ class PendulumMotion:
         angles, rates = state.positions, state.velocities
         difference = angles[:, None] - angles[None, :]
         torque = np.asarray(-(self._inertia * np.sin(difference)) @ rates**2)
-        load = self._masses[:, None] * self.system.gravity - self.system.drag * self._mass_velocities(state)
+        load = self._masses[:, None] * self.system.gravity - self.system.drag * self._mass_velocities(angles, rates)
         # Every mass loads all the rods above it: rod i feels the sum over the masses i, i+1, ...
         below = np.cumsum(load[::-1], axis=0)[::-1]
         torque = torque + self._lengths * (below[:, 0] * np.cos(angles) + below[:, 1] * np.sin(angles))
@@ -66,18 +66,20 @@ class PendulumMotion:
 
     def trajectory(self, states: list[State]) -> Trajectory:
         """Positions and velocities of the masses, the anchor first, from the angles."""
-        still = np.zeros((1, 2))
-        positions = [np.vstack([self._anchor, self._mass_positions(s)]) for s in states]
-        velocities = [np.vstack([still, self._mass_velocities(s)]) for s in states]
-        return Trajectory(np.array([s.time for s in states]), np.array(positions), np.array(velocities))
+        angles, rates = np.array([s.positions for s in states]), np.array([s.velocities for s in states])
+        positions = np.zeros((len(states), *self.system.positions.shape))
+        velocities = np.zeros_like(positions)
+        rods = np.stack([np.sin(angles), -np.cos(angles)], axis=2)
+        positions[:, 0] = self._anchor
+        positions[:, 1:] = self._anchor + np.cumsum(self._lengths[:, None] * rods, axis=1)
+        velocities[:, 1:] = self._mass_velocities(angles, rates)
+        return Trajectory(np.array([s.time for s in states]), positions, velocities)
 
-    def _mass_positions(self, state: State) -> Array:
-        rods = np.stack([np.sin(state.positions), -np.cos(state.positions)], axis=1)
-        return self._anchor + np.cumsum(self._lengths[:, None] * rods, axis=0)
-
-    def _mass_velocities(self, state: State) -> Array:
-        across = np.stack([np.cos(state.positions), np.sin(state.positions)], axis=1)
-        velocities: Array = np.cumsum((self._lengths * state.velocities)[:, None] * across, axis=0)
+    def _mass_velocities(self, angles: Array, rates: Array) -> Array:
+        """Of the masses but the anchor [m/s], shape (n, 2), or (m, n, 2) of many states at once."""
+        across = np.empty((*angles.shape, 2))
+        across[..., 0], across[..., 1] = np.cos(angles), np.sin(angles)
+        velocities: Array = np.cumsum((self._lengths * rates)[..., None] * across, axis=-2)
         return velocities
 
 

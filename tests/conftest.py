@@ -5,11 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
+import hypothesis
 import pytest
 
 from engines.engine import Engine, find, registry, version
 from reference.errors import InputError
 from tests.parts import PARTS, part, todays
+
+# How long an example takes is a matter of what else the machine does.
+hypothesis.settings.register_profile("lab", deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow])
+hypothesis.settings.load_profile("lab")
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

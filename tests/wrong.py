@@ -136,9 +136,8 @@ def one_sided(motion: SpringMotion, state: State) -> Array:
     """Every spring pulls its first mass only."""
     system = motion.system
     accelerations = np.tile(system.gravity, (len(system.masses), 1))
-    for (a, b), pull in zip(system.springs.tolist(), spring_forces(motion, state), strict=True):
-        accelerations[a] += pull / system.masses[a]
-        assert a != b
+    first = system.springs[:, 0]
+    np.add.at(accelerations, first, spring_forces(motion, state) / system.masses[first, None])
     return np.where(system.fixed[:, None], 0.0, accelerations - system.drag * state.velocities / system.masses[:, None])
 
 

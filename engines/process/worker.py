@@ -40,6 +40,15 @@ FROM_OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.
 UNSEEN = 255
 
 
+#: What the server that forks processes imports before it forks any, and so each of them has.
+_IMPORTED = ["engines.process.isolation", "reference.compiled.preload"]
+
+
+def import_beforehand(*modules: str) -> None:
+    """Have processes begin with some modules, which they need not import then; without effect once one was started."""
+    _IMPORTED.extend(module for module in modules if module not in _IMPORTED)
+
+
 class NoAnswerError(Exception):
     """A task did not answer.
 
@@ -160,7 +169,7 @@ class _Forked:
             context: Any = multiprocessing.get_context("spawn")
         else:
             context = multiprocessing.get_context("forkserver")
-            context.set_forkserver_preload(["engines.process.isolation", "reference.compiled.preload"])
+            context.set_forkserver_preload(_IMPORTED)
         self._process = context.Process(target=work, args=(connection, lifeline, scratch))
         self._process.start()
         self.pid, self.sentinel = self._process.pid, self._process.sentinel

@@ -21,6 +21,8 @@ from reference.system import BoolArray, MassSpringSystem
 #: After each chunk of this many steps blown-up systems are looked for, and blocks of nothing else are left alone.
 CHUNK = 100
 
+#: From this many blocks on, threads are worth what loops for them take to compile, some seconds.
+THREADS_FROM = 32
 
 #: Parameters there is one number of for each spring, as the loops call them.
 OF_SPRINGS = ("rest_length", "stiffness", "damping")
@@ -66,7 +68,7 @@ def sweep(
         positions: where each starts [m], shape (m, n, d); as the system does, where left out.
         still: where distances are measured from [m], shape (m, n, d); from each one's start, where left out.
         limit: how far from there a mass may go [m] before its system has blown up.
-        threads: how many; all there are, where left out.
+        threads: how many; left out, all there are for many systems and one for few.
         progress: told now and then which part of the work is done.
 
     Raises:
@@ -75,6 +77,8 @@ def sweep(
     """
     m, (n, d) = len(dt), system.positions.shape
     blocks = -(-m // LANES)
+    if threads is None and blocks < THREADS_FROM:
+        threads = 1
     loops = loops_for(scheme, system, lanes=True, threads=threads != 1)
     start = np.broadcast_to(system.positions if positions is None else positions, (m, n, d))
     values = _per_system(system, parameters or {}, m)

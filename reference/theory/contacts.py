@@ -90,6 +90,10 @@ class ContactLinearisation(Linearisation):
         """See Linearisation."""
         return self.tangents.T @ super().on_masses(coefficients) @ self.tangents
 
+    def array_of(self, springs: Array, masses: Array) -> Array:
+        """See Linearisation."""
+        return np.asarray(self.tangents.T @ super().array_of(springs, masses) @ self.tangents)
+
     def moves(self, along: Array) -> Array:
         """See Linearisation."""
         return np.asarray(self.tangents @ along)

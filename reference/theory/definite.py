@@ -32,7 +32,7 @@ from reference.theory.inertia import negative_eigenvalues
 from reference.theory.linearisation import Linearisation
 from reference.theory.step_coefficients import DampingInStep, coefficients, damping_in_step
 
-#: Up to this many coordinates all eigenvectors of S are taken at once.
+#: Up to this many coordinates S is an array, of which all eigenvectors are taken at once.
 DENSE_UP_TO = 150
 
 #: A limit is certified between these parts of itself.
@@ -58,6 +58,15 @@ class Definiteness:
     scheme: Scheme
     linear: Linearisation
     unit: float
+
+    @property
+    def _small(self) -> bool:
+        return len(self.linear.mass) <= DENSE_UP_TO
+
+    @cached_property
+    def _stiffness(self) -> Array:
+        """The scaled stiffness of a small system as an array."""
+        return np.asarray(self.linear.scaled_stiffness.toarray())
 
     @cached_property
     def stiffness_part(self) -> float:
@@ -103,7 +112,7 @@ class Definiteness:
         return [(row, self.damping_part(float(dt))[1]) for row, dt in zip(of_springs, steps, strict=True)]
 
     def matrix(self, dt: float, part: tuple[Array, Array] | None = None) -> Any:
-        """S(dt), sparse, shape (m, m); with the damping's part where that is known already."""
+        """S(dt), shape (m, m), an array up to DENSE_UP_TO, else sparse; with the damping's part where that is known."""
         return self._with(self._assembled(part or self.damping_part(dt)), dt)
 
     def with_system(self, system: MassSpringSystem) -> Definiteness:
@@ -159,6 +168,10 @@ class Definiteness:
         return of
 
     def _with(self, damping: Any, dt: float) -> Any:
+        if self._small:
+            whole = damping + self.stiffness_part * dt**2 * self._stiffness
+            whole[np.diag_indices_from(whole)] += 4.0
+            return whole
         from scipy.sparse import diags_array
 
         masses = diags_array(np.full(len(self.linear.mass), 4.0))
@@ -166,6 +179,8 @@ class Definiteness:
 
     def _assembled(self, part: tuple[Array, Array]) -> Any:
         springs, masses = part
+        if self._small:
+            return self.linear.scaled_array(springs, masses)
         return self.linear.scaled(self.linear.along_springs(springs) + self.linear.on_masses(masses))
 
     def _made(self, dt: float) -> DampingInStep:
@@ -183,7 +198,7 @@ def first_negative(matrix: Callable[[float], Any], quadratic: Quadratic, dt: flo
     eigenvector there is the next direction. The end is certified by counting negative eigenvalues on both sides of it.
 
     Args:
-        matrix: of x, sparse; in every direction a concave quadratic in x.
+        matrix: of x, an array or sparse; in every direction a concave quadratic in x.
         quadratic: its coefficients in a direction.
         unit: about where to look [s].
 
@@ -232,14 +247,14 @@ def _certified(matrix: Callable[[float], Any], x: float, dt: float) -> float:
 
 
 def lowest_eigenvector(matrix: Any) -> Array:
-    """Of a sparse symmetric matrix, to ROUGH of its largest eigenvalue where it is large."""
+    """Of a symmetric matrix, to ROUGH of its largest eigenvalue where it is large."""
     return _lowest(matrix)[1]
 
 
 def _lowest(matrix: Any) -> tuple[float, Array]:
     """The lowest eigenvalue and its eigenvector; of large matrices to ROUGH of the largest."""
     if matrix.shape[0] <= DENSE_UP_TO:
-        values, vectors = np.linalg.eigh(matrix.toarray())
+        values, vectors = np.linalg.eigh(matrix if isinstance(matrix, np.ndarray) else matrix.toarray())
         return float(values[0]), np.asarray(vectors[:, 0])
     from scipy.sparse.linalg import ArpackNoConvergence, eigsh
 

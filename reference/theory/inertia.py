@@ -11,9 +11,12 @@ from typing import Any
 
 import numpy as np
 
+from reference.jit import array, compiled
+from reference.state import Array
+
 
 def negative_eigenvalues(matrix: Any) -> int:
-    """Of a sparse symmetric matrix.
+    """Of a symmetric matrix, sparse or an array.
 
     >>> from scipy.sparse import diags_array
     >>> negative_eigenvalues(diags_array([3.0, -1.0, 2.0]))
@@ -23,7 +26,15 @@ def negative_eigenvalues(matrix: Any) -> int:
 
 
 def pivots(matrix: Any) -> Any:
-    """The pivots of elimination without exchanges, in an order that keeps it sparse, shape (m,); NaN if one is zero."""
+    """The pivots of elimination without exchanges, shape (m,), of a sparse matrix in an order that keeps it sparse.
+
+    NaN if one is zero.
+    """
+    if isinstance(matrix, np.ndarray):
+        left = np.array(matrix, dtype=np.float64, order="C")
+        _eliminate(left)
+        found = left.diagonal()
+        return found if found.all() else np.full(len(left), np.nan)
     from scipy.sparse.linalg import splu
 
     options = {"SymmetricMode": True, "Equil": False}
@@ -32,3 +43,16 @@ def pivots(matrix: Any) -> Any:
     except RuntimeError:  # SuperLU: exactly singular
         return np.full(matrix.shape[0], np.nan)
     return done.U.diagonal() if (done.perm_r == done.perm_c).all() else np.full(matrix.shape[0], np.nan)
+
+
+def eliminate(left: Array) -> None:
+    """Gaussian elimination of a symmetric array, shape (m, m), in place: its diagonal is left with the pivots."""
+    for k in range(len(left)):
+        for i in range(k + 1, len(left)):
+            if left[i, k] != 0.0:
+                factor = left[i, k] / left[k, k]
+                for j in range(k + 1, len(left)):
+                    left[i, j] -= factor * left[k, j]
+
+
+(_eliminate,) = compiled(eliminate, kinds={"left": array(2, written=True)})

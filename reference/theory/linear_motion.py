@@ -57,11 +57,14 @@ class LinearMotion:
 
 def _by_mass(system: MassSpringSystem, blocks: Blocks) -> Any:
     """The derivatives of all coordinates' accelerations, shape (n d, n d); zero for fixed masses."""
-    from scipy.sparse import coo_array, diags_array
-
     free = np.flatnonzero(np.repeat(~system.fixed, system.dimension))
     mass = np.repeat(system.masses, system.dimension)[free]
-    of_free = (diags_array(1 / mass) @ assemble(system, blocks, sparse=True)).tocoo()
     size = system.positions.size
-    whole = coo_array((of_free.data, (free[of_free.row], free[of_free.col])), shape=(size, size))
-    return whole.toarray() if size <= DENSE_UP_TO else whole.tocsr()
+    if size <= DENSE_UP_TO:
+        dense = np.zeros((size, size))
+        dense[np.ix_(free, free)] = (1 / mass)[:, None] * assemble(system, blocks, sparse=False)
+        return dense
+    from scipy.sparse import coo_array, diags_array
+
+    of_free = (diags_array(1 / mass) @ assemble(system, blocks, sparse=True)).tocoo()
+    return coo_array((of_free.data, (free[of_free.row], free[of_free.col])), shape=(size, size)).tocsr()

@@ -57,10 +57,26 @@ class Linearisation:
         """Sum of the coefficients, shape (s,), times u u^T over the springs: sparse, shape (m, m)."""
         return -assemble(self.system, damping_blocks(self.system, self.state, coefficients), sparse=True)
 
+    @cached_property
+    def _unit_blocks(self) -> Array:
+        """U u^T of every spring, shape (s, d, d)."""
+        return damping_blocks(self.system, self.state, np.ones(len(self.system.springs))).springs
+
+    def array_of(self, springs: Array, masses: Array) -> Array:
+        """What is along the springs and what is on the masses together, as an array, of small systems: shape (m, m)."""
+        blocks = Blocks(-springs[:, None, None] * self._unit_blocks, -masses)
+        return np.asarray(assemble(self.system, blocks, sparse=False))
+
+    def scaled_array(self, springs: Array, masses: Array) -> Array:
+        """M^-1/2 A M^-1/2 of that array."""
+        root = self.mass**-0.5
+        return root[:, None] * self.array_of(springs, masses) * root
+
     def on_masses(self, coefficients: Array) -> Any:
         """A diagonal matrix of one coefficient per mass, shape (n,), the same along each axis: shape (m, m)."""
-        blocks = Blocks(np.zeros((len(self.system.springs), *2 * (self.system.dimension,))), coefficients)
-        return -assemble(self.system, blocks, sparse=True)
+        from scipy.sparse import diags_array
+
+        return diags_array(np.repeat(coefficients[~self.system.fixed], self.system.dimension)).tocsc()
 
     def moves(self, along: Array) -> Array:
         """Moves of the free masses, coordinate by coordinate, from the coordinates q, shape (m,)."""

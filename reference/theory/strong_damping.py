@@ -53,7 +53,7 @@ def _negative(definite: Definiteness, dt: float) -> bool:
     if not moves.shape[1]:
         return False
     gentle = system.with_parameter("damping", np.where(rods, 0.0, system.damping).tolist())
-    matrix = definite.with_system(gentle).matrix(dt).toarray()
+    matrix = definite.with_system(gentle).matrix(dt)
     return bool(np.linalg.eigvalsh(moves.T @ matrix @ moves)[0] < 0)
 
 

@@ -30,7 +30,7 @@ def windows_of(definite: Definiteness, first: float) -> tuple[tuple[float, float
     def stable(dt: float, part: tuple[Array, Array] | None = None) -> bool:
         with np.errstate(all="ignore"):
             matrix = definite.matrix(dt, part)
-            return bool(np.isfinite(matrix.data).all()) and negative_eigenvalues(matrix) == 0
+            return bool(np.isfinite(matrix).all()) and negative_eigenvalues(matrix) == 0
 
     last = min(FAR * first, drowned_from(definite))
     if last <= first:

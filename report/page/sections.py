@@ -13,6 +13,7 @@ from pathlib import Path
 from time import perf_counter
 
 from engines.process.isolation import isolated
+from engines.process.worker import import_beforehand
 from experiments.advice.own_scene import experiments_of
 from experiments.experiment import Experiment, find, write_tables
 from experiments.runs.progress import Progress
@@ -22,6 +23,12 @@ from reference.scenes import Setup
 from report.figures import animate, draw
 from report.page.section import Section
 from report.page.section_cache import cache_section, cached_section
+
+#: These take longest, and begin first: no core is to wait for the last of them.
+LONGEST = ("scenes", "maps", "stability", "energy", "order")
+
+#: What every experiment's process draws with.
+DRAWN_WITH = ("matplotlib.figure", "matplotlib.backends.backend_svg", "report.page.sections")
 
 #: How long an experiment may take [s], and how much memory its process [bytes].
 TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
@@ -70,8 +77,11 @@ def all_sections(
     progress(f"{len(done)} of {len(experiments)} done")
     missing = [experiment for experiment in experiments if experiment.name not in done]
     parallel = [experiment for experiment in missing if not experiment.timed]
+    parallel.sort(key=lambda experiment: experiment.name not in LONGEST)
     alone = [experiment for experiment in missing if experiment.timed]
     make = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
+
+    import_beforehand(*DRAWN_WITH)
 
     def when_made(made: Section, seconds: float) -> None:
         cache = current().store

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference.conserved import angular_momentum, energy, momentum
+from reference.conserved import angular_momentum, energies, energy, momentum
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
@@ -159,9 +159,9 @@ def check_energy_stays(scheme: Scheme) -> None:
     system = find_scene("string").system({"masses": 2, "angle": 60.0})
     trajectory = simulate(system, scheme, 2e-3, 10.0)
     with np.errstate(over="ignore", invalid="ignore"):
-        energies = np.array([energy(system, s) for s in trajectory.states()])
-    assert np.isfinite(energies).all()
-    first, last = energies[:1000], energies[-1000:]
+        found = energies(system, trajectory)
+    assert np.isfinite(found).all()
+    first, last = found[:1000], found[-1000:]
     assert np.ptp(last) < 2 * np.ptp(first)
     assert abs(last.mean() - first.mean()) < 0.1 * np.ptp(first)
 
@@ -206,3 +206,13 @@ def test_momentum_and_angular_momentum_by_hand() -> None:
         velocities=np.array([[5.0, 0.0, 0.0]]),
     )
     assert angular_momentum(solid, solid.start).tolist() == [0.0, 10.0, 0.0]
+
+
+def test_energies_of_a_trajectory_are_those_of_its_states() -> None:
+    """Added up in another order: to a few roundings of what is added, the largest part of it, some J."""
+    for name in ("string", "jello"):
+        system = find_scene(name).system({})
+        trajectory = simulate(system, find("heun"), 1e-3, 0.05)
+        one_by_one = [energy(system, state) for state in trajectory.states()]
+        size = max(1.0, float(np.abs(one_by_one).max()))
+        np.testing.assert_allclose(energies(system, trajectory), one_by_one, rtol=0, atol=1e-14 * size)

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reference.jit import HEADER, compiled, module, text_of
+from reference.jit import HEADER, array, compiled, module, text_of
+from reference.state import Array
 
 
 @pytest.fixture
@@ -41,6 +42,29 @@ def test_functions_call_those_before_them_and_divide_as_numpy_does(kernels: Path
     assert two(3.0, 2.0) == 2.25
     assert two(-1.0, 0.0) == np.inf
     assert np.isnan(one(0.0, 0.0))
+
+
+def doubled(a: Array, out: Array) -> None:
+    """Write twice the numbers."""
+    for i in range(len(a)):
+        out[i] = 2 * a[i]
+
+
+def test_with_kinds_a_function_is_compiled_once_whoever_may_write_what_it_is_given(kernels: Path) -> None:
+    """And for nothing else: another kind of array is refused. Without kinds each of them is compiled anew."""
+    sealed = np.array([1.0, 2.0])
+    sealed.flags.writeable = False
+    (once,) = compiled(doubled, kinds={"a": array(1), "out": array(1, written=True), "unused": "int64"})
+    (anew,) = compiled(doubled)
+    for function, many in ((once, 1), (anew, 2)):
+        for a in (sealed, sealed.copy()):
+            out = np.zeros(2)
+            function(a, out)
+            assert out.tolist() == [2.0, 4.0]
+        assert len(function.signatures) == many
+    with pytest.raises(TypeError, match="No matching definition"):
+        once(np.array([1, 2]), np.zeros(2))
+    assert text_of(doubled, {"a": "float64"}) == text_of(doubled)
 
 
 def test_every_text_is_a_module_of_its_own(kernels: Path) -> None:

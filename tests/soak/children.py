@@ -18,7 +18,7 @@ import psutil
 ROOT = Path(__file__).parents[2]
 
 #: Every process that is left alone has ended after this time [s], however busy the machine is.
-SOON = 60.0
+SOON = 600.0
 
 
 def start(*words: str, environment: dict[str, str] | None = None) -> subprocess.Popen[str]:

@@ -116,7 +116,7 @@ def interrupt(made: Cluster, store: Path) -> None:
     child = start(sys.executable, *SWEEP, "--store", str(store), "--cluster", made.address)
     wait_for_rows(child, store, 1)
     os.killpg(child.pid, signal.SIGINT)
-    out, err = child.communicate(timeout=120)
+    out, err = child.communicate(timeout=600)
     assert (child.returncode, out) == (130, "")
     assert err == f"springlab: interrupted; what is done is kept in {store}: the same command goes on\n"
 
@@ -127,7 +127,7 @@ def lose_the_scheduler(made: Cluster, store: Path) -> None:
     child = start(sys.executable, *SWEEP, "--store", str(store), "--cluster", made.address)
     wait_for_rows(child, store, before + 1)
     made.scheduler.kill()
-    out, err = child.communicate(timeout=120)
+    out, err = child.communicate(timeout=600)
     assert (child.returncode, out) == (2, ""), err
     assert err.startswith(f"springlab: --cluster {made.address}: lost the scheduler")
     assert len(err.splitlines()) == 1, err
@@ -158,7 +158,7 @@ def test_workers_that_may_not_start_processes_are_one_line(tmp_path: Path, reque
     with running(tmp_path / "dask", workers=1, daemons=True) as made:
         words = (sys.executable, *PATIENT, "--store", str(tmp_path / "store.sqlite"), "--cluster", made.address)
         child = start(*words)
-        out, err = child.communicate(timeout=120)
+        out, err = child.communicate(timeout=600)
     assert (child.returncode, out) == (2, ""), err
     assert "expected DASK_DISTRIBUTED__WORKER__DAEMON=False" in err
     assert len(err.splitlines()) == 1, err

@@ -26,7 +26,7 @@ from tests.soak.guests import Guest
 GROWTH = 0.1
 
 #: Whatever is waited for is there after this time [s].
-PATIENCE = 120.0
+PATIENCE = 600.0
 
 MOVES = {"stiffness": (100, 300), "mass": (0.015, 0.03), "drag": (0, 0.1), "gravity": (1, 20)}
 

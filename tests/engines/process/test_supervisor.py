@@ -30,7 +30,7 @@ ROOT = Path(__file__).parents[3]
 LONG, MUCH = 600.0, 4 * 2**30
 
 #: What is waited for is there after this time [s], however busy the machine is.
-PATIENCE = 60.0
+PATIENCE = 600.0
 
 
 class Asked(Supervisor):

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import multiprocessing.forkserver
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
+from engines.process import worker
 from engines.process.worker import NoAnswerError, Worker
 from reference.outcome import Outcome
 from tests.engines.process import misbehaving, used
 
 #: [s], and [bytes]: nothing comes near.
-LIMITS = 60.0, 4 * 2**30
+LIMITS = 600.0, 4 * 2**30
 
 
 @pytest.mark.parametrize(
@@ -27,13 +29,25 @@ def test_the_last_words_are_those_of_the_task_that_failed(
     task: Callable[..., Any], arguments: tuple[Any, ...], reason: str
 ) -> None:
     """Not what an earlier task of the same process has printed."""
-    worker = Worker()
+    used_again = Worker()
     try:
-        first = worker.do(used.say, ("all is well",), *LIMITS)
-        assert worker.do(used.say, ("mass 3 is far away",), *LIMITS) == first
+        first = used_again.do(used.say, ("all is well",), *LIMITS)
+        assert used_again.do(used.say, ("mass 3 is far away",), *LIMITS) == first
         with pytest.raises(NoAnswerError) as caught:
-            worker.do(task, arguments, *LIMITS)
+            used_again.do(task, arguments, *LIMITS)
         assert caught.value.outcome == Outcome("crashed", reason)
         assert not caught.value.from_outside
     finally:
-        worker.end()
+        used_again.end()
+
+
+def test_what_is_to_be_imported_beforehand_is_told_to_the_server_that_forks_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """In the order in which it was asked for; what is needed anyway stays."""
+    monkeypatch.setattr(worker, "_IMPORTED", list(worker._IMPORTED))
+    needed = list(worker._IMPORTED)
+    for _ in range(2):
+        worker.import_beforehand("json", *needed)
+    Worker().end()
+    assert multiprocessing.forkserver._forkserver._preload_modules == [*needed, "json"]  # type: ignore[attr-defined]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import pytest
 from engines.engine import registry
 from engines.measured_limit import growths_along_modes, limit_of_engine
 from engines.process.isolation import EngineStepper, run_engine
-from experiments.advice.advice import ADVISED, REFUTED, _left_out, advise, rest_of, rounded_down
+from experiments.advice.advice import ADVISED, REFUTED, Advice, _left_out, advise, rest_of, rounded_down
 from experiments.advice.wording import result_of
 from experiments.limits.perturbed import perturbed
 from reference.limit import Limit
@@ -64,6 +65,20 @@ def perturbations_grow(engine: EngineStepper, system: MassSpringSystem, dt: floa
     return bool(random_growth(offsets) == np.inf or np.abs(offsets[-1]).max() > 10 * np.abs(offsets[0]).max())
 
 
+@cache
+def of_the_stiff_rope() -> Advice:
+    """The advice for the first of the scenes, for the first of the engines."""
+    (advice,) = advise(setup_of("stiff rope"), [engine_of(ASKED[0])], lambda _: None)
+    return advice
+
+
+@cache
+def of_the_honest() -> Advice:
+    """The advice for the same scene, for an engine in this process whose limit is said to be 1 ms."""
+    (advice,) = advise(setup_of("stiff rope"), [measuring(1e-3)], lambda _: None)
+    return advice
+
+
 def check_advice(engine: EngineStepper, setup: Setup, limit: float, advised: float) -> None:
     """The engine comes to the scene's end with the advised dt; perturbations grow at 1.1 of the limit, not at 0.9."""
     steps = max(1, round(setup.duration / advised))
@@ -90,7 +105,7 @@ def test_the_engine_itself_confirms_and_refutes(name: str) -> None:
 def test_advice_for_another_limit_is_caught() -> None:
     """Shown to fail: of a limit twice too long the engine refutes the advice, of one half as long it confirms 1.1."""
     setup, engine = setup_of("stiff rope"), engine_of("mujoco_tendons")
-    (advice,) = advise(setup, [engine], lambda _: None)
+    advice = of_the_stiff_rope()
     assert advice.limit is not None
     for wrong in (2 * advice.limit, advice.limit / 2):
         with pytest.raises(AssertionError):
@@ -125,7 +140,7 @@ def measuring(limit: float) -> EngineStepper:
 def test_the_advised_step_is_below_the_shorter_of_both_limits(times: float) -> None:
     """Predicted and measured, whichever that is: where perturbations grow slowly, the measured one is too long."""
     setup = setup_of("stiff rope")
-    (honest,) = advise(setup, [measuring(1e-3)], lambda _: None)
+    honest = of_the_honest()
     assert honest.predicted.dt is not None
     measured = times * honest.predicted.dt
     (advice,) = advise(setup, [measuring(measured)], lambda _: None)
@@ -137,7 +152,7 @@ def test_a_step_beyond_the_limit_is_said_to_blow_up() -> None:
     """With what to use instead; and just below the limit it says so."""
     setup = setup_of("stiff rope")
     engine = engine_of("mujoco_tendons")
-    (advice,) = advise(setup, [engine], lambda _: None)
+    advice = of_the_stiff_rope()
     assert advice.limit is not None
     assert any("is stable with margin" in finding for finding in result_of(setup, [advice]).findings)
     beyond = replace(setup, dt=1.5 * advice.limit)

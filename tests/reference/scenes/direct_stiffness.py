@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from scipy.sparse import diags_array, lil_array
+from scipy.sparse import csc_array, diags_array
 from scipy.sparse.linalg import eigsh, spsolve
 
 from reference.state import Array, Trajectory
@@ -23,9 +23,9 @@ def free_axes(system: MassSpringSystem) -> Array:
 
 
 def stiffness_matrix(system: MassSpringSystem) -> Any:
-    """K over the free coordinates, bar after bar, sparse."""
+    """K over the free coordinates, bar after bar."""
     d = system.dimension
-    matrix = lil_array((system.positions.size, system.positions.size))
+    matrix = np.zeros((system.positions.size, system.positions.size))
     for (a, b), k in zip(system.springs.tolist(), system.stiffness.tolist(), strict=True):
         along = system.positions[b] - system.positions[a]
         along = along / np.sqrt(along @ along)
@@ -35,7 +35,7 @@ def stiffness_matrix(system: MassSpringSystem) -> Any:
             for j, column in enumerate(ends):
                 matrix[row, column] += k * both[i] * both[j]
     free = np.flatnonzero(free_axes(system))
-    return matrix.tocsr()[free][:, free].tocsc()
+    return csc_array(matrix[np.ix_(free, free)])
 
 
 def mass_matrix(system: MassSpringSystem) -> Any:

@@ -23,7 +23,11 @@ ROOT = Path(__file__).parents[3]
 WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist")
 
 #: So long [ms] something may take to be seen, on a busy machine; and [s] the server to end.
-PATIENCE, FAREWELL = 60_000, 30
+PATIENCE, FAREWELL = 600_000, 600
+
+#: So many pictures a second, each of so many points to a pixel along each side: the processor alone draws them.
+PICTURES, GRAIN = 10, 0.5
+SLOWLY = f"window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), {1000 // PICTURES})"
 
 #: What viser's own page has to say against itself when something is dragged; nothing comes of it.
 THEIRS = ("Unable to preventDefault inside passive event listener invocation.",)
@@ -97,11 +101,12 @@ class Visitor:
         self.asked: list[str] = []
         self.errors: list[str] = []
         self._address = address
-        self.page = browser.new_page(viewport=window)
+        self.page = browser.new_page(viewport=window, device_scale_factor=GRAIN)
         self.page.set_default_timeout(PATIENCE)
         self.page.on("request", lambda request: self.asked.append(request.url))
         self.page.on("console", lambda m: self.errors.append(m.text) if m.type == "error" else None)
         self.page.on("pageerror", lambda error: self.errors.append(str(error)))
+        self.page.add_init_script(SLOWLY + "; window.cancelAnimationFrame = clearTimeout")
         self.page.goto(address)
         self.status.wait_for()
 
@@ -174,7 +179,8 @@ class Visitor:
         """A part of the page, as rows of colours."""
         from PIL import Image
 
-        picture = Image.open(BytesIO(self.page.screenshot(clip=part))).convert("RGB")
+        picture = Image.open(BytesIO(self.page.screenshot(clip=part, scale="css"))).convert("RGB")
+        assert picture.size == (part["width"], part["height"])
         return np.asarray(picture).astype(int)
 
     def last_mass(self) -> tuple[int, int]:
