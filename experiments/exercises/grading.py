@@ -17,6 +17,7 @@ from experiments.exercises.judge import Verdict, judge_all
 from experiments.exercises.sandbox import Limits
 from experiments.exercises.submission import Submission, read
 from reference.errors import InputError
+from reference.files.csv_cell import cell
 
 #: The columns of a table of grades; `departs` is the first difference.
 COLUMNS = (
@@ -99,9 +100,7 @@ def _row(name: str, **values: str) -> dict[str, str]:
 
 def _cell(words: str) -> str:
     """Words for a table: one line, and nothing that a spreadsheet would take for a formula."""
-    plain = clean(words) if len(words) < 200 else f"{clean(words)} ..."
-    number = plain.replace(".", "", 1).isdigit()
-    return plain if number or not plain.startswith(("=", "+", "-", "@")) else f"'{plain}"
+    return str(cell(clean(words) if len(words) < 200 else f"{clean(words)} ..."))
 
 
 def grade_class(
