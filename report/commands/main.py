@@ -70,7 +70,7 @@ def springlab() -> None:
 
 def main() -> None:
     """Entry point: bad input is one line and exit code 2, never a traceback."""
-    from report.commands.terminal import in_one_line
+    from report.commands.terminal import in_one_line, say
 
     code = 0
 
@@ -81,10 +81,10 @@ def main() -> None:
         except click.exceptions.Exit as ending:
             code = ending.exit_code
         except click.Abort:
-            print("springlab: interrupted", file=sys.stderr)
+            say("springlab: interrupted")
             code = 130
         except click.ClickException as error:
-            print(f"springlab: {error.format_message()}", file=sys.stderr)
+            say(f"springlab: {error.format_message()}")
             code = 2
 
     sys.exit(in_one_line(call) or code)
