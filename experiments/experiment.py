@@ -11,6 +11,7 @@ from typing import Any
 
 from experiments.runs.progress import Progress
 from reference.errors import unknown_name
+from reference.files.csv_cell import cell
 from reference.registry import Registry
 
 #: The experiments, in the order they are shown; each is the module experiments.NAME.
@@ -120,6 +121,6 @@ def write_tables(result: Result, folder: Path) -> list[Path]:
         files.append(folder / f"{table.name}.csv")
         with files[-1].open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
-            writer.writerow(table.columns)
-            writer.writerows(["" if value is None else value for value in row] for row in table.rows)
+            writer.writerow(map(cell, table.columns))
+            writer.writerows(["" if value is None else cell(value) for value in row] for row in table.rows)
     return files

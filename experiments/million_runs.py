@@ -21,6 +21,7 @@ from experiments.runs.steppers import all_steppers, installed_engines
 from experiments.runs.store import Store
 from experiments.runs.sweeps import ParameterSweep
 from experiments.runs.task import Task
+from reference.scratch import owner_prefix
 from reference.stepper import Stepper
 
 #: The sweep, and the cores it is thought to run on.
@@ -126,7 +127,7 @@ def _hands() -> tuple[list[Hand], float]:
     """What the process at the top does for a run, and the bytes that a run takes in the store."""
     waiting = _tasks(all_steppers()["heun"])
     answer = _do(next(waiting))
-    with tempfile.TemporaryDirectory(prefix="springlab-") as folder:
+    with tempfile.TemporaryDirectory(prefix=owner_prefix()) as folder:
         store = Store(Path(folder) / "store.sqlite")
         making, tasks = _mean(lambda: next(waiting))
         steps: Mapping[str, Callable[[Task], Any]] = {

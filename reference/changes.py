@@ -17,6 +17,9 @@ MOST_STEPS = 10_000_000
 #: And where something changes at every step, that alone would take seconds.
 MOST_DRIVEN = 100_000
 
+#: The range of dt and of durations [s]: products with a few other numbers are numbers, too.
+SHORTEST, LONGEST = 1e-100, 1e100
+
 
 @dataclass(frozen=True)
 class Change:
@@ -37,8 +40,11 @@ class Change:
             object.__setattr__(self, "value", tuple(float(number) for number in self.value))
 
     def step(self, dt: float) -> int:
-        """The index of the first step it acts on; a time within 1e-9 of a step's start counts as that start."""
-        return int(np.ceil(self.time / dt - 1e-9))
+        """The index of the first step it acts on; a time within 1e-9 of a step's start counts as that start.
+
+        For times beyond all runs it is one that no run comes to.
+        """
+        return int(min(np.ceil(self.time / dt - 1e-9), 2.0 * MOST_STEPS))
 
 
 class Drive(Protocol):
@@ -102,6 +108,8 @@ def whole_steps(dt: float, duration: float) -> int:
     for name, value in (("dt", dt), ("duration", duration)):
         if not (np.isfinite(value) and value > 0):
             raise InputError(f"{name} = {value:g}: expected a finite number > 0 [s]")
+        if not SHORTEST <= value <= LONGEST:
+            raise InputError(f"{name} = {value:g}: expected a number from {SHORTEST:g} to {LONGEST:g} [s]")
     steps = round(min(duration / dt, 2.0 * MOST_STEPS))
     if steps < 1:
         raise InputError(f"duration = {duration:g}: expected at least one step of dt = {dt:g} s")

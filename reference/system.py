@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from reference.checked_numbers import LARGEST, SMALLEST, finite, in_range, refuse_below, shaped
 from reference.errors import InputError, unknown_name
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.state import Array, State
@@ -75,25 +76,25 @@ class MassSpringSystem:
     obstacles: tuple[Obstacle, ...] = ()
 
     def __post_init__(self) -> None:
-        positions = _finite("positions", self.positions, "m")
+        positions = finite("positions", self.positions, "m")
         if positions.ndim != 2 or positions.shape[1] not in (1, 2, 3) or len(positions) == 0:
             raise InputError(f"positions has shape {positions.shape}: expected (n, 1), (n, 2) or (n, 3) with n >= 1")
         n, d = positions.shape
         springs = _springs(self.springs, positions)
         s = len(springs)
-        gravity = _finite("gravity", self.gravity, "m/s^2")
+        gravity = finite("gravity", self.gravity, "m/s^2")
         checked = {
             "positions": positions,
             "springs": springs,
-            "masses": _in_range("masses", self.masses, (n,), "kg", above_zero=True),
-            "rest_lengths": _in_range("rest_lengths", self.rest_lengths, (s,), "m", above_zero=True),
-            "stiffness": _in_range("stiffness", self.stiffness, (s,), "N/m"),
-            "damping": _in_range("damping", self.damping, (s,), "N s/m"),
-            "gravity": _shaped("gravity", _downwards(gravity, d), (d,)),
-            "velocities": _shaped("velocities", _finite("velocities", self.velocities, "m/s"), (n, d)),
-            "fixed": _shaped("fixed", _truths("fixed", self.fixed), (n,)),
+            "masses": in_range("masses", self.masses, (n,), "kg", above_zero=True),
+            "rest_lengths": in_range("rest_lengths", self.rest_lengths, (s,), "m", above_zero=True),
+            "stiffness": in_range("stiffness", self.stiffness, (s,), "N/m"),
+            "damping": in_range("damping", self.damping, (s,), "N s/m"),
+            "gravity": shaped("gravity", _downwards(gravity, d), (d,)),
+            "velocities": shaped("velocities", finite("velocities", self.velocities, "m/s"), (n, d)),
+            "fixed": shaped("fixed", _truths("fixed", self.fixed), (n,)),
         }
-        object.__setattr__(self, "drag", float(_in_range("drag", self.drag, (), "N s/m")))
+        object.__setattr__(self, "drag", float(in_range("drag", self.drag, (), "N s/m")))
         for name, array in checked.items():
             array = np.ascontiguousarray(array).copy()
             array.flags.writeable = False
@@ -162,9 +163,9 @@ class MassSpringSystem:
 
     def _checked_parameter(self, name: str, value: Value) -> Array | float:
         unit = PARAMETERS[name].partition(",")[0]
-        array = _finite(name, value, unit)
+        array = finite(name, value, unit)
         if name != "gravity":
-            _refuse_below(name, array, unit, above_zero=name in ABOVE_ZERO)
+            refuse_below(name, array, unit, above_zero=name in ABOVE_ZERO)
         if name == "drag":
             if array.size != 1:
                 raise InputError(f"drag has {array.size} numbers: expected one [{unit}]")
@@ -217,28 +218,12 @@ def check_parameter(name: str, value: float) -> None:
     unit = f" [{PARAMETERS[name].partition(',')[0]}]" if name in PARAMETERS else ""
     if not isfinite(value):
         raise InputError(f"{name} = {value:g}: expected a finite number{unit}")
+    if abs(value) > LARGEST:
+        raise InputError(f"{name} = {value:g}: expected a number of at most {LARGEST:g}{unit}")
     if (name in ABOVE_ZERO and value <= 0) or (name in NOT_BELOW_ZERO and value < 0):
         raise InputError(f"{name} = {value:g}: expected a number {'>' if name in ABOVE_ZERO else '>='} 0{unit}")
-
-
-def _finite(name: str, value: npt.ArrayLike, unit: str) -> Array:
-    try:
-        array = np.asarray(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} = {value!r}: expected numbers [{unit}]") from None
-    _refuse(name, array, ~np.isfinite(array), f"a finite number [{unit}]")
-    return array
-
-
-def _in_range(name: str, value: npt.ArrayLike, shape: tuple[int, ...], unit: str, above_zero: bool = False) -> Array:
-    array = _shaped(name, _finite(name, value, unit), shape)
-    _refuse_below(name, array, unit, above_zero)
-    return array
-
-
-def _refuse_below(name: str, array: Array, unit: str, above_zero: bool) -> None:
-    bad = array <= 0 if above_zero else array < 0
-    _refuse(name, array, bad, f"a number {'> 0' if above_zero else '>= 0'} [{unit}]")
+    if name in ABOVE_ZERO and value < SMALLEST:
+        raise InputError(f"{name} = {value:g}: expected a number of at least {SMALLEST:g}{unit}")
 
 
 def _downwards(gravity: Array, dimension: int) -> Array:
@@ -264,23 +249,6 @@ def _truths(name: str, value: npt.ArrayLike) -> BoolArray:
         array = np.zeros(0)
     if array.dtype != bool:
         raise InputError(f"{name} = {value!r}: expected true or false for each mass")
-    return array
-
-
-def _refuse(name: str, array: Array, bad: BoolArray, expected: str) -> None:
-    if not np.any(bad):
-        return
-    index = tuple(int(i) for i in np.argwhere(bad)[0])
-    same_everywhere = array.ndim == 1 and np.all(bad) and len(set(array.tolist())) == 1
-    place = "" if not index or same_everywhere else "[" + ", ".join(map(str, index)) + "]"
-    raise InputError(f"{name}{place} = {array[index]:g}: expected {expected}")
-
-
-def _shaped(name: str, array: npt.NDArray[Any], shape: tuple[int, ...]) -> npt.NDArray[Any]:
-    if array.shape in ((), (1,)):
-        return np.broadcast_to(array.reshape(()), shape)
-    if array.shape != shape:
-        raise InputError(f"{name} has shape {array.shape}: expected {shape}")
     return array
 
 

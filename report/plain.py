@@ -4,11 +4,35 @@ from __future__ import annotations
 
 from typing import Any
 
+#: The most characters of a text that is said in a line, not all of which is news.
+IN_A_LINE = 60
+
 
 def plain(value: Any) -> str:
-    """A value as people read it: numbers to three figures, nothing as a dash."""
+    """A value as people read it: numbers to three figures, nothing as a dash, control characters escaped."""
     if value is None:
         return "-"
     if isinstance(value, float):
         return f"{value:.3g}"
-    return str(value)
+    return printable(str(value))
+
+
+def printable(text: str) -> str:
+    r"""A text with control characters escaped: names come from files, and a terminal obeys what is in them.
+
+    >>> print(printable("scene \x1b]0;title\x07.toml"))
+    scene \x1b]0;title\x07.toml
+    """
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def shortened(text: str, most: int = IN_A_LINE) -> str:
+    """A text, what is too much left out of its middle.
+
+    >>> shortened("a rather long name", most=10)
+    'a r ... me'
+    """
+    if len(text) <= most:
+        return text
+    before = (most - 4) // 2
+    return f"{text[:before]} ... {text[len(text) - (most - 5 - before) :]}"

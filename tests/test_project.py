@@ -26,6 +26,7 @@ BARE_REFERENCE = (
     "bisection",
     "cache",
     "changes",
+    "checked_numbers",
     "errors",
     "growth_factor",
     "lengths",
@@ -35,6 +36,7 @@ BARE_REFERENCE = (
     *(f"obstacles.{name}" for name in ("kinds", "obstacle", "validation")),
     "obstacles",
     "outcome",
+    "scratch",
     "registry",
     *(
         f"scenes.{name}"

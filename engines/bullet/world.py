@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
+from reference.scratch import owner_prefix
 from reference.state import Array
 
 #: Constants of Bullet's header files (SharedMemoryPublic.h).
@@ -72,7 +73,7 @@ class World:
             damping: of all springs [N s/m].
             bending: stiffness of springs between all nodes two edges apart [N/m]; 0 for none.
         """
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory(prefix=owner_prefix()) as folder:
             file = Path(folder) / "mesh.obj"
             file.write_text(obj)
             command = self._bullet.b3LoadSoftBodyCommandInit(self._client, bytes(file))

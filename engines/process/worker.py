@@ -16,13 +16,15 @@ import tempfile
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
-from multiprocessing import resource_tracker
+from multiprocessing import process, resource_tracker, util
 from multiprocessing.connection import Connection, wait
 from pathlib import Path
 from typing import Any, Protocol
 
+from engines.process.stopped import stopped_ends
 from engines.process.worker_main import OUTPUT, one_line, work
 from reference.outcome import Outcome
+from reference.scratch import scratch_folder
 
 #: How often a working process's memory is looked at [s].
 LOOK = 0.05
@@ -35,6 +37,9 @@ STARTS = 20
 
 #: Signals that come from outside: the kernel short of memory, a person, a machine that shuts down.
 FROM_OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGHUP, signal.SIGINT})
+
+#: The path of a temporary folder for which the path of a socket within one of ours is one that the system takes (104).
+LONGEST_PATH = 40
 
 #: The exit code of a process whose end nobody saw: the server that forked it was killed too.
 UNSEEN = 255
@@ -93,7 +98,7 @@ class Worker:
 
     def __init__(self, python: Path | None = None) -> None:
         self.fresh = True
-        self._scratch = Path(tempfile.mkdtemp(prefix="springlab-"))
+        self._scratch = scratch_folder()
         for _ in range(STARTS - 1):
             with suppress(OSError, EOFError):  # the server was killed just now; once it is gone, a try starts a new one
                 self._start(python)
@@ -168,10 +173,12 @@ class _Forked:
         if sys.platform == "win32":
             context: Any = multiprocessing.get_context("spawn")
         else:
+            _own_temporary_folder()
             context = multiprocessing.get_context("forkserver")
             context.set_forkserver_preload(_IMPORTED)
         self._process = context.Process(target=work, args=(connection, lifeline, scratch))
-        self._process.start()
+        with stopped_ends():
+            self._process.start()
         self.pid, self.sentinel = self._process.pid, self._process.sentinel
 
     def kill(self) -> None:
@@ -180,7 +187,8 @@ class _Forked:
     def exit_code(self) -> int:
         self._process.join(GRACE)
         self._process.kill()
-        self._process.join()
+        with stopped_ends():
+            self._process.join()
         return self._process.exitcode or 0
 
 
@@ -207,6 +215,14 @@ class _Launched:
             os.close(self.sentinel)
             self.sentinel = -1
         return code
+
+
+def _own_temporary_folder() -> None:
+    """The standard library's folder for its sockets is one that says whose it is; where its path is not too long."""
+    configuration: dict[str, Any] = process.current_process()._config  # type: ignore[attr-defined]
+    if configuration.get("tempdir") is None and len(tempfile.gettempdir()) <= LONGEST_PATH:
+        folder = configuration["tempdir"] = str(scratch_folder())
+        util.Finalize(None, shutil.rmtree, args=(folder, True), exitpriority=-100)
 
 
 @contextmanager

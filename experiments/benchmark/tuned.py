@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import shutil
 import subprocess
-import tempfile
 import time
 from functools import cache
 from pathlib import Path
@@ -15,6 +14,7 @@ import numpy as np
 
 from reference.errors import Unsupported
 from reference.forces import springs_of_masses
+from reference.scratch import scratch_folder
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -27,7 +27,7 @@ def library(dimension: int) -> ctypes.CDLL:
     compiler = shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
     if compiler is None:
         raise Unsupported("there is no C compiler to build the anchor with")
-    built = Path(tempfile.mkdtemp(prefix="springlab-tuned-")) / "tuned.so"
+    built = scratch_folder() / "tuned.so"
     source = Path(__file__).with_suffix(".c")
     command = [compiler, *FLAGS, f"-DAXES={dimension}", str(source), "-o", str(built), "-lm"]
     made = subprocess.run(command, capture_output=True, text=True, check=False)

@@ -12,6 +12,7 @@ from typing import Any, TextIO
 from experiments.runs.result_codec import LIMIT
 from experiments.runs.store import JSON_COLUMNS, StoreError, check_format
 from reference.errors import InputError, unknown_name
+from reference.files.csv_cell import cell
 
 #: What every row has.
 COLUMNS = ("task", "stepper", "version", "dt", "steps", "outcome", "reason")
@@ -65,9 +66,9 @@ def columns_of(found: Sequence[Mapping[str, Any]]) -> list[str]:
 
 def write_csv(found: Sequence[Mapping[str, Any]], file: TextIO) -> None:
     """Rows as CSV, with a column for everything that any of them has."""
-    writer = csv.DictWriter(file, columns_of(found))
-    writer.writeheader()
-    writer.writerows({name: "" if value is None else value for name, value in row.items()} for row in found)
+    columns, writer = columns_of(found), csv.writer(file)
+    writer.writerow(map(cell, columns))
+    writer.writerows([cell(value) for value in map(row.get, columns)] for row in found)
 
 
 def _read(store: Path) -> list[sqlite3.Row]:

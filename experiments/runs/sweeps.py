@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from math import isfinite
+from math import isfinite, prod
 from typing import Any, TypeVar
 
 import numpy as np
@@ -22,6 +22,9 @@ from reference.stepper import Stepper
 from reference.system import MassSpringSystem
 
 T = TypeVar("T")
+
+#: So many values an axis may have, and all together so many runs.
+MOST_VALUES, MOST_RUNS = 1_000_000, 10_000_000
 
 
 @dataclass(frozen=True)
@@ -57,9 +60,11 @@ class ParameterSweep:
         for name in self.axes:
             if name in fixed:
                 raise InputError(f"--over {name}: expected a parameter that is not set to one value as well")
+        if len(self) > MOST_RUNS:
+            raise InputError(f"--over makes {len(self):,} runs: expected at most {MOST_RUNS:,}")
 
     def __len__(self) -> int:
-        return len(self.steppers) * int(np.prod([len(values) for values in self.axes.values()], dtype=int))
+        return len(self.steppers) * prod(map(len, self.axes.values()))
 
     def tasks(self) -> Iterator[Task]:
         """A task for every run. Raises InputError for a point of the grid that makes no sense."""
@@ -167,6 +172,8 @@ def parse_axes(words: Sequence[str]) -> dict[str, Sequence[float]]:
             raise InputError(f"--over {word!r}: {key} is varied already")
         try:
             axes[key] = _values(values)
+        except InputError as error:
+            raise InputError(f"--over {word!r}: {error}") from None
         except ValueError:
             raise InputError(
                 f"--over {word!r}: expected KEY=LOW:HIGH:COUNT, KEY=LOW:HIGH:COUNT:log or KEY=A,B,C"
@@ -181,6 +188,8 @@ def _values(text: str) -> Sequence[float]:
     ends = (_finite(low), _finite(high))
     if spacing not in ([], ["log"]) or int(number) < 1 or (spacing and min(ends) <= 0):
         raise ValueError(text)
+    if int(number) > MOST_VALUES:
+        raise InputError(f"{int(number):,} values: expected at most {MOST_VALUES:,}")
     space = np.geomspace if spacing else np.linspace
     values: list[float] = space(*ends, int(number)).tolist()
     return values

@@ -8,6 +8,7 @@ lines, triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and hex
 from __future__ import annotations
 
 import io
+import os
 import re
 import warnings
 from collections.abc import Mapping
@@ -19,11 +20,15 @@ from typing import Any
 import numpy as np
 
 from reference.errors import InputError
+from reference.files.regular_file import check_file
 from reference.state import Array
 from reference.system import IntArray
 
 #: By the end of a file's name, the number of its first vertex.
 FORMATS = {".obj": 1, ".vtk": 0}
+
+#: A file may be so large [bytes].
+LARGEST_FILE = 256 * 2**20
 
 #: A triangle with less area than this part of its longest side squared is refused; so are tetrahedra, volume and cube.
 FLAT = 1e-12
@@ -99,8 +104,9 @@ def _mesh(path: Path) -> Mesh:
 def _read(path: Path) -> Any:
     """What meshio makes of a file. Whatever it raises, it raises because of the file."""
     try:
-        if not path.is_file():
+        if not os.path.exists(path):
             raise InputError("no such file")
+        check_file(path, LARGEST_FILE)
         with warnings.catch_warnings(), redirect_stderr(io.StringIO()) as said:
             # it warns, and goes on without, where there is less than announced or what it does not know
             warnings.simplefilter("error")

@@ -58,10 +58,14 @@ import numpy as np
 from reference.changes import Change, Drive, Driven
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
+from reference.files.regular_file import check_file
 from reference.obstacles import KINDS, Obstacle, obstacle_of
 from reference.scenes import Setup, find
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law, read_record
 from reference.system import MassSpringSystem
+
+#: A file may be so large [bytes]: of larger systems only the mesh file is.
+LARGEST_FILE = 32 * 2**20
 
 Numbers = float | list[float]
 
@@ -196,7 +200,10 @@ def load(path: Path, settings: Mapping[str, Any], dt: float | None = None, durat
         InputError: naming the file, the key path and, where it is known, the line.
     """
     try:
+        check_file(path, LARGEST_FILE)
         text = path.read_text(encoding="utf-8")
+    except InputError as error:
+        raise InputError(f"scene file {path}: {error}") from None
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"scene file {path}: {getattr(error, 'strerror', None) or 'expected UTF-8 text'}") from None
     try:

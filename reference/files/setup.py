@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -43,5 +44,5 @@ def setup_for(
 
 def is_file(scene: str) -> bool:
     """Whether a scene is meant as a file, and not as a name."""
-    path = Path(scene)
-    return path.suffix == ".toml" or path.is_file()
+    # where the system does not take such a name (too long, a zero in it), `os.path` says no and `Path` raises
+    return Path(scene).suffix == ".toml" or os.path.isfile(scene)

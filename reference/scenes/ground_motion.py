@@ -24,8 +24,12 @@ import numpy.typing as npt
 
 from reference.changes import Change, whole_steps
 from reference.errors import InputError
+from reference.files.regular_file import check_file
 from reference.state import Array
 from reference.system import MassSpringSystem
+
+#: A record's file may be so large [bytes].
+LARGEST_RECORD = 64 * 2**20
 
 #: How the frequency of a sweep goes from one to the other.
 Law = Literal["linear", "exponential"]
@@ -157,6 +161,7 @@ def read_record(path: Path, scale: float = 1.0) -> Record:
     if not isfinite(scale):
         raise InputError(f"scale = {scale:g}: expected a finite number")
     try:
+        _check_file(path)
         with path.open(newline="", encoding="utf-8-sig") as file:
             lines = csv.reader(file)
             rows = [(lines.line_num, row) for row in lines if row]
@@ -166,6 +171,13 @@ def read_record(path: Path, scale: float = 1.0) -> Record:
         raise InputError(f"record {path}: {reason}") from None
     except InputError as error:
         raise InputError(f"record {path}{error}") from None
+
+
+def _check_file(path: Path) -> None:
+    try:
+        check_file(path, LARGEST_RECORD)
+    except InputError as error:
+        raise InputError(f": {error}") from None
 
 
 def _record(rows: Sequence[tuple[int, list[str]]], scale: float) -> Record:

@@ -19,6 +19,12 @@ from reference.system import MassSpringSystem
 
 TOLERANCE = 1e-12
 
+#: So many steps the solver makes besides one for every time that is asked for: those of tens of thousands of periods.
+MOST_STEPS = 200_000
+
+#: After SEEN of them it is clear how far it will come: what lies more than TOO_FAR times as far is not tried.
+SEEN, TOO_FAR = 500, 3.0
+
 #: What is said of systems with obstacles. A run of tiny steps would only be one scheme's word against another's.
 WHY_NOT_EXACT = "no true motion: a mass that meets an obstacle loses velocity at once, which no solver here can follow"
 
@@ -62,6 +68,7 @@ def exact(
     steps: int,
     changes: Sequence[Change] = (),
     equations: EquationsOf = SpringMotion,
+    most_steps: int = MOST_STEPS,
 ) -> Trajectory:
     """The true trajectory at the times 0, dt, 2 dt, ..., to about 1e-11 of its size while it is not chaotic.
 
@@ -69,9 +76,10 @@ def exact(
 
     Args:
         equations: what to make of the system; `pendulum.PendulumMotion` hangs rods in place of the springs.
+        most_steps: of the solver, besides one for every time.
 
     Raises:
-        SolverError: if the solver gives up; for a system with obstacles.
+        SolverError: if the solver gives up, or needs more steps; for a system with obstacles.
     """
     if system.obstacles:
         raise SolverError(WHY_NOT_EXACT)
@@ -84,12 +92,20 @@ def exact(
             system = system.with_parameter(change.parameter, change.value)
             motion = equations(system)
         times = np.array([dt * i for i in range(begin, end + 1)])
-        states += _solve(motion, states[-1], times, system.size or system.scale)
+        solved, made = _solve(motion, states[-1], times, system.size or system.scale, most_steps)
+        states, most_steps = [*states, *solved], most_steps - made
     return motion.trajectory(states)
 
 
-def _solve(motion: Motion, state: State, times: Array, size: float) -> list[State]:
-    """The states at times[1:], from the one at times[0], by DOP853 (Hairer, Norsett and Wanner I, II.5)."""
+def _solve(motion: Motion, state: State, times: Array, size: float, most_steps: int) -> tuple[list[State], int]:
+    """The states at times[1:], from the one at times[0], by DOP853 (Hairer, Norsett and Wanner I, II.5).
+
+    Returns:
+        The states, and how many steps the solver made besides one for each.
+
+    Raises:
+        SolverError: if it gives up, or needs more steps.
+    """
     from scipy.integrate import DOP853
 
     shape = state.positions.shape
@@ -100,14 +116,21 @@ def _solve(motion: Motion, state: State, times: Array, size: float) -> list[Stat
 
     start = np.concatenate([state.positions, state.velocities], axis=None)
     solver = DOP853(derivative, times[0], start, times[-1], rtol=TOLERANCE, atol=TOLERANCE * size)
-    states = []
+    states: list[State] = []
+    made, most = 0, len(times) - 1 + most_steps
     for time in times[1:].tolist():
         # Steps end at every time asked for: what DOP853 interpolates in between is of a lower order, and was seen
         # 400 times less accurate where damping is strong.
         solver.t_bound, solver.status = time, "running"
         while solver.status == "running":
-            message = solver.step()
+            part = (solver.t - times[0]) / (times[-1] - times[0])
+            if made == most or (made == SEEN and TOO_FAR * most * part < made):
+                raise SolverError(
+                    f"no exact solution: {made:,} steps of the solver come to {solver.t:.3g} s of {times[-1]:.3g} s, "
+                    f"and it makes at most {most:,}"
+                )
+            message, made = solver.step(), made + 1
         if solver.status == "failed":
             raise SolverError(f"no exact solution: {message}")
         states.append(State(time, *solver.y.reshape(2, *shape)))
-    return states
+    return states, max(made - len(states), 0)

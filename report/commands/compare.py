@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -12,7 +11,8 @@ from typing import TYPE_CHECKING
 import click
 
 from report.commands.options import json_option, out_option, setup_options, steppers_option
-from report.commands.terminal import RESULTS, progress, show_table
+from report.commands.terminal import RESULTS, progress, say, show_table
+from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.runs.comparison import Comparison
@@ -58,7 +58,7 @@ def compare_command(
         if film is not None and part is not None:
             _draw(comparison, names, slow, part, film)
     if film is not None:
-        print(f"written: {film}", file=sys.stderr)
+        say(f"written: {film}")
 
 
 def _film_path(setup: Setup, animate: str, out: Path | None, slow: float) -> Path:
@@ -89,7 +89,8 @@ def _write(comparison: Comparison, document: str, out: Path) -> None:
 
     written = [*write_tables(result_of(comparison), out), out / "compare.json"]
     written[-1].write_text(document + "\n", encoding="utf-8")
-    print(*(f"written: {file}" for file in written), sep="\n", file=sys.stderr)
+    for file in written:
+        say(f"written: {file}")
 
 
 def _show(comparison: Comparison) -> None:
@@ -104,7 +105,7 @@ def _show(comparison: Comparison) -> None:
     keys = ["stepper", "outcome", "error_m", "identified_as", "identification_error_m"]
     show_table(title, columns, [[*(run.row[key] for key in keys), run.why] for run in comparison.runs])
     for remark in remarks(comparison.runs):
-        click.echo(remark)
+        click.echo(printable(remark))
     if comparison.why_no_true_motion:
         click.echo(f"No error is known: {comparison.why_no_true_motion}.")
 
@@ -119,4 +120,4 @@ def _draw(comparison: Comparison, names: Sequence[str], slow: float, part: Path,
         write_film(part, path, made.frames(tell), RATE)
     for run in comparison.runs:
         if run.outcome.trajectory is None and (names or run.stepper.kind == "engine"):
-            print(f"not shown: {run.stepper.name}: {run.outcome.ending}, {run.outcome.reason}", file=sys.stderr)
+            say(f"not shown: {run.stepper.name}: {run.outcome.ending}, {run.outcome.reason}")

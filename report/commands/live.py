@@ -19,14 +19,23 @@ LOOPBACK = ("127.0.0.1", "localhost", "::1")
 @steppers_option("Who steps a lane, up to four of them; kick_drift where left out.")
 @click.option("--host", default="127.0.0.1", show_default=True, help="The address to listen at; 0.0.0.0 is every one.")
 @click.option("--port", default=8080, show_default=True, help="0 for any that is free.")
+@click.option(
+    "--allow-origin",
+    "origins",
+    multiple=True,
+    metavar="ORIGIN",
+    help="Another page's origin that is let in, as https://lab.example; the lab's own page always is.",
+)
 @click.option("--open/--no-open", "show", default=True, help="Open the page in the browser.")
-def live_command(scene: str, names: tuple[str, ...], host: str, port: int, show: bool) -> None:
+def live_command(
+    scene: str, names: tuple[str, ...], host: str, port: int, origins: tuple[str, ...], show: bool
+) -> None:
     """Open a page where SCENE (a name or a TOML file) runs, and everything can be changed while it does."""
     from report.live.server import LiveServer
 
     # To be told to end is as good as Ctrl-C: nothing is left behind.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    server = LiveServer(scene, host, port, names or ("kick_drift",))
+    server = LiveServer(scene, host, port, names or ("kick_drift",), origins)
     try:
         if host not in LOOPBACK:
             print(

@@ -72,7 +72,8 @@ def springlab() -> None:
 
 def main() -> None:
     """Entry point: bad input is one line and exit code 2, never a traceback."""
-    from report.commands.terminal import in_one_line
+    from reference.cache import remarks
+    from report.commands.terminal import in_one_line, say
 
     code = 0
 
@@ -83,13 +84,27 @@ def main() -> None:
         except click.exceptions.Exit as ending:
             code = ending.exit_code
         except click.Abort:
-            print("springlab: interrupted", file=sys.stderr)
+            say("springlab: interrupted")
             code = 130
         except click.ClickException as error:
-            print(f"springlab: {error.format_message()}", file=sys.stderr)
+            say(f"springlab: {error.format_message()}")
             code = 2
 
-    sys.exit(in_one_line(call) or code)
+    if not _somewhere():
+        say("springlab: the folder this was called in is no more: expected another one (cd)")
+        sys.exit(2)
+    ending = in_one_line(call) or code
+    for remark in remarks:
+        say(f"springlab: {remark}")
+    sys.exit(ending)
+
+
+def _somewhere() -> bool:
+    """Whether the working folder is still there."""
+    try:
+        return bool(os.getcwd())
+    except OSError:
+        return False
 
 
 if __name__ == "__main__":

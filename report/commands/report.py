@@ -12,6 +12,7 @@ from reference.errors import InputError
 from report.commands.options import out_option
 from report.commands.runner_options import chosen_runner, resume_option, store_option
 from report.commands.terminal import RESULTS, progress
+from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.experiment import Experiment
@@ -43,7 +44,7 @@ def report_command(
     written.write_text(html, encoding="utf-8")
     for section in sections:
         click.echo(f"{section.experiment.title}: {_told(section)}\n")
-    click.echo(f"written: {written}")
+    click.echo(printable(f"written: {written}"))
     if show:
         click.launch(str(written))
     return int(any(section.result is None for section in sections))

@@ -14,7 +14,7 @@ import click
 from report.commands.options import json_option
 from report.commands.runner_options import store_option
 from report.commands.terminal import show_table
-from report.plain import plain
+from report.plain import plain, printable
 
 #: Rows of results that are shown in the terminal.
 SHOWN = 40
@@ -38,7 +38,7 @@ def results_command(filters: tuple[str, ...], store: Path, as_csv: bool, as_json
     else:
         _show(found[-SHOWN:])
         newest = f"; these are the last {SHOWN}: --csv has all, COLUMN=VALUE picks" if len(found) > SHOWN else ""
-        click.echo(f"{len(found)} runs in {store}{newest}")
+        click.echo(printable(f"{len(found)} runs in {store}{newest}"))
 
 
 def _show(rows: Sequence[Mapping[str, Any]]) -> None:
@@ -49,6 +49,6 @@ def _show(rows: Sequence[Mapping[str, Any]]) -> None:
     if rows:
         show_table("", [heading(name) for name in columns], [[row.get(name) for name in columns] for row in rows])
     if same:
-        click.echo(f"In every row: {', '.join(f'{name}={plain(value)}' for name, value in same.items())}")
+        click.echo(printable(f"In every row: {', '.join(f'{name}={plain(value)}' for name, value in same.items())}"))
     if left_out:
-        click.echo(f"Left out, as there is no room: {', '.join(left_out)}; --csv has everything.")
+        click.echo(printable(f"Left out, as there is no room: {', '.join(left_out)}; --csv has everything."))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import click
 
 from report.commands.options import out_option
 from report.commands.runner_options import chosen_runner, runner_options
-from report.commands.terminal import RESULTS, progress, show_result
+from report.commands.terminal import RESULTS, progress, say, show_result
+from report.plain import printable
 
 
 @click.command("run")
@@ -31,9 +31,9 @@ def run_command(
         with chosen_runner(resume, store, jobs, cluster), progress(experiment.name) as tell:
             answer = section(experiment, out / experiment.name, tell)
         if answer.result is None:
-            print(f"springlab: {experiment.name}: {answer.failure}", file=sys.stderr)
+            say(f"springlab: {experiment.name}: {answer.failure}")
             failed = True
             continue
         show_result(experiment, answer.result)
-        click.echo(f"written: {out / experiment.name}")
+        click.echo(printable(f"written: {out / experiment.name}"))
     return int(failed)

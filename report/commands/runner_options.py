@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -11,13 +10,16 @@ from typing import TYPE_CHECKING
 import click
 
 from report.commands.options import Command
-from report.commands.terminal import RESULTS
+from report.commands.terminal import RESULTS, say
 
 if TYPE_CHECKING:  # this imports NumPy: `springlab --help` does without
     from experiments.runs.runner import Runner
 
 #: The store, unless told otherwise.
 STORE = RESULTS / "store.sqlite"
+
+#: No more runs at once: each is a process.
+MOST_JOBS = 1024
 
 #: What Ctrl-C ends a command with.
 INTERRUPTED = 130
@@ -39,7 +41,7 @@ def resume_option(command: Command) -> Command:
 
 def runner_options(command: Command) -> Command:
     """Add --resume/--fresh, --store, --jobs and --cluster."""
-    jobs = click.option("--jobs", type=click.IntRange(min=1), help="Runs at once; as many as there are cores.")
+    jobs = click.option("--jobs", type=click.IntRange(1, MOST_JOBS), help="Runs at once; as many as there are cores.")
     cluster = click.option("--cluster", metavar="tcp://HOST:PORT", help="Run on the workers of a Dask scheduler.")
     return resume_option(store_option(jobs(cluster(command))))
 
@@ -68,7 +70,7 @@ def chosen_runner(resume: bool, store: Path, jobs: int | None = None, cluster: s
                 yield runner
         except KeyboardInterrupt:
             again = "the same command" if resume else "the same command without --fresh"
-            print(f"springlab: interrupted; what is done is kept in {store}: {again} goes on", file=sys.stderr)
+            say(f"springlab: interrupted; what is done is kept in {store}: {again} goes on")
             raise click.exceptions.Exit(INTERRUPTED) from None
         finally:
             executor.stop()

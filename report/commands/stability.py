@@ -19,6 +19,7 @@ from report.commands.options import (
     steppers_option,
 )
 from report.commands.terminal import RESULTS, progress, show_result
+from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.limits.limit_rows import Row
@@ -95,7 +96,7 @@ def _write_limits(rows: Sequence[Row], as_json: bool, out: Path) -> None:
         click.echo(json.dumps([row.document for row in rows], indent=2))
         return
     show_result(EXPERIMENT, result)
-    click.echo(f"written: {', '.join(map(str, written))}")
+    click.echo(printable(f"written: {', '.join(map(str, written))}"))
 
 
 def _write_maps(
@@ -123,4 +124,4 @@ def _write_maps(
         name = f"{stepper.name}-{x.name}-{y.name}"
         (out / f"{name}.svg").write_text(draw_map(made).svg(), encoding="utf-8")
         write_map(made, out / f"{name}.csv")
-        click.echo(f"written: {out / name}.svg, {out / name}.csv")
+        click.echo(printable(f"written: {out / name}.svg, {out / name}.csv"))

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.errors import InputError, SolverError
-from report.plain import plain
+from report.plain import plain, printable
 
 if TYPE_CHECKING:  # these import NumPy, Numba and the engines' adapters: `springlab --help` does without
     from experiments.experiment import Experiment, Result, Table
@@ -59,7 +59,7 @@ def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]
     console = Console(highlight=False)
     # A file or a pipe has no width of its own: give it that of a wide terminal.
     console.width = console.width if console.is_terminal else 160
-    cells = [[plain(value) for value in row] for row in rows]
+    columns, cells = [*map(printable, columns)], [[plain(value) for value in row] for row in rows]
     notes: list[str] = []
     if len(_parts(columns, cells, console.width, folded=True)) > 1:
         cells, notes = with_notes(cells)
@@ -123,7 +123,7 @@ def _table(
     from rich.markup import escape
     from rich.table import Table as RichTable
 
-    table = RichTable(title=title or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = RichTable(title=escape(printable(title)) or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for i, width in widths.items():
         table.add_column(escape(columns[i]), justify="right" if numbers[i] else "left", width=width)
     for row in cells:
@@ -134,6 +134,7 @@ def _table(
 def show_result(experiment: Experiment, result: Result) -> None:
     """An experiment's question, findings, first table and failures."""
     from rich.console import Console
+    from rich.markup import escape
 
     console = Console(highlight=False)
     console.print(f"[bold]{experiment.title}[/bold]\n{experiment.question}\n")
@@ -142,7 +143,7 @@ def show_result(experiment: Experiment, result: Result) -> None:
     table: Table = result.tables[0]
     show_table("", table.columns, table.rows)
     for failure in result.failures:
-        console.print(f"[yellow]not done:[/yellow] {failure}")
+        console.print(f"[yellow]not done:[/yellow] {escape(printable(str(failure)))}")
 
 
 def in_one_line(command: Callable[[], object]) -> int:
@@ -150,12 +151,20 @@ def in_one_line(command: Callable[[], object]) -> int:
     try:
         command()
     except InputError as error:
-        print(f"springlab: {error}", file=sys.stderr)
+        say(f"springlab: {error}")
         return 2
     except SolverError as error:
-        print(f"springlab: {error}", file=sys.stderr)
+        say(f"springlab: {error}")
         return 1
+    except MemoryError:
+        say("springlab: there is not enough memory for that: expected fewer masses, steps or steppers")
+        return 2
     except OSError as error:
-        print(f"springlab: {error.filename or 'input or output'}: {error.strerror or error}", file=sys.stderr)
+        say(f"springlab: {error.filename or 'input or output'}: {error.strerror or error}")
         return 2
     return 0
+
+
+def say(line: str) -> None:
+    """A line on standard error; what a terminal would obey in it is escaped."""
+    print(printable(line), file=sys.stderr)

@@ -15,6 +15,7 @@ import click
 from reference.errors import InputError
 from report.commands.options import json_option, out_option
 from report.commands.terminal import RESULTS, progress, show_table
+from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.engine_versions.versions import Subject, VersionMeasurements
@@ -103,7 +104,7 @@ def _show(measured: Sequence[tuple[Subject, VersionMeasurements]], as_json: bool
         changed = result.tables[0]
         if changed.rows:
             show_table("", changed.columns, changed.rows)
-        click.echo(f"written: {', '.join(map(str, files))}")
+        click.echo(printable(f"written: {', '.join(map(str, files))}"))
     if as_json:
         click.echo(json.dumps(documents, indent=2))
     return 0

@@ -6,6 +6,7 @@ from collections.abc import Callable, Coroutine
 from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, Any
 
+from reference.errors import unknown_name
 from report.live import scenes
 from report.live.deferred_removal import DeferredRemoval
 from report.live.events import handler
@@ -16,6 +17,7 @@ from report.live.number_slider import NumberSlider
 from report.live.parameters import GRAVITIES, PRESETS, Slider, sliders
 from report.live.status import MS, status, suggestion
 from report.live.stepping import MOST_LANES, choices
+from report.plain import shortened
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -76,7 +78,7 @@ class Controls:
             self._back.on_update(self._on(lambda seconds: host.lab.rewind(seconds)))
             NumberSlider(self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, host.do, self._set_speed)
             most = gui.add_slider("steps a frame, at most", min=1, max=2000, step=1, initial_value=1000)
-            most.on_update(self._on(lambda steps: setattr(host.lab, "most_steps", int(steps))))
+            most.on_update(self._on(lambda steps: host.lab.set_most_steps(int(steps))))
 
     def _add_scene(self) -> None:
         gui, host = self._gui, self._host
@@ -225,11 +227,11 @@ class Controls:
         elif what == "Step":
             lab.playing = False
             lab.advance(1)
-        else:
+        elif what == "Reset":
             lab.reset()
 
     def _set_speed(self, value: float) -> None:
-        self._host.lab.speed = max(value, 1e-6)
+        self._host.lab.set_speed(value)
 
     def _choose(self) -> None:
         self._host.lab.set_steppers([menu.value for menu in self._menus if menu.value != NO_LANE])
@@ -248,6 +250,8 @@ class Controls:
         self._host.open(scene, changed, self._barrier.value)
 
     def _set_gravity(self, where: str) -> None:
+        if where not in GRAVITIES:
+            raise unknown_name("place", shortened(where), GRAVITIES)
         self._number_sliders["gravity"].show(GRAVITIES[where])
         self._host.lab.set_parameter("gravity", GRAVITIES[where])
 

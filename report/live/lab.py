@@ -20,6 +20,9 @@ from report.live.timeline import Timeline
 #: All lanes together may take this long for a frame [s]; then the lab goes slower than asked.
 BUDGET = 0.03
 
+#: The steps [s] and speeds that a page can be asked for, and the most steps a frame.
+DT, SPEED, MOST_STEPS = (1e-12, 1e3), (1e-6, 1e6), 2000
+
 
 class Lab:
     """A scene, the lanes that step it, and what people change while they move. Not for several threads at once.
@@ -108,7 +111,12 @@ class Lab:
         self.timeline.advance(steps, budget, self.speed)
 
     def rewind(self, seconds: float) -> None:
-        """Pause, and show the moment that many seconds before the last one; what is done next is done there."""
+        """Pause, and show the moment that many seconds before the last one; what is done next is done there.
+
+        Raises:
+            InputError: unless it is a number.
+        """
+        _check("back", seconds, 0.0, math.inf, "s")
         self.playing = False
         self.timeline.rewind(seconds)
         self._ask()
@@ -116,9 +124,8 @@ class Lab:
     # What people change.
 
     def set_dt(self, dt: float) -> None:
-        """Another step [s]; the motion goes on. Raises InputError unless it is a number > 0."""
-        if not (math.isfinite(dt) and dt > 0):
-            raise InputError(f"dt = {dt:g}: expected a number > 0 [s]")
+        """Another step [s]; the motion goes on. Raises InputError unless it is a number within DT."""
+        _check("dt", dt, *DT, "s")
         if dt == self.timeline.dt:
             return
         if self.timeline.segment.at_start:
@@ -126,6 +133,16 @@ class Lab:
         else:
             self.timeline.set_dt(dt)
             self._ask()
+
+    def set_speed(self, speed: float) -> None:
+        """How many seconds of the scene go by in a second. Raises InputError unless it is a number within SPEED."""
+        _check("speed", speed, *SPEED, "s of the scene in 1 s")
+        self.speed = speed
+
+    def set_most_steps(self, steps: int) -> None:
+        """No more steps in a frame. Raises InputError unless from 1 to MOST_STEPS."""
+        _check("steps a frame", steps, 1, MOST_STEPS, "1")
+        self.most_steps = steps
 
     def set_parameter(self, name: str, number: float) -> None:
         """A parameter for all masses or springs, on the fly; where they differ, a multiple of what each has itself.
@@ -204,3 +221,9 @@ class Lab:
         """Let go of processes and threads."""
         self._predictor.end()
         self.timeline.end()
+
+
+def _check(name: str, value: float, low: float, high: float, unit: str) -> None:
+    """Refuse a value beyond a range, and what is no number. Raises InputError."""
+    if not (math.isfinite(value) and low <= value <= high):
+        raise InputError(f"{name} = {value:g}: expected a number from {low:g} to {high:g} [{unit}]")

@@ -5,6 +5,7 @@ What viewers do arrives in other threads; it is put in a queue and done between 
 
 from __future__ import annotations
 
+import contextlib
 import queue
 import sys
 import threading
@@ -15,19 +16,27 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reference.errors import InputError
+from reference.errors import InputError, unknown_name
 from report.live import scenes
 from report.live.controls import Controls
 from report.live.lab import Lab
 from report.live.parameters import PRESETS
 from report.live.plots import Plots
 from report.live.stage import Stage
+from report.live.values import guard_values
+from report.plain import printable, shortened
 
 if TYPE_CHECKING:
     from viser import ClientHandle
 
 #: Frames in a second, and how many go by between two looks at what is slow to show.
 RATE, SLOW_EVERY = 60, 12
+
+#: So much can wait to be done between two frames; what comes on top of that is not done.
+MOST_WAITING = 1000
+
+#: No sentence is longer.
+SENTENCE = 300
 
 #: How much of being late is made up for [s]; more than that is lost.
 LATE = 0.1
@@ -54,7 +63,9 @@ class Page:
 
     def __init__(self, client: ClientHandle, scene: str, steppers: Sequence[str], company: Callable[[], str]) -> None:
         self._client, self._company, self._steppers = client, company, tuple(steppers)
-        self._todo: queue.SimpleQueue[Callable[[], None]] = queue.SimpleQueue()
+        self._todo: queue.Queue[Callable[[], None]] = queue.Queue(MOST_WAITING)
+        self._picturing = threading.Lock()
+        guard_values(client, self.say)
         self._ended = threading.Event()
         self._scene = scene
         self.frames = 0
@@ -70,17 +81,19 @@ class Page:
         self._thread.join(5)
 
     def do(self, action: Callable[[], None]) -> None:
-        """Have something done between two frames."""
-        self._todo.put(action)
+        """Have something done between two frames, unless too much is waiting for that."""
+        with contextlib.suppress(queue.Full):
+            self._todo.put_nowait(action)
 
     # The thread.
 
     def _run(self) -> None:
         lab = None
         try:
-            lab = self.lab = Lab(self._scene, self._steppers)
-            self._open()
-            self._frames()
+            with np.errstate(all="ignore"):  # numbers that leave all bounds are seen in the lanes, which stop
+                lab = self.lab = Lab(self._scene, self._steppers)
+                self._open()
+                self._frames()
         except InputError as error:
             # The file it was started with may be gone.
             self.say(str(error))
@@ -125,6 +138,9 @@ class Page:
                 action()
             except InputError as error:
                 self.say(str(error))
+            except Exception as error:
+                traceback.print_exc(file=sys.stderr)
+                self.say(f"This was not done, by a mistake of the lab's own: {error}")
 
     def _show_slow(self) -> None:
         self._plots.show(self.lab.timeline.recorder)
@@ -139,7 +155,9 @@ class Page:
         self._show_slow()
 
     def open(self, scene: str, settings: dict[str, str] | None = None, barrier: bool | None = None) -> None:
-        """Another scene, or the same with other parameters."""
+        """Another scene that can be chosen, or the same with other parameters. Raises InputError."""
+        if scene not in self.scene_names():
+            raise unknown_name("scene", shortened(scene), scenes.names())
         try:
             self.lab.open(scene, settings, barrier)
             self.lab.play()
@@ -147,7 +165,9 @@ class Page:
             self.renew()
 
     def preset(self, slide: str) -> None:
-        """One of the lecture's pictures."""
+        """One of the lecture's pictures. Raises InputError for a slide without one."""
+        if slide not in PRESETS:
+            raise unknown_name("slide", shortened(slide), PRESETS)
         preset = PRESETS[slide]
         self.lab.set_steppers(preset.steppers)
         self.lab.open(preset.scene, dt=preset.dt)
@@ -171,6 +191,7 @@ class Page:
 
     def say(self, text: str) -> None:
         """A sentence, for a while."""
+        text = shortened(printable(text), SENTENCE)
         self._client.add_notification("springlab", text, auto_close_seconds=8.0, color="orange")
 
     def download(self, name: str, content: bytes) -> None:
@@ -178,25 +199,33 @@ class Page:
         self._client.send_file_download(name, content, save_immediately=True)
 
     def picture(self) -> None:
-        """What is seen, as a PNG file."""
+        """What is seen, as a PNG file; one at a time."""
+        if not self._picturing.acquire(blocking=False):
+            return
 
         def ask() -> None:
-            from io import BytesIO
-
-            from PIL import Image
-
-            camera = self._client.camera
             try:
-                seen = self._client.get_render(camera.image_height, camera.image_width, timeout=10.0)
-            except (RuntimeError, TimeoutError) as error:
-                self.say(str(error))
-                return
-            file = BytesIO()
-            Image.fromarray(seen).save(file, "PNG")
-            self.download(f"{self.lab.timeline.opened.stem}.png", file.getvalue())
+                self._picture()
+            finally:
+                self._picturing.release()
 
         # The browser's answer may take a while: not in the thread that makes frames.
         threading.Thread(target=ask, daemon=True).start()
+
+    def _picture(self) -> None:
+        from io import BytesIO
+
+        from PIL import Image
+
+        camera = self._client.camera
+        try:
+            seen = self._client.get_render(camera.image_height, camera.image_width, timeout=10.0)
+        except Exception as error:  # what a viewer sends need not be a picture: then nobody gets one
+            self.say(f"There is no picture: {error}")
+            return
+        file = BytesIO()
+        Image.fromarray(seen).save(file, "PNG")
+        self.download(f"{self.lab.timeline.opened.stem}.png", file.getvalue())
 
     def csv(self) -> None:
         """What was measured since the last reset."""

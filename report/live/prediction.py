@@ -135,7 +135,8 @@ class Predictor:
                     return
                 names, system, dt = self._question
                 self._question, self._busy = None, True
-            found = {name: predict(name, system, dt) for name in dict.fromkeys(names)}
+            with np.errstate(all="ignore"):
+                found = {name: predict(name, system, dt) for name in dict.fromkeys(names)}
             with self._asked:
                 if not self._stale:
                     self.found = found

@@ -17,6 +17,9 @@ BUDGET = 0.02
 #: imported, and others use the machine, too.
 WEIGHT, LONGEST = 0.05, 0.1
 
+#: The most steps of the solver in a frame.
+MOST_STEPS = 1000
+
 TOO_SLOW = "the true motion is not followed: it takes too long here; distances are from the first lane"
 
 
@@ -43,7 +46,7 @@ class ReferenceRun:
             return
         begin = time.perf_counter()
         try:
-            motion = exact(moved(system, self.state), duration, 1)
+            motion = exact(moved(system, self.state), duration, 1, most_steps=MOST_STEPS)
         except (SolverError, Stopped) as error:
             self._give_up(str(error))
             return

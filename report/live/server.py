@@ -12,6 +12,7 @@ import warnings
 from collections.abc import Sequence
 
 from reference.errors import InputError
+from report.live.door import door_for, guarded
 from report.live.page import Page
 from report.live.scenes import open_scene
 from report.live.stepping import checked
@@ -30,9 +31,10 @@ class LiveServer:
         scene, steppers: to begin with.
         host: the address it listens at.
         port: 0 for any that is free.
+        origins: of other pages that may come in, as "https://lab.example"; the lab's own page always may.
 
     Raises:
-        InputError: for an unknown scene or stepper, or a port that cannot be used.
+        InputError: for an unknown scene or stepper, a port that cannot be used, or an origin that is none.
     """
 
     def __init__(
@@ -41,8 +43,10 @@ class LiveServer:
         host: str = "127.0.0.1",
         port: int = 8080,
         steppers: Sequence[str] = ("kick_drift",),
+        origins: Sequence[str] = (),
     ) -> None:
         open_scene(scene)
+        door = door_for(host, origins)
         self._scene, self._steppers = scene, checked(steppers)
         check_port(host, port)
         import viser
@@ -58,7 +62,7 @@ class LiveServer:
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.pages: dict[int, Page] = {}
         self._lock = threading.Lock()
-        with contextlib.redirect_stdout(io.StringIO()):  # it would print a table
+        with guarded(door), contextlib.redirect_stdout(io.StringIO()):  # it would print a table
             self._server = Server(host=host, port=port, label="springlab live", verbose=False)
         self._server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
         # In place of viser's environment and shadows, which cost a page seconds without a graphics card.

@@ -204,3 +204,21 @@ def test_exact_says_when_the_solver_gives_up() -> None:
     """No step is small enough for what is not a number."""
     with pytest.raises(SolverError, match="no exact solution"):
         exact(moving_string(2), 0.01, 2, equations=NoNumbers)
+
+
+def test_exact_takes_no_more_steps_than_it_may() -> None:
+    """Besides one for every time; two hundred periods in two steps take some hundreds, and ten of them nothing like it.
+
+    With a rate omega and a tolerance of 1e-12 an eighth-order step is about a radian.
+    """
+    system = moving_string(2)
+    with pytest.raises(SolverError, match=r"no exact solution: 52 steps of the solver come to .* at most 52$"):
+        exact(system, 10.0, 2, most_steps=50)
+    assert len(exact(system, 0.001, 60, most_steps=0)) == 61
+
+
+def test_exact_gives_up_early_what_it_would_not_come_to() -> None:
+    """After 500 steps, where it would take a thousand times as many as it may."""
+    system = replace(moving_string(2), stiffness=1e14)
+    with pytest.raises(SolverError, match=r"no exact solution: 500 steps of the solver come to"):
+        exact(system, 1.0, 1)

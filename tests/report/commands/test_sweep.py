@@ -116,7 +116,7 @@ LINES = [
     ("--stepper heun --over dt=1e-9", "duration = 0.5: expected at most 10,000,000 steps of dt = 1e-09 s"),
     ("--stepper heun --over mass=1 --time-limit nan", "--time-limit nan: expected a number > 0 [s]"),
     ("--stepper heun --over mass=1 --memory-limit -2", "--memory-limit -2: expected a number > 0 [GiB]"),
-    ("--stepper heun --over mass=1 --jobs 0", "0 is not in the range x>=1"),
+    ("--stepper heun --over mass=1 --jobs 0", "0 is not in the range 1<=x<=1024"),
 ]
 
 

@@ -6,9 +6,11 @@ Every page here has asked for nothing from elsewhere, and had no error in its co
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import viser
 
 from report.live.scenes import names
 from tests.report.live.commands import begins, ends_of
@@ -84,3 +86,22 @@ def test_a_mass_is_dragged(visitor: Visitor) -> None:
     visitor.command("compare string-live.toml ")
     visitor.press("Play", exact=True)
     visitor.wait_until(0.1)
+
+
+def test_a_page_from_elsewhere_does_not_get_in(chromium: Any, address: str) -> None:
+    """In the real browser: the same socket opens from the lab's own page, and from a foreign one it does not.
+
+    Nor does a name of somebody's own that leads to this machine, as DNS rebinding has it.
+    """
+    knock = f"""() => new Promise(done => {{
+        const socket = new WebSocket("{address.replace("http", "ws")}", "viser-v{viser.__version__}");
+        socket.onopen = () => {{ socket.close(); done("open"); }};
+        socket.onerror = () => done("refused");
+    }})"""
+    page = chromium.new_page()
+    page.route("http://evil.example/", lambda route: route.fulfill(body="<html></html>", content_type="text/html"))
+    page.goto("http://evil.example/")
+    assert page.evaluate(knock) == "refused"
+    page.goto(address)
+    assert page.evaluate(knock) == "open"
+    page.close()
