@@ -39,10 +39,6 @@ COLUMNS = (
 )
 
 
-#: What formulas begin with, in full-width signs too.
-FORMULA = tuple("=+-@\uff1d\uff0b\uff0d\uff20")
-
-
 @dataclass(frozen=True)
 class Grade:
     """A submission's verdicts.
@@ -120,15 +116,8 @@ def _row(name: str, **values: str) -> dict[str, str]:
 
 
 def _cell(words: str) -> str:
-<<<<<<< HEAD
-    """Words for a table: one line, and nothing that a spreadsheet would take for a formula, also behind a semicolon."""
-    plain = clean(words) if len(words) < 200 else f"{clean(words)} ..."
-    number = plain.replace(".", "", 1).isdigit()
-    return plain if number or not plain.lstrip(";").startswith(FORMULA) else f"'{plain}"
-=======
     """Words for a table: one line, and nothing that a spreadsheet would take for a formula."""
     return str(cell(clean(words) if len(words) < 200 else f"{clean(words)} ..."))
->>>>>>> doors
 
 
 def grade_class(
