@@ -9,7 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from reference.errors import InputError
-from reference.system import MassSpringSystem, Value
+from reference.state import State
+from reference.system import HELD, MassSpringSystem, Value
 
 #: A trajectory keeps every step: beyond this many it would fill the memory.
 MOST_STEPS = 10_000_000
@@ -27,8 +28,9 @@ class Change:
 
     Attributes:
         time: when [s]; it takes effect at the start of the first step that begins then or later.
-        parameter: one of PARAMETERS.
-        value: the new value, one number for all, or one for each mass, spring or axis (kept as a tuple).
+        parameter: one of PARAMETERS; or `hold` or `release`, of masses.
+        value: the new value, one number for all, or one for each mass, spring or axis (kept as a tuple); of masses that
+            are held where they are, or let go from rest, their numbers.
     """
 
     time: float
@@ -45,6 +47,23 @@ class Change:
         For times beyond all runs it is one that no run comes to.
         """
         return int(min(np.ceil(self.time / dt - 1e-9), 2.0 * MOST_STEPS))
+
+
+def applied(change: Change, system: MassSpringSystem, state: State) -> tuple[MassSpringSystem, State]:
+    """The system and its state after a change: a mass that is held is at rest from then on.
+
+    What a multistep scheme remembers of before is forgotten where masses are held or let go.
+
+    Raises:
+        InputError: as `with_parameter` does.
+    """
+    system = system.with_parameter(change.parameter, change.value)
+    if change.parameter not in HELD:
+        return system, state
+    if len(state.velocities) != len(system.fixed):
+        raise InputError(f"{change.parameter}: masses on rods are neither held nor released on the fly")
+    velocities = np.where(system.fixed.reshape(-1, *(1,) * (state.velocities.ndim - 1)), 0.0, state.velocities)
+    return system, State(state.time, state.positions, velocities)
 
 
 class Drive(Protocol):

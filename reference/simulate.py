@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reference.changes import Change, changes_by_step, whole_steps
+from reference.changes import Change, applied, changes_by_step, whole_steps
 from reference.compiled.in_place import step_of
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf
@@ -49,7 +49,7 @@ def simulate(
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for i in range(steps):
             for change in pending.get(i, ()):
-                system = system.with_parameter(change.parameter, change.value)
+                system, state = applied(change, system, state)
                 motion = equations(system)
                 step = step_of(scheme, motion)
             state = projected(system, step(state, dt), (i + 1) * dt)

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from reference.checked_numbers import LARGEST, SMALLEST, finite, in_range, refuse_below, shaped
+from reference.checked_numbers import LARGEST, SMALLEST, finite, in_range, refuse, refuse_below, shaped
 from reference.errors import InputError, unknown_name
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.state import Array, State
@@ -31,6 +31,9 @@ PARAMETERS = {
     "drag": "N s/m, on every mass",
     "gravity": "m/s^2, downwards",
 }
+
+#: What can happen to masses while the system moves, and whether they are fixed then.
+HELD = {"hold": True, "release": False}
 
 #: Those of them that are fields by another name.
 FIELDS = {"mass": "masses", "rest_length": "rest_lengths"}
@@ -147,18 +150,36 @@ class MassSpringSystem:
         """The state at time zero."""
         return State(0.0, self.positions, self.velocities)
 
+    def at(self, state: State) -> MassSpringSystem:
+        """The same system, starting from a state. Raises InputError as a new system does."""
+        return replace(self, positions=state.positions, velocities=state.velocities)
+
     def with_parameter(self, name: str, value: Value) -> MassSpringSystem:
         """The same system with one of PARAMETERS set: one number for all, or one for each mass, spring or axis.
+
+        Or with masses held or released: `hold` and `release` take the number of a mass, or several.
 
         Nothing else is looked at again: a parameter may change at every step of a run.
 
         Raises:
             InputError: for an unknown name, a value that makes no sense, or another number of numbers.
         """
+        if name in HELD:
+            return self._with_held(name, value)
         if name not in PARAMETERS:
-            raise unknown_name("parameter", name, PARAMETERS)
+            raise unknown_name("parameter", name, [*PARAMETERS, *HELD])
         changed = copy(self)
         object.__setattr__(changed, FIELDS.get(name, name), self._checked_parameter(name, value))
+        return changed
+
+    def _with_held(self, name: str, value: Value) -> MassSpringSystem:
+        masses = finite(name, value, "masses' numbers").reshape(-1)
+        refuse(name, masses, ~np.isin(masses, range(len(self.masses))), f"a mass from 0 to {len(self.masses) - 1}")
+        fixed = self.fixed.copy()
+        fixed[masses.astype(int)] = HELD[name]
+        fixed.flags.writeable = False
+        changed = copy(self)
+        object.__setattr__(changed, "fixed", fixed)
         return changed
 
     def _checked_parameter(self, name: str, value: Value) -> Array | float:

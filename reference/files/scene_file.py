@@ -47,7 +47,7 @@ the start.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
@@ -56,6 +56,7 @@ import msgspec
 import numpy as np
 
 from reference.changes import Change, Drive, Driven
+from reference.drives import Ramp, Sine
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
 from reference.files.regular_file import check_file
@@ -149,6 +150,24 @@ class ChangeTable(msgspec.Struct, forbid_unknown_fields=True):
     value: Numbers
 
 
+class RampTable(msgspec.Struct, forbid_unknown_fields=True):
+    """One of the tables [[ramps]]."""
+
+    parameter: str
+    begin: float
+    end: float
+    value: float
+
+
+class SineTable(msgspec.Struct, forbid_unknown_fields=True):
+    """One of the tables [[sines]]."""
+
+    parameter: str
+    amplitude: float
+    frequency: float
+    begin: float = 0.0
+
+
 class GroundMotionTable(msgspec.Struct, forbid_unknown_fields=True):
     """The table [ground_motion]."""
 
@@ -189,6 +208,8 @@ class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
     dt: float | None = None
     duration: float | None = None
     changes: list[ChangeTable] = []
+    ramps: list[RampTable] = []
+    sines: list[SineTable] = []
     obstacles: list[dict[str, Any]] = []
     ground_motion: GroundMotionTable | None = None
 
@@ -232,6 +253,7 @@ def _setup(
     dt = next(value for value in (dt, content.dt, own_dt) if value is not None)
     duration = next(value for value in (duration, content.duration, own_duration) if value is not None)
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
+    _refuse_both(changes, driven.drives)
     setup = Setup(path.stem, driven.system, dt, duration, (*driven.changes(dt, duration), *changes))
     setup.check()
     return setup
@@ -262,7 +284,18 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driv
         system = replace(system, obstacles=(*system.obstacles, *given))
     if content.ground_motion is not None:
         drives = (*drives, content.ground_motion.motion(path.parent))
+    ramps = (Ramp(t.parameter, t.begin, t.end, t.value) for t in content.ramps)
+    sines = (Sine(t.parameter, t.begin, t.amplitude, t.frequency) for t in content.sines)
+    drives = (*drives, *ramps, *sines)
     return Driven(system, drives)
+
+
+def _refuse_both(changes: Iterable[Change], drives: Iterable[Drive]) -> None:
+    """What is driven cannot be changed besides: one would undo what the other does. Raises InputError."""
+    both = {change.parameter for change in changes} & {drive.parameter for drive in drives}
+    if both:
+        name = min(both)
+        raise InputError(f"{name} is driven, and changed besides: expected one of the two")
 
 
 def _rows(vectors: Vectors) -> list[list[float]]:

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from reference.changes import Change
+from reference.changes import Change, Drive, Driven
+from reference.errors import InputError
 from reference.scenes import Setup, find
 
 
@@ -17,6 +18,7 @@ def setup_for(
     duration: float | None = None,
     settings: Mapping[str, str] | None = None,
     changes: tuple[Change, ...] = (),
+    drives: tuple[Drive, ...] = (),
 ) -> Setup:
     """The setup of a scene, by name or TOML file, with dt, duration, parameters and changes of one's own.
 
@@ -26,6 +28,7 @@ def setup_for(
         duration: how long [s]; the scene's own where left out.
         settings: parameters of the scene, as text.
         changes: parameters that change on the fly, besides those the scene changes itself.
+        drives: parameters that change all the time.
 
     Raises:
         InputError: for anything that makes no sense; changes are tried out on the system here, not midway in a run.
@@ -37,9 +40,17 @@ def setup_for(
         setup = load(Path(scene), settings, dt, duration)
     else:
         setup = find(scene).setup(settings, dt, duration)
-    setup = replace(setup, changes=(*setup.changes, *changes))
+    setup = replace(setup, changes=(*setup.changes, *changes, *_driven(setup, changes, drives)))
     setup.check()
     return setup
+
+
+def _driven(setup: Setup, changes: tuple[Change, ...], drives: tuple[Drive, ...]) -> tuple[Change, ...]:
+    """What drives change. Raises InputError for a parameter that changes otherwise, too."""
+    for drive in drives:
+        if any(change.parameter == drive.parameter for change in (*setup.changes, *changes)):
+            raise InputError(f"{drive.parameter} is driven, and changed besides: expected one of the two")
+    return Driven(setup.system, drives).changes(setup.dt, setup.duration)
 
 
 def is_file(scene: str) -> bool:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from reference.changes import Change, changes_by_step
+from reference.changes import Change, applied, changes_by_step
 from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf, Motion
@@ -88,11 +88,12 @@ def exact(
     motion = equations(system)
     states = [motion.start]
     for begin, end in zip(starts, [*starts[1:], steps], strict=True):
+        state = states[-1]
         for change in pending.get(begin, ()):
-            system = system.with_parameter(change.parameter, change.value)
+            system, state = applied(change, system, state)
             motion = equations(system)
         times = np.array([dt * i for i in range(begin, end + 1)])
-        solved, made = _solve(motion, states[-1], times, system.size or system.scale, most_steps)
+        solved, made = _solve(motion, state, times, system.size or system.scale, most_steps)
         states, most_steps = [*states, *solved], most_steps - made
     return motion.trajectory(states)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from reference.changes import Change
+from reference.changes import Change, Drive
 from reference.errors import InputError
 
 
@@ -35,6 +35,39 @@ def parse_changes(words: Iterable[str]) -> tuple[Change, ...]:
         except ValueError:
             raise InputError(f"--change {word!r}: expected T:KEY=VALUE with two numbers") from None
     return tuple(changes)
+
+
+def parse_ramps(words: Iterable[str]) -> tuple[Drive, ...]:
+    """BEGIN:END:KEY=VALUE as parameters that go to a value. Raises InputError for a word of another form."""
+    from reference.drives import Ramp
+
+    ramps = []
+    for word in words:
+        times, _, value = word.partition("=")
+        try:
+            begin, end, key = times.split(":")
+            numbers = float(begin), float(end), float(value)
+        except ValueError:
+            raise InputError(f"--ramp {word!r}: expected BEGIN:END:KEY=VALUE with three numbers") from None
+        ramps.append(Ramp(key, *numbers))
+    return tuple(ramps)
+
+
+def parse_sines(words: Iterable[str]) -> tuple[Drive, ...]:
+    """BEGIN:KEY=AMPLITUDE@FREQUENCY as parameters that swing. Raises InputError for a word of another form."""
+    from reference.drives import Sine
+
+    sines = []
+    for word in words:
+        key, _, swing = word.partition("=")
+        try:
+            begin, name = key.split(":")
+            amplitude, frequency = swing.split("@")
+            numbers = float(begin), float(amplitude), float(frequency)
+        except ValueError:
+            raise InputError(f"--sine {word!r}: expected BEGIN:KEY=AMPLITUDE@FREQUENCY with three numbers") from None
+        sines.append(Sine(name, *numbers))
+    return tuple(sines)
 
 
 def parse_ranges(words: Iterable[str]) -> dict[str, tuple[float, float]]:

@@ -12,7 +12,7 @@ from typing import Any
 
 import click
 
-from report.commands.arguments import parse_changes, parse_ranges, parse_settings
+from report.commands.arguments import parse_changes, parse_ramps, parse_ranges, parse_settings, parse_sines
 
 #: A command, and an option's decorator, as click has them.
 Command = Callable[..., Any]
@@ -35,7 +35,24 @@ changes_option = click.option(
     multiple=True,
     metavar="T:KEY=VALUE",
     callback=lambda context, option, words: parse_changes(words),
-    help="Change a parameter at a time [s], on the fly; one number, or one for each, as 1,-9.81.",
+    help="Change a parameter at a time [s], on the fly; one number, or one for each, as 1,-9.81. Or hold or release "
+    "masses, as 0.2:release=0.",
+)
+ramps_option = click.option(
+    "--ramp",
+    "ramps",
+    multiple=True,
+    metavar="BEGIN:END:KEY=VALUE",
+    callback=lambda context, option, words: parse_ramps(words),
+    help="Let a parameter go evenly to a value between two times [s].",
+)
+sines_option = click.option(
+    "--sine",
+    "sines",
+    multiple=True,
+    metavar="BEGIN:KEY=AMPLITUDE@HZ",
+    callback=lambda context, option, words: parse_sines(words),
+    help="Let a parameter swing about its value from a time [s] on.",
 )
 ranges_option = click.option(
     "--range",
@@ -60,7 +77,9 @@ def out_option(default: Path | None, text: str | None = None) -> Decorator:
 
 
 def setup_options(command: Command) -> Command:
-    """Add SCENE, --dt, --duration, --set and --change, which a command gets as one `setup`, a `reference.scenes.Setup`.
+    """Add SCENE, --dt, --duration, --set, --change, --ramp and --sine.
+
+    A command gets them as one `setup`, a `reference.scenes.Setup`.
 
     Raises:
         InputError: when the command is called, for anything that makes no sense.
@@ -68,13 +87,29 @@ def setup_options(command: Command) -> Command:
 
     @wraps(command)
     def with_setup(
-        *, scene: str, dt: float | None, duration: float | None, settings: Any, changes: Any, **others: Any
+        *,
+        scene: str,
+        dt: float | None,
+        duration: float | None,
+        settings: Any,
+        changes: Any,
+        ramps: Any,
+        sines: Any,
+        **others: Any,
     ) -> Any:
         from reference.files.setup import setup_for
 
-        return command(setup=setup_for(scene, dt, duration, settings, changes), **others)
+        return command(setup=setup_for(scene, dt, duration, settings, changes, (*ramps, *sines)), **others)
 
     decorated: Command = with_setup
-    for option in (changes_option, settings_option, duration_option, dt_option, scene_argument):
+    for option in (
+        sines_option,
+        ramps_option,
+        changes_option,
+        settings_option,
+        duration_option,
+        dt_option,
+        scene_argument,
+    ):
         decorated = option(decorated)
     return decorated
