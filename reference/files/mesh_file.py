@@ -1,8 +1,7 @@
 """Mesh files: vertices become masses, and the edges of elements become springs, each once.
 
-Read by meshio. Surfaces come as
-OBJ, triangles and other polygons; solids as VTK's unstructured grids in its older format (.vtk), text or binary: of
-lines, triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and hexahedra.
+Read by meshio: OBJ, with its lines too; VTK's unstructured grids, older format (.vtk) and newer (.vtu); Gmsh (.msh);
+MEDIT (.mesh); PLY. Of lines, triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and hexahedra.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ import warnings
 from collections.abc import Mapping
 from contextlib import redirect_stderr
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +25,10 @@ from reference.state import Array
 from reference.system import IntArray
 
 #: By the end of a file's name, the number of its first vertex.
-FORMATS = {".obj": 1, ".vtk": 0}
+FORMATS = {".obj": 1, ".vtk": 0, ".vtu": 0, ".msh": 1, ".mesh": 1, ".ply": 0}
+
+#: Elements that join nothing: meshes of surfaces mark corners with them. They have no edges.
+PASSED_OVER = ("vertex",)
 
 #: A file may be so large [bytes].
 LARGEST_FILE = 256 * 2**20
@@ -110,7 +113,8 @@ def _read(path: Path) -> Any:
         with warnings.catch_warnings(), redirect_stderr(io.StringIO()) as said:
             # it warns, and goes on without, where there is less than announced or what it does not know
             warnings.simplefilter("error")
-            found = _read_obj(path) if path.suffix.lower() == ".obj" else _read_vtk(path)
+            readers = {".obj": _read_obj, ".vtk": _read_vtk}
+            found = readers.get(path.suffix.lower(), _read_other)(path)
         if said.getvalue():
             raise ValueError(said.getvalue())
         return found
@@ -121,12 +125,37 @@ def _read(path: Path) -> Any:
 
 
 def _read_obj(path: Path) -> Any:
-    """Only of its vertices and faces: where there are normals, meshio wants one for every vertex."""
+    """Only of its vertices, faces and lines: where there are normals, meshio wants one for every vertex.
+
+    Lines, and faces of two vertices, which some programs write springs as, it does not know: they are read here.
+    """
     import meshio
 
-    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    used = [line for line in lines if line.split(maxsplit=1)[:1] in (["v"], ["f"])]
-    return meshio.read(io.StringIO("\n".join(used)), file_format="obj")
+    lines = [line.split() for line in path.read_text(encoding="utf-8-sig", errors="replace").splitlines()]
+    faces = [words for words in lines if words[:1] == ["v"] or (words[:1] == ["f"] and len(words) != 3)]
+    found = meshio.read(io.StringIO("\n".join(map(" ".join, faces))), file_format="obj")
+    paths = [words[1:] for words in lines if words[:1] == ["l"] or (words[:1] == ["f"] and len(words) == 3)]
+    pairs = [pair for path_ in paths for pair in _pairs(path_)]
+    cells = [(block.type, block.data) for block in found.cells]
+    return meshio.Mesh(found.points, [*cells, ("line", np.array(pairs))] if pairs else cells)
+
+
+def _pairs(words: list[str]) -> list[tuple[int, int]]:
+    """The vertices that a line joins, from 0: each is `vertex` or `vertex/texture`."""
+    if len(words) < 2:
+        raise InputError(f"line {' '.join(words)!r}: expected two vertices or more")
+    try:
+        corners = [int(word.partition("/")[0]) - 1 for word in words]
+    except ValueError:
+        raise InputError(f"line {' '.join(words)!r}: expected the numbers of its vertices") from None
+    return list(pairwise(corners))
+
+
+def _read_other(path: Path) -> Any:
+    """By the ending of its name."""
+    import meshio
+
+    return meshio.read(path)
 
 
 def _read_vtk(path: Path) -> Any:
@@ -135,7 +164,8 @@ def _read_vtk(path: Path) -> Any:
 
     for kind in re.findall(rb"^\s*DATASET\s+(\S*)", path.read_bytes(), re.IGNORECASE | re.MULTILINE):
         if kind.upper() != b"UNSTRUCTURED_GRID":
-            raise InputError(f"DATASET {kind.decode(errors='replace')!r}: expected UNSTRUCTURED_GRID")
+            other = kind.decode(errors="replace")
+            raise InputError(f"DATASET {other!r}: expected UNSTRUCTURED_GRID; ParaView can save it as such, or as .vtu")
     return meshio.vtk.read(path)
 
 
@@ -151,8 +181,10 @@ def _positions(points: Any, first_vertex: int) -> Array:
     positions = np.asarray(points, dtype=np.float64)
     if positions.size == 0:
         raise InputError("it has no vertices")
-    if positions.ndim != 2 or positions.shape[1] < 3:
-        raise InputError("expected three coordinates of every vertex")
+    if positions.ndim != 2 or positions.shape[1] < 2:
+        raise InputError("expected two or three coordinates of every vertex")
+    if positions.shape[1] == 2:
+        positions = np.pad(positions, ((0, 0), (0, 1)))
     # what OBJ has beyond three is a colour
     positions = np.ascontiguousarray(positions[:, :3])
     bad = np.flatnonzero(~np.isfinite(positions).all(axis=1))
@@ -165,6 +197,8 @@ def _positions(points: Any, first_vertex: int) -> Array:
 def _blocks(cells: Any) -> list[_Block]:
     blocks, first = [], 1
     for block in cells:
+        if block.type in PASSED_OVER:
+            continue
         corners = np.asarray(block.data)
         if block.type != "polygon" and block.type not in EDGES:
             known = ", ".join([*EDGES, "polygon"])

@@ -222,7 +222,7 @@ def load(path: Path, settings: Mapping[str, Any], dt: float | None = None, durat
     """
     try:
         check_file(path, LARGEST_FILE)
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")
     except InputError as error:
         raise InputError(f"scene file {path}: {error}") from None
     except (OSError, UnicodeDecodeError) as error:

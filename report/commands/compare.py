@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from report.commands.options import json_option, out_option, setup_options, steppers_option
+from report.commands.options import json_option, out_option, patient, setup_options, steppers_option, time_limit_option
 from report.commands.terminal import RESULTS, progress, say, show_table
 from report.plain import printable
 
@@ -36,14 +36,22 @@ UNNAMED = "-"
     "left out, results/SCENE.gif, or OUT/SCENE.gif.",
 )
 @click.option("--slow", type=float, default=1.0, help="By which factor --animate is slower than the motion.")
+@time_limit_option
 def compare_command(
-    setup: Setup, names: tuple[str, ...], as_json: bool, out: Path | None, animate: str | None, slow: float
+    setup: Setup,
+    names: tuple[str, ...],
+    as_json: bool,
+    out: Path | None,
+    animate: str | None,
+    slow: float,
+    time_limit: float | None,
 ) -> None:
     """Run steppers on SCENE (a name or a TOML file) and say how far each is from the true motion, and why."""
     from experiments.runs.comparison import compare
     from experiments.runs.steppers import default_steppers, find_steppers
 
-    steppers = find_steppers(names) if names else default_steppers()
+    found = find_steppers(names) if names else default_steppers()
+    steppers = [patient(stepper, time_limit) for stepper in found]
     film = None if animate is None else _film_path(setup, animate, out, slow)
     with _film_file(film) as part:
         with progress("compare") as tell:

@@ -6,13 +6,17 @@ Words of options are given their meaning here, so that a command gets dictionari
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import wraps
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from report.commands.arguments import parse_changes, parse_ramps, parse_ranges, parse_settings, parse_sines
+
+if TYPE_CHECKING:  # this imports NumPy
+    from reference.stepper import Stepper
 
 #: A command, and an option's decorator, as click has them.
 Command = Callable[..., Any]
@@ -63,6 +67,20 @@ ranges_option = click.option(
     help="The range of a map's axis.",
 )
 json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+
+
+time_limit_option = click.option(
+    "--time-limit", type=click.FloatRange(min=0, min_open=True), help="How long an engine may take [s]."
+)
+
+
+def patient(stepper: Stepper, time_limit: float | None) -> Stepper:
+    """A stepper; an engine with this limit on its time [s], if one is given."""
+    from engines.process.isolation import EngineStepper
+
+    if time_limit is None or not isinstance(stepper, EngineStepper):
+        return stepper
+    return replace(stepper, time_limit=time_limit)
 
 
 def steppers_option(text: str = "Only these; see `springlab list`.", required: bool = False) -> Decorator:

@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from report.commands.options import json_option, out_option, setup_options, steppers_option
+from report.commands.options import (
+    json_option,
+    out_option,
+    patient,
+    setup_options,
+    steppers_option,
+    time_limit_option,
+)
 from report.commands.terminal import RESULTS, progress, show_table
 
 if TYPE_CHECKING:
@@ -39,7 +46,7 @@ TOLD_FROM, MANY_ROWS = 2**28, 2_000_000
 )
 @click.option("--every", type=click.IntRange(min=1), default=1, help="Only every so many steps in files.")
 @click.option("--animate", is_flag=True, help="Also a film of each, NAME.gif.")
-@click.option("--time-limit", type=click.FloatRange(min=0, min_open=True), help="How long an engine may take [s].")
+@time_limit_option
 def simulate_command(
     setup: Setup,
     names: tuple[str, ...],
@@ -57,7 +64,7 @@ def simulate_command(
 
     system = setup.system
     asked = [wanted(word, len(system.masses), system.dimension) for word in plots]
-    steppers = [_patient(stepper, time_limit) for stepper in find_steppers(names or (DEFAULT,))]
+    steppers = [patient(stepper, time_limit) for stepper in find_steppers(names or (DEFAULT,))]
     _tell_room(setup, steppers)
     with progress("simulate") as tell:
         simulation = simulate_all(setup, steppers, tell)
@@ -72,17 +79,6 @@ def simulate_command(
         _plot(simulation, what, folder / f"{setup.name}-{what.name}.svg")
     if animate:
         _animate(simulation, folder)
-
-
-def _patient(stepper: Stepper, time_limit: float | None) -> Stepper:
-    """An engine with another limit on its time."""
-    from dataclasses import replace
-
-    from engines.process.isolation import EngineStepper
-
-    if time_limit is None or not isinstance(stepper, EngineStepper):
-        return stepper
-    return replace(stepper, time_limit=time_limit)
 
 
 def _tell_room(setup: Setup, steppers: Sequence[Stepper]) -> None:

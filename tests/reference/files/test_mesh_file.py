@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
+from contextlib import redirect_stdout
 from pathlib import Path
 
+import meshio
 import numpy as np
 import pytest
 
@@ -74,6 +77,36 @@ def test_edges_are_listed_in_the_order_of_the_elements(tmp_path: Path) -> None:
     assert pairs == [(3, 4), (2, 4), (2, 3), (0, 1), (0, 2), (1, 2), (0, 3)]
 
 
+def test_lines_of_an_obj_file_are_springs(tmp_path: Path) -> None:
+    """Two-vertex faces, as course meshes write springs; lines of several vertices; beside faces, none twice."""
+    found = mesh(tmp_path, BLANKET + "l 1/1 4\nf 1 2\nl 3 1 2\n")
+    assert edges(found) == [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
+    only = mesh(tmp_path, "v 0 0\nv 1 0\nv 2 1\nl 1 2 3\n")
+    assert edges(only) == [(0, 1), (1, 2)]
+    assert only.positions.tolist() == [[0, 0, 0], [1, 0, 0], [2, 1, 0]]
+
+
+@pytest.mark.parametrize("ending", [".vtu", ".msh", ".mesh", ".ply", ".vtk", ".obj"])
+def test_files_of_other_programs_formats(tmp_path: Path, ending: str) -> None:
+    """The same two triangles as meshio writes them: the same vertices, to the bit where a format keeps all digits."""
+    points = np.array([[0, 0, 0], [1, 0, 0.1], [0, 1, 0], [1.1, 1, 0]], dtype=float)
+    cells = [("triangle", np.array([[0, 1, 2], [2, 1, 3]]))]
+    file = tmp_path / f"two{ending}"
+    with redirect_stdout(io.StringIO()):
+        meshio.write(file, meshio.Mesh(points, cells))
+    found = read_mesh(file)
+    np.testing.assert_allclose(found.positions, points, rtol=1e-12)
+    assert edges(found) == [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)]
+
+
+def test_single_points_are_passed_over(tmp_path: Path) -> None:
+    """As Gmsh marks corners with them: they join nothing."""
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
+    file = tmp_path / "marked.vtu"
+    meshio.write(file, meshio.Mesh(points, [("vertex", np.array([[0]])), ("triangle", np.array([[0, 1, 2]]))]))
+    assert edges(read_mesh(file)) == [(0, 1), (0, 2), (1, 2)]
+
+
 # --- Bad ones ---
 
 BAD = {
@@ -87,11 +120,13 @@ BAD = {
         BLANKET.replace("v 3 4 0", "v 3 0 0"),
         "element 2: vertices 2 and 4 are in one place, expected a length > 0",
     ),
-    "two corners": (BLANKET + "f 1 2\n", "element 3: expected three vertices or more, not 2"),
+    "a line of one vertex": (BLANKET + "l 1\n", "line '1': expected two vertices or more"),
+    "a line of words": (BLANKET + "l 1 a\n", "line '1 a': expected the numbers of its vertices"),
+    "a line out of range": (BLANKET + "l 1 9\n", "element 3 names vertex 9: expected one from 1 to 4"),
     "no corners": (BLANKET + "f\n", "element 3: expected the numbers of its vertices"),
     "not a number": (BLANKET.replace("v 3 4 0", "v 3 nan 0"), "vertex 4 = [3.0, nan, 0.0]: expected finite numbers"),
     "too large": (BLANKET.replace("v 3 4 0", "v 1e300 4 0"), "expected coordinates whose distances are finite"),
-    "in the plane": ("v 0 0\nv 1 0\nv 0 1\nf 1 2 3\n", "expected three coordinates of every vertex"),
+    "on a line": ("v 0\nv 1\nv 2\nf 1 2 3\n", "expected two or three coordinates of every vertex"),
     "a coordinate short": (
         BLANKET.replace("v 3 4 0", "v 3 4"),
         "expected a mesh in the format .obj: lines of one kind have as many numbers as one another",
@@ -107,7 +142,7 @@ BAD = {
 BAD_BLOCKS = {
     "out of range": (BLOCK.replace("1 2 3 4\n", "1 2 3 5\n"), "element 2 names vertex 5: expected one from 0 to 4"),
     "flat": (BLOCK.replace("1 1 1\n", "-1 1 1\n"), "element 2 is flat: expected a tetra with volume"),
-    "a point as an element": (block(1, 1), "element 1 is of the kind vertex: expected one of line, triangle"),
+    "points alone": (block(1, 1), "it has no elements: expected at least one"),
     "an unknown kind": (BLOCK.replace("\n10\n10", "\n10\n77"), "expected a mesh in the format .vtk: File contains"),
     "a kind that only warns": (
         NEXT_BLOCK.replace("\n10\n10", "\n10\n-1"),
@@ -153,7 +188,7 @@ def test_a_bad_solid_is_told(tmp_path: Path, case: str) -> None:
 @pytest.mark.parametrize("name", ["blanket.stl", "blanket", "obj"])
 def test_another_ending_is_told(tmp_path: Path, name: str) -> None:
     """Whatever is in the file."""
-    check_told(tmp_path, BLANKET, name, "expected a name that ends in .obj or .vtk")
+    check_told(tmp_path, BLANKET, name, "expected a name that ends in .obj or .vtk or .vtu or .msh or .mesh or .ply")
 
 
 @pytest.mark.parametrize("name", ["there is none.obj", "a\0b.obj", 300 * "long" + ".obj", ".", "folder.obj"])

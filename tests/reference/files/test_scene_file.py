@@ -309,6 +309,13 @@ def test_times_of_ones_own_are_those_that_changes_have_to_fit(tmp_path: Path) ->
     assert str(refused.value).startswith("change of stiffness at 0.83 s: expected at most 0.599 s")
 
 
+def test_a_byte_order_mark_is_read_over(tmp_path: Path) -> None:
+    """As Windows' Notepad begins a file with one."""
+    file = tmp_path / "own.toml"
+    file.write_bytes(b"\xef\xbb\xbf" + b'scene = "string"\r\ndt = 2e-3\r\n')
+    assert load(file, {}).dt == 2e-3
+
+
 def test_the_same_key_twice_has_no_one_line(tmp_path: Path) -> None:
     """The second change's value is wrong: the path says which, a line might say the other."""
     file = written(tmp_path, NAMED.replace("value = 0.05", 'value = "0.05"'))
