@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from typing import Any
 
 import numpy as np
@@ -110,7 +111,8 @@ def _lines(question: Question, answer: Answer, right: Answer, p: int, index: tup
     unit = f" [{question.units[p]}]" if question.units else ""
     if question.steps:
         place = f"[{', '.join(map(str, index))}]" if index else ""
-        both = [[float(step[p][index]) for step in steps] for steps in (right, answer)]
+        alike = list(takewhile(lambda step: step[p].shape == want.shape, answer))  # what has another shape has no place
+        both = [[float(step[p][index]) for step in steps] for steps in (right, alike)]
         return Lines("step", name + place + unit, np.array(both[0]), np.array(both[1]))
     rows = [np.array([row[axis] for row in steps[0][p]], dtype=float) for steps in (right, answer)]
     return Lines(question.item, name + (f"[:, {axis[0]}]" if axis else "") + unit, *rows)

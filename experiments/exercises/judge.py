@@ -84,7 +84,7 @@ def judge(
     asked = [question.asked() for question in catalogue.questions]
     files = exercise.files(seed) if exercise.files else {}
     reply = sandbox.run(source, asked, limits, files)
-    verdict = _verdict(catalogue, reply)
+    verdict = verdict_on(catalogue, reply)
     if verdict.name == "not_repeatable":
         again = sandbox.run(source, asked, limits, files)
         same = len(again.answers) == len(reply.answers) and _same_replies(reply, again)
@@ -106,7 +106,7 @@ def _failed(catalogue: AnswerCatalogue, outcome: Outcome, finding: Finding, **fo
     return Verdict(outcome, (finding,), (False,) * len(catalogue.questions), **found)
 
 
-def _verdict(catalogue: AnswerCatalogue, reply: Reply) -> Verdict:
+def verdict_on(catalogue: AnswerCatalogue, reply: Reply) -> Verdict:
     """The verdict on what a process left, whatever that is."""
     if reply.ended != "done":
         word: Outcome = "timed out" if reply.ended == "timed out" else "crashed"

@@ -56,9 +56,8 @@ def read(data: bytes, exposed: bool, count: int) -> Reply:
         NotGradedError: where the submission was not read, as the sandbox did not stand.
     """
     if data.startswith(child.CLOSED):
-        missing = ", ".join(child.unpack(data[len(child.CLOSED) :])["missing"])
         raise NotGradedError(
-            f"this machine has no {missing} to keep submissions in; see --let-submissions-reach-my-files"
+            f"this machine has no {_missing(data)} to keep submissions in; see --let-submissions-reach-my-files"
         )
     if len(data) > LONGEST:
         return Reply("crashed", f"it answered more than {LONGEST / 2**20:g} MiB")
@@ -71,6 +70,17 @@ def read(data: bytes, exposed: bool, count: int) -> Reply:
         return Reply("crashed", "what it answered is not readable")
     found = (reply.get("answers", ()), reply.get("error"), reply["layers"], reply.get("names", ()), reply["missing"])
     return Reply("done", "", *found)
+
+
+def _missing(data: bytes) -> str:
+    """Which layers, as the child says; a submission may have written there, too."""
+    try:
+        told = child.unpack(data[len(child.CLOSED) :])
+        _is_dict(told, {"layers", "missing"}, set())
+        _are_words(told["missing"])
+        return ", ".join(told["missing"]) or "sandbox"
+    except ValueError:
+        return "sandbox"
 
 
 def _check(reply: Any, exposed: bool, count: int) -> None:

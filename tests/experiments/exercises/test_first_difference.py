@@ -56,6 +56,16 @@ def test_the_lines_are_that_number_in_every_step(strings: AnswerCatalogue, given
     assert (lines.given - lines.right).tolist() == pytest.approx([0, 0, 0.25] + [0] * 9)
 
 
+def test_lines_end_where_an_answer_gets_another_shape(strings: AnswerCatalogue, given: list[Answer]) -> None:
+    """A later step of more numbers, or fewer, has none in that place (found by `tests.fuzz`)."""
+    given[0][1][0][1, 0] += 0.5
+    given[0][3][0] = given[0][3][0][None]
+    found, lines = first_difference(strings, given, TOLERANCE)
+    assert found is not None
+    assert lines is not None
+    assert (found.step, len(lines.given), len(lines.right)) == (2, 3, len(strings.right[0]))
+
+
 def test_without_steps_the_lines_are_over_masses() -> None:
     """In one column of the forces; and the number of a step is 0."""
     catalogue = catalogue_of(find("3"), "", None)

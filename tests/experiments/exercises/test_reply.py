@@ -121,6 +121,13 @@ def test_a_process_that_ends_itself_has_not_answered() -> None:
     assert read(child.READY, False, 2).ended == "crashed"
 
 
+@pytest.mark.parametrize("told", [b"", b"rest", child.pack([1]), child.pack({"layers": [], "missing": [np.ones(2)]})])
+def test_who_writes_that_the_sandbox_is_closed_is_not_graded(told: bytes) -> None:
+    """A submission may write there, anything: it gets no grade by that, and the checker goes on."""
+    with pytest.raises(NotGradedError, match="no sandbox to keep submissions in"):
+        read(child.CLOSED + told, False, 2)
+
+
 def test_where_a_layer_is_missing_nothing_is_graded() -> None:
     """It is told which, and the way out; and where that way was taken, it is read."""
     closed = child.CLOSED + child.pack({"layers": ["limits"], "missing": ["landlock", "seccomp"]})
