@@ -9,6 +9,8 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from experiments.runs.result_codec import LIMIT, decode
+
 #: What each column of a run holds; REAL columns hold floats, and where there may be nothing, None.
 COLUMN_TYPES: Mapping[str, tuple[type, ...]] = {
     "key": (str,),
@@ -121,9 +123,20 @@ def damage(row: Mapping[str, Any]) -> str:
             return f"{name} is no JSON"
         if name == "parameters" and not isinstance(document, dict | None):
             return "parameters are no names with values"
+        if name == "answer" and isinstance(document, dict) and LIMIT in document and not _is_limit(document):
+            return "answer is no limit"
     if row["arrays"] is not None and not ARRAYS_FILE.fullmatch(row["arrays"]):
         return "arrays is no name of a file of arrays"
     return ""
+
+
+def _is_limit(document: dict[str, Any]) -> bool:
+    """Whether it is a limit that was encoded: its factors, where it has some, are a list."""
+    try:
+        decode(document, {})
+    except (TypeError, AttributeError, KeyError, ValueError):
+        return False
+    return isinstance(document[LIMIT].get("factors", []), list)
 
 
 def _is_text(value: str) -> bool:

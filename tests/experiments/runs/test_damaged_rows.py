@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import re
 import sqlite3
 from contextlib import closing
 from pathlib import Path
@@ -21,6 +22,8 @@ from tests.report.commands.terminal import springlab
 DAMAGES = [
     ("answer", "{", "answer is no JSON"),
     ("answer", "[" * 20_000, "answer is no JSON"),
+    ("answer", '{"<limit>": 3}', "answer is no limit"),
+    ("answer", '{"<limit>": {"dt": 1, "factors": 3}}', "answer is no limit"),
     ("answer", b"\xff\xfe", "answer is bytes, expected a text"),
     ("parameters", "[1]", "parameters are no names with values"),
     ("parameters", "{'a': 1}", "parameters is no JSON"),
@@ -69,11 +72,11 @@ def test_a_damaged_row_costs_itself_and_is_named(three: Path, column: str, value
     "answer", ['{"<outcome>": 1}', '{"<limit>": {"no": 1}}', '{"<array>": []}', '{"<number>": "x"}']
 )
 def test_an_answer_that_nobody_gave_is_run_again(three: Path, answer: str) -> None:
-    """It is JSON, and none that was encoded here."""
+    """It is JSON, and none that was encoded here; where it is a limit's, the row itself is one that is damaged."""
     put(three, "UPDATE runs SET answer = ? WHERE rowid = 1", answer)
     with closing(Store(three)) as store:
         assert store.find(task(0)) is None
-        assert "is damaged (its answer is none), and is run again" in store.remarks[0]
+        assert re.search(r"is damaged \((its answer is none|answer is no limit)\), and is run again", store.remarks[0])
     rows(three, {})
 
 
