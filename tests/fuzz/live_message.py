@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import logging
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, redirect_stderr
 from pathlib import Path
 from random import Random
@@ -15,6 +15,7 @@ import msgspec
 
 from report.live.page import Page
 from report.live.server import LiveServer
+from report.plain import shortened
 from tests.fuzz import wild
 from tests.fuzz.doors import Enter
 from tests.soak.guests import CAMERA, Guest
@@ -108,37 +109,50 @@ def _utf8(item: Any) -> Any:
     return {_utf8(key): _utf8(one) for key, one in item.items()} if isinstance(item, dict) else item
 
 
+class _Lab:
+    """A server with a viewer who sends, anew after a problem."""
+
+    def __init__(self) -> None:
+        self.server = LiveServer(port=0)
+        self.guest = Guest(self.server.address)
+        self.guest.wait_for("t = ")
+        (self.page,) = self.server.pages.values()
+
+    def end(self) -> None:
+        self.guest.leave()
+        self.server.stop()
+
+
 @contextmanager
 def opened(_: Path) -> Iterator[Enter]:
-    """A server, and a viewer who sends; after some messages the page is looked at, whether it makes frames."""
+    """After some messages the page is looked at, whether it makes frames, and whether anybody complained."""
     complaints = io.StringIO()
     handler = logging.StreamHandler(complaints)
     logging.getLogger().addHandler(handler)
     with redirect_stderr(complaints):
-        server = LiveServer(port=0)
-        guest = Guest(server.address)
-        guest.wait_for("t = ")
-        (page,) = server.pages.values()
-        sent = 0
+        lab = _Lab()
+        sent: list[Any] = []
 
         def enter(made: Any) -> str:
-            nonlocal sent
-            _send(guest, *made)
-            sent += 1
-            if sent % TOGETHER:
+            nonlocal lab
+            _send(lab.guest, *made)
+            sent.append(made)
+            if len(sent) < TOGETHER:
                 return "taken"
-            problem = _problem(page, complaints.getvalue())
-            complaints.seek(0)
-            complaints.truncate()
+            problem = _problem(lab.page, complaints.getvalue)
+            if problem:
+                problem = f"{problem}\nof {[shortened(ascii(one), 100) for one in sent]}"
+                lab.end()
+                lab = _Lab()
+                complaints.seek(0)
+                complaints.truncate()
+            sent.clear()
             return problem or "taken"
 
         try:
             yield enter
-            problem = _problem(page, complaints.getvalue())
-            assert not problem, problem
         finally:
-            guest.leave()
-            server.stop()
+            lab.end()
             logging.getLogger().removeHandler(handler)
 
 
@@ -153,11 +167,11 @@ def _send(guest: Guest, kind: str, what: Any) -> None:
             guest.set(part, _utf8(value))
 
 
-def _problem(page: Page, said: str) -> str:
+def _problem(page: Page, said: Callable[[], str]) -> str:
     """What is wrong with a page: it makes no frames, or somebody complains. Nothing, where nothing is."""
     frames, deadline = page.frames, time.monotonic() + PATIENCE
     while page.frames < frames + 2:
         if time.monotonic() > deadline or not page._thread.is_alive():
-            return f"no frame within {PATIENCE:g} s: {said[-1500:]}"
+            return f"no frame within {PATIENCE:g} s: {said()[-1500:]}"
         time.sleep(0.002)
-    return said[-1500:]
+    return said()[-1500:]
