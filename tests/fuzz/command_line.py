@@ -69,11 +69,20 @@ def _run_options(random: Random, scene: str) -> Iterator[str]:
     if random.random() < 0.3:
         yield f"--dt={wild.number_text(random)}"
     if random.random() < 0.2:
-        yield f"--duration={wild.number_text(random)}"
+        text = wild.number_text(random)
+        yield f"--duration={'1e-3' if is_long(text) else text}"
     if random.random() < 0.3:
         name = wild.one_of(random, [*PARAMETERS, _word(random)])
         time = wild.one_of(random, ["0", "0.002", wild.number_text(random)])
         yield f"--change={time}:{name}={wild.number_text(random)}"
+
+
+def is_long(text: str) -> bool:
+    """Whether it is a duration [s] that takes minutes, and is meant so: up to the most steps that there may be."""
+    try:
+        return 0.1 < float(text) < 1e6
+    except ValueError:
+        return False
 
 
 def _wild_options(random: Random) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import signal
 import traceback
 from collections import Counter
 from collections.abc import Iterator
@@ -14,8 +15,8 @@ from typing import Any
 from tests.fuzz.doors import Door, Enter, door
 from tests.reference.files.test_fuzzed_files import TooLong, time_limit
 
-#: An input may take so long [s], and so much memory may be held with it [bytes].
-SECONDS, MEMORY = 10.0, 2**30
+#: An input may take so long of the processor and in all [s], and so much memory may be held with it [bytes].
+SECONDS, WAITING, MEMORY = 10.0, 60.0, 2**30
 
 
 @dataclass
@@ -57,15 +58,31 @@ def entered(found: Door, enter: Enter, seed: int) -> str:
     made = found.make(Random(seed))
     forget_most_memory()
     try:
-        with time_limit(SECONDS):
+        with processor_limit(SECONDS), time_limit(WAITING):
             ending = enter(made)
     except TooLong:
-        return f"takes more than {SECONDS:g} s"
+        return f"takes more than {SECONDS:g} s of the processor, or {WAITING:g} s"
     except BaseException as error:
         if isinstance(error, KeyboardInterrupt):
             raise
         return "".join(traceback.format_exception(error)[-4:])
     return f"takes {most_memory() / 2**20:.0f} MiB" if most_memory() > MEMORY else ending
+
+
+@contextlib.contextmanager
+def processor_limit(seconds: float) -> Iterator[None]:
+    """Raise TooLong where what is done in it takes longer of the processor [s]: however busy that is with others."""
+
+    def stop(*_: object) -> None:
+        raise TooLong
+
+    before = signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def most_memory() -> int:

@@ -61,7 +61,7 @@ def eat(_: Any) -> str:
     ("enter", "said"),
     [
         (crash, "ZeroDivisionError: by chance"),
-        (hang, "takes more than 0.2 s"),
+        (hang, "takes more than 0.2 s of the processor"),
         (eat, "MiB"),
         (lambda _: "a traceback", "a traceback"),
     ],
