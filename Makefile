@@ -21,6 +21,7 @@ test: $(READY)  ## Run all tests, with formatting and types
 soak: $(READY)  ## What `make test` does in small, in full: thousands of runs and kills, all kept versions of the engines
 	$(BIN)/python -m pytest tests/soak tests/reference/files/test_fuzzed_files.py tests/report/live tests/experiments/exercises \
 		--full -s -p no:xdist
+	$(BIN)/python -m tests.fuzz --count $(or $(COUNT),3000) --seed $(or $(SEED),0)
 	$(BIN)/springlab versions --check
 
 mutants: $(READY)  ## A hundred small mistakes in the sources, and which of them the tests near them miss; SEED=N for others

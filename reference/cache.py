@@ -49,7 +49,7 @@ def _writable(folder: Path) -> bool:
 
 @cache
 def _temporary(place: str) -> Path:
-    """A folder there that stays between runs, and is this user's alone: nobody else can put code into it."""
+    """A folder there that stays between runs, and is this user's alone: code in it is run."""
     user = os.getuid() if hasattr(os, "getuid") else 0
     folder = Path(place) / f"springlab-cache-{user}"
     with suppress(FileExistsError):

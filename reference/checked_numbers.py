@@ -41,6 +41,14 @@ def refuse_below(name: str, array: Array, unit: str, above_zero: bool) -> None:
         refuse(name, array, array < SMALLEST, f"a number of at least {SMALLEST:g} [{unit}]")
 
 
+def check_sizes(name: str, value: npt.ArrayLike, divided_by: bool = False) -> None:
+    """Refuse numbers above LARGEST, or where something is divided by them, below SMALLEST. Raises InputError."""
+    array = np.asarray(value, dtype=np.float64)
+    refuse(name, array, np.abs(array) > LARGEST, f"a number of at most {LARGEST:g}")
+    if divided_by:
+        refuse(name, array, np.abs(array) < SMALLEST, f"a number of at least {SMALLEST:g}")
+
+
 def refuse(name: str, array: Array, bad: npt.NDArray[np.bool_], expected: str) -> None:
     """Refuse the first number that is bad, with its index unless all are the same. Raises InputError."""
     if not np.any(bad):

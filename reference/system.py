@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from reference.checked_numbers import LARGEST, SMALLEST, finite, in_range, refuse, refuse_below, shaped
+from reference.checked_numbers import LARGEST, SMALLEST, check_sizes, finite, in_range, refuse, refuse_below, shaped
 from reference.errors import InputError, unknown_name
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.state import Array, State
@@ -200,6 +200,11 @@ class MassSpringSystem:
         whole = np.array(np.broadcast_to(spread, (count,)))
         whole.flags.writeable = False
         return whole
+
+    def check_sizes(self) -> None:
+        """Refuse numbers of which products would be no floats, as nothing has them. Raises InputError."""
+        for name in ("positions", "velocities", "masses", "rest_lengths", "stiffness", "damping", "drag", "gravity"):
+            check_sizes(name, getattr(self, name), divided_by=name in ("masses", "rest_lengths"))
 
     def renumbered(self, order: npt.ArrayLike) -> MassSpringSystem:
         """The same system with its masses listed in another order: mass order[i] becomes mass i."""

@@ -12,6 +12,8 @@ import numpy as np
 from experiments.runs.progress import Progress
 from experiments.runs.room import check_room
 from experiments.runs.side_by_side import side_by_side
+from reference.changes import Change
+from reference.errors import SolverError
 from reference.identification import Identification, identify_all
 from reference.outcome import Outcome
 from reference.scenes import Setup
@@ -19,6 +21,9 @@ from reference.state import Array, Trajectory
 from reference.stepper import Stepper
 from reference.system import MassSpringSystem
 from reference.theory.exact import WHY_NOT_EXACT, exact
+
+#: Steps of the solver of the true motion besides one for every step of a run: seconds, for a string.
+MOST_STEPS = 30_000
 
 
 @dataclass(frozen=True)
@@ -65,11 +70,19 @@ class Run:
 
 @dataclass(frozen=True)
 class Comparison:
-    """All steppers on one system, and its true motion: None for a system with obstacles."""
+    """All steppers on one system.
+
+    Attributes:
+        setup: the system and the times.
+        true: its true motion; None where that is not known.
+        runs: one for each stepper.
+        why_not: what there is to say where it is not known.
+    """
 
     setup: Setup
     true: Trajectory | None
     runs: tuple[Run, ...]
+    why_not: str = WHY_NOT_EXACT
 
     @property
     def times(self) -> Array:
@@ -79,7 +92,7 @@ class Comparison:
     @property
     def why_no_true_motion(self) -> str | None:
         """What there is to say where the true motion is not known, and so no run has an error."""
-        return WHY_NOT_EXACT if self.true is None else None
+        return self.why_not if self.true is None else None
 
     @property
     def document(self) -> dict[str, Any]:
@@ -112,7 +125,7 @@ def compare(
     kept = [s for s in steppers if patient or not too_slow(s, setup.system)]
     check_room(kept, setup.system, steps, beside=1)
     progress("true motion")
-    true = None if setup.system.obstacles else exact(setup.system, setup.dt, steps, setup.changes)
+    true, why_not = true_motion(setup.system, setup.dt, steps, setup.changes)
 
     def task(stepper: Stepper) -> Outcome:
         left_out = None if patient else too_slow(stepper, setup.system)
@@ -129,7 +142,17 @@ def compare(
         scheme = identified.known.get(named or "")
         deviation = None if trajectory is None or scheme is None else trajectory.distance(scheme)
         runs.append(Run(stepper, outcome, identification, error, deviation))
-    return Comparison(setup, true, tuple(runs))
+    return Comparison(setup, true, tuple(runs), why_not)
+
+
+def true_motion(
+    system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change]
+) -> tuple[Trajectory | None, str]:
+    """The true motion; where nothing can follow it, or not within some seconds, None, and why."""
+    try:
+        return exact(system, dt, steps, changes, most_steps=MOST_STEPS), ""
+    except SolverError as error:
+        return None, str(error)
 
 
 def too_slow(stepper: Stepper, system: MassSpringSystem) -> Outcome | None:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import csv
 import json
-import sqlite3
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import closing
 from pathlib import Path
 from typing import Any, TextIO
 
+from experiments.runs.progress import Progress
 from experiments.runs.result_codec import LIMIT
-from experiments.runs.store import JSON_COLUMNS, StoreError, check_format
+from experiments.runs.store import StoreError, check_format, in_words, opened_to_read
+from experiments.runs.stored_rows import JSON_COLUMNS, TROUBLE, read_rows
 from reference.errors import InputError, unknown_name
 from reference.files.csv_cell import cell
 
@@ -24,17 +26,20 @@ MORE_COLUMNS = ("settings", "system", "seconds", "finished", "key", "arrays", "e
 SECTIONS = "report_section"
 
 
-def rows(store: Path, filters: Mapping[str, str], retired: bool = False) -> list[dict[str, Any]]:
+def rows(
+    store: Path, filters: Mapping[str, str], retired: bool = False, tell: Progress = lambda _: None
+) -> list[dict[str, Any]]:
     """The runs in a store, oldest first, parameters and numbers of the answer as columns of their own.
 
     Args:
         filters: what columns must be equal to; numbers as numbers.
         retired: whether to show also those that were started over.
+        tell: told of each row that is damaged, and left out.
 
     Raises:
         InputError: if there is no store, the file is not a store, or nothing in it has a column that is asked for.
     """
-    found = [_flat(row) for row in _read(store) if retired or not row["retired"]]
+    found = [_flat(row) for row in _read(store, tell) if retired or not row["retired"]]
     known = {name: None for row in found for name in row}
     for name in filters:
         if found and name not in known:
@@ -71,30 +76,23 @@ def write_csv(found: Sequence[Mapping[str, Any]], file: TextIO) -> None:
     writer.writerows([cell(value) for value in map(row.get, columns)] for row in found)
 
 
-def _read(store: Path) -> list[sqlite3.Row]:
-    if not store.is_file():
-        raise StoreError(f"store {store}: there is none; `springlab run` and `springlab sweep` make one")
-    # In a folder that cannot be written, a store can be read only if nobody is writing to it, which is then for sure.
-    for how in ("mode=ro", "immutable=1"):
-        sql = sqlite3.connect(f"{store.resolve().as_uri()}?{how}", uri=True)
-        sql.row_factory = sqlite3.Row
-        try:
-            begun = check_format(store, sql)
-            every = sql.execute("SELECT * FROM runs ORDER BY finished, rowid").fetchall() if begun else []
-            return [row for row in every if row["task"] != SECTIONS]
-        except sqlite3.OperationalError as error:
-            problem = error
-        except sqlite3.DatabaseError as error:
-            raise StoreError(f"store {store}: is damaged, or no store of springlab's ({error})") from None
-        finally:
-            sql.close()
-    raise StoreError(f"store {store}: cannot be read ({problem})")
+def _read(store: Path, tell: Progress) -> list[dict[str, Any]]:
+    try:
+        with closing(opened_to_read(store)) as sql:
+            found = read_rows(sql, store.stat().st_size) if check_format(store, sql) else None
+    except TROUBLE as error:
+        raise StoreError(f"store {store}: {in_words(error)}") from None
+    if found is None:
+        return []
+    for line in found.damaged:
+        tell(line)
+    return [row for row in found.rows if row["task"] != SECTIONS]
 
 
-def _flat(row: sqlite3.Row) -> dict[str, Any]:
+def _flat(row: Mapping[str, Any]) -> dict[str, Any]:
     """A row with what a sweep varied after the stepper, and the answer's numbers and words after the reason."""
     values = dict(row)
-    parsed = {name: json.loads(values.pop(name)) for name in JSON_COLUMNS}
+    parsed = {name: json.loads(values.pop(name) or "null") for name in JSON_COLUMNS}
     flat = {name: values[name] for name in COLUMNS[:3]} | (parsed["parameters"] or {})
     flat |= {name: values[name] for name in COLUMNS[3:]}
     if isinstance(parsed["answer"], dict):

@@ -21,6 +21,7 @@ import numpy as np
 
 from experiments.runs.environment import environment
 from experiments.runs.result_codec import arrays_of, decode, encode
+from experiments.runs.stored_rows import ARRAYS_FILE, COLUMN_TYPES, JSON_COLUMNS, TROUBLE, as_text, damage
 from experiments.runs.task import Task, digest
 from reference.errors import InputError
 from reference.outcome import Outcome
@@ -52,8 +53,9 @@ PRAGMA user_version = {FORMAT};
 #: What the system calls a place where nothing can be written.
 NO_PLACE = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR)
 
-#: Columns that hold JSON.
-JSON_COLUMNS = ("settings", "parameters", "answer")
+
+#: What to do about a store of which only a part can be read.
+SALVAGE = "`springlab results --salvage NEW` takes over what can be read"
 
 
 class StoreError(InputError):
@@ -73,6 +75,9 @@ class Store:
     Args:
         file: the SQLite file; arrays go into a folder `arrays` beside it.
 
+    Attributes:
+        remarks: a line for each row that was found damaged, and is run again.
+
     Raises:
         StoreError: if it cannot be written, is no store, or a newer springlab's. So do all methods, and for a full disk
             or another springlab that does not stop writing: what was kept stays kept.
@@ -80,6 +85,7 @@ class Store:
 
     def __init__(self, file: Path) -> None:
         self.file = file
+        self.remarks: list[str] = []
         self._arrays = file.parent / "arrays"
         self._lock = threading.Lock()
         with self._said():
@@ -97,12 +103,23 @@ class Store:
             row = self._current(task)
         if row is None:
             return None
-        document = json.loads(row["answer"])
-        arrays = read_arrays(self._arrays, row["arrays"], arrays_of(document))
-        if arrays is None:
+        found, why = self._read(row)
+        if found is None:
             self.retire([task.key])
-            return None
-        return Stored(decode(document, arrays))
+        if why:
+            self.remarks.append(f"store {self.file}: the run {task.key[:12]} is damaged ({why}), and is run again")
+        return found
+
+    def _read(self, row: Mapping[str, Any]) -> tuple[Stored | None, str]:
+        """The answer in a row; None where its arrays are gone, or it is damaged, and then why."""
+        if why := damage(row):
+            return None, why
+        document = json.loads(row["answer"])
+        try:
+            arrays = read_arrays(self._arrays, row["arrays"], arrays_of(document))
+            return (None if arrays is None else Stored(decode(document, arrays))), ""
+        except (KeyError, TypeError, ValueError, AttributeError, RecursionError):
+            return None, "its answer is none"
 
     def keep(self, task: Task, answer: Any, seconds: float) -> None:
         """Keep a task's answer and how long it took [s]; where another springlab has just kept one, let that be."""
@@ -126,7 +143,7 @@ class Store:
             if self._current(task) is not None:
                 return
             (columns["generation"],) = self._sql.execute(
-                "SELECT COUNT(*) FROM runs WHERE key = ?", [task.key]
+                "SELECT COALESCE(MAX(CAST(generation AS INTEGER)) + 1, 0) FROM runs WHERE key = ?", [task.key]
             ).fetchone()
             columns["arrays"] = self._write(f"{task.key}-{columns['generation']}", arrays) if arrays else None
             self._sql.execute("UPDATE runs SET retired = 1 WHERE question = ?", [task.question])
@@ -145,7 +162,7 @@ class Store:
 
     def _open(self) -> None:
         """Make what is missing, and remove what a killed springlab was writing: arrays are written by one at a time."""
-        self._sql.row_factory = sqlite3.Row
+        self._sql.row_factory, self._sql.text_factory = sqlite3.Row, as_text
         document = environment()
         del document["date"]
         self._environment = digest(document)
@@ -159,15 +176,15 @@ class Store:
             for half in self._arrays.glob("*.half"):
                 half.unlink()
 
-    def _current(self, task: Task) -> sqlite3.Row | None:
+    def _current(self, task: Task) -> dict[str, Any] | None:
         """The row that holds for a task: what was stopped at other limits than its own does not."""
-        row: sqlite3.Row | None = self._sql.execute(
+        row = self._sql.execute(
             "SELECT * FROM runs WHERE key = ? AND NOT retired ORDER BY generation DESC LIMIT 1", [task.key]
         ).fetchone()
         if row is None:
             return None
         other_limits = (row["time_limit"], row["memory_limit"]) != (task.time_limit, task.memory_limit)
-        return None if row["outcome"] in ("timed out", "crashed") and other_limits else row
+        return None if row["outcome"] in ("timed out", "crashed") and other_limits else dict(row)
 
     def _write(self, name: str, arrays: Mapping[str, Array]) -> str:
         """Arrays into a file, there whole or not at all. Its path from the folder of arrays."""
@@ -196,8 +213,8 @@ class Store:
         """What SQLite and the disk have to say, in one line."""
         try:
             yield
-        except (sqlite3.Error, OSError) as error:
-            raise StoreError(f"store {self.file}: {_in_words(error)}") from None
+        except (sqlite3.Error, UnicodeError, OSError) as error:
+            raise StoreError(f"store {self.file}: {in_words(error)}") from None
 
 
 def check_format(file: Path, sql: sqlite3.Connection) -> bool:
@@ -208,7 +225,38 @@ def check_format(file: Path, sql: sqlite3.Connection) -> bool:
         raise StoreError(f"store {file}: is no store of springlab's (it has a table {min(tables)!r})")
     if found > FORMAT:
         raise StoreError(f"store {file}: written by a newer springlab, in format {found}; expected {FORMAT} or less")
-    return "runs" in tables
+    if "runs" not in tables:
+        return False
+    columns = {name for (_, name, *_) in sql.execute("PRAGMA table_info(runs)")}
+    for name in COLUMN_TYPES:
+        if name not in columns:
+            raise StoreError(f"store {file}: its runs have no column {name!r}; {SALVAGE}")
+    return True
+
+
+def opened_to_read(store: Path) -> sqlite3.Connection:
+    """A store, opened for reading only; with rows by name.
+
+    Raises:
+        StoreError: where there is none, or it is no store, or cannot be read.
+    """
+    if not store.is_file():
+        raise StoreError(f"store {store}: there is none; `springlab run` and `springlab sweep` make one")
+    # In a folder that cannot be written, a store can be read only if nobody is writing to it, which is then for sure.
+    problem = None
+    for how in ("mode=ro", "immutable=1"):
+        sql = sqlite3.connect(f"{store.resolve().as_uri()}?{how}", uri=True)
+        sql.row_factory = sqlite3.Row
+        try:
+            sql.execute("SELECT name FROM sqlite_master").fetchall()
+            return sql
+        except sqlite3.OperationalError as error:
+            problem = error
+        except TROUBLE as error:
+            sql.close()
+            raise StoreError(f"store {store}: {in_words(error)}") from None
+        sql.close()
+    raise StoreError(f"store {store}: cannot be read ({problem})")
 
 
 def read_arrays(folder: Path, path: str | None, names: Set[str] | None = None) -> dict[str, Array] | None:
@@ -219,6 +267,8 @@ def read_arrays(folder: Path, path: str | None, names: Set[str] | None = None) -
     """
     if path is None:
         return {}
+    if not ARRAYS_FILE.fullmatch(path):
+        return None
     try:
         with (folder / path).open("rb") as file, np.load(file) as opened:
             found = dict(opened)
@@ -234,7 +284,8 @@ def outcome_of_answer(answer: Any) -> Outcome:
     return answer if isinstance(answer, Outcome) else Outcome("done")
 
 
-def _in_words(error: Exception) -> str:
+def in_words(error: Exception) -> str:
+    """What SQLite or the disk has to say, and what to do."""
     text = getattr(error, "strerror", None) or str(error)  # without the file's name, which might say "full"
     if "full" in text or getattr(error, "errno", None) in (errno.ENOSPC, errno.EDQUOT):
         return "the disk is full; what was kept is safe: make room, and run the same command again"
@@ -242,6 +293,6 @@ def _in_words(error: Exception) -> str:
         return "cannot be written; expected a folder to write in, or another place by --store"
     if "locked" in text:
         return f"another springlab has been writing to it for {PATIENCE:g} s; run the same command again later"
-    if "not a database" in text or "malformed" in text:
-        return f"is damaged, or no store of springlab's ({text})"
+    if "not a database" in text or "malformed" in text or isinstance(error, UnicodeError):
+        return f"is damaged, or no store of springlab's ({text}); {SALVAGE}"
     return text

@@ -18,9 +18,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from reference.errors import InputError
 from reference.files.regular_file import check_file
+from reference.files.vtk_counts import check_vtk_counts
 from reference.state import Array
 from reference.system import IntArray
 
@@ -162,10 +164,12 @@ def _read_vtk(path: Path) -> Any:
     """Only with elements: a grid without them can be larger, by a few numbers, than any memory."""
     import meshio
 
-    for kind in re.findall(rb"^\s*DATASET\s+(\S*)", path.read_bytes(), re.IGNORECASE | re.MULTILINE):
+    content = path.read_bytes()
+    for kind in re.findall(rb"^\s*DATASET\s+(\S*)", content, re.IGNORECASE | re.MULTILINE):
         if kind.upper() != b"UNSTRUCTURED_GRID":
             other = kind.decode(errors="replace")
             raise InputError(f"DATASET {other!r}: expected UNSTRUCTURED_GRID; ParaView can save it as such, or as .vtu")
+    check_vtk_counts(content)
     return meshio.vtk.read(path)
 
 
@@ -194,6 +198,11 @@ def _positions(points: Any, first_vertex: int) -> Array:
     return positions
 
 
+def _whole(corners: npt.NDArray[Any]) -> bool:
+    """Whether they are whole numbers; in a file of the next version they may be of any type."""
+    return corners.dtype.kind != "f" or bool((np.isfinite(corners) & (corners == np.floor(corners))).all())
+
+
 def _blocks(cells: Any) -> list[_Block]:
     blocks, first = [], 1
     for block in cells:
@@ -203,7 +212,7 @@ def _blocks(cells: Any) -> list[_Block]:
         if block.type != "polygon" and block.type not in EDGES:
             known = ", ".join([*EDGES, "polygon"])
             raise InputError(f"element {first} is of the kind {block.type}: expected one of {known}")
-        if corners.ndim != 2 or corners.size == 0:
+        if corners.ndim != 2 or corners.size == 0 or not _whole(corners):
             raise InputError(f"element {first}: expected the numbers of its vertices")
         blocks.append(_Block(block.type, corners, first))
         first += len(corners)
@@ -234,8 +243,8 @@ def _check(block: _Block, positions: Array, first_vertex: int) -> None:
 
 
 def _check_extent(block: _Block, positions: Array, first_vertex: int) -> None:
-    corners = block.corners
-    pairs = corners[:, block.edges].astype(np.int64)
+    corners = block.corners.astype(np.int64)
+    pairs = corners[:, block.edges]
     with np.errstate(over="ignore"):
         lengths = np.linalg.norm(positions[pairs[:, :, 1]] - positions[pairs[:, :, 0]], axis=2)
     if not np.isfinite(lengths).all():

@@ -15,10 +15,11 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 import numpy as np
 
 from reference.changes import Change, Driven, changes_by_step, whole_steps
+from reference.checked_numbers import check_sizes
 from reference.errors import InputError, unknown_name
 from reference.registry import Registry
 from reference.scenes.parameters import PerItem, chosen, converted
-from reference.system import MassSpringSystem
+from reference.system import ABOVE_ZERO, MassSpringSystem
 
 
 @dataclass(frozen=True)
@@ -142,12 +143,14 @@ class Setup:
     def check(self) -> None:
         """Refuse now what would only be met midway in a run, or never. Raises InputError."""
         steps = self.steps
+        self.system.check_sizes()
         changes_by_step(self.changes, self.dt)
         for change in self.changes:
             if change.step(self.dt) >= steps:
                 last = f"{(steps - 1) * self.dt:.6g} s, when the last step begins"
                 raise InputError(f"change of {change.parameter} at {change.time:g} s: expected at most {last}")
             self.system.with_parameter(change.parameter, change.value)
+            check_sizes(change.parameter, change.value, divided_by=change.parameter in ABOVE_ZERO)
 
 
 #: Where the scenes stand, in the order they are shown.

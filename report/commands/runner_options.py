@@ -74,3 +74,5 @@ def chosen_runner(resume: bool, store: Path, jobs: int | None = None, cluster: s
             raise click.exceptions.Exit(INTERRUPTED) from None
         finally:
             executor.stop()
+            for remark in kept.remarks:
+                say(f"springlab: {remark}")

@@ -243,7 +243,8 @@ class Controls:
 
     def _reopen(self) -> None:
         """The scene with the settings there are on the panel; only those that are not its own are set."""
-        scene = self._scene.value
+        # not the menu's, where another one may have been chosen that is still to be opened
+        scene = self._host.lab.timeline.opened.name
         own = {**scenes.counts(scene), **{name: words[0] for name, words in scenes.words(scene).items()}}
         settings = {name: str(part.value) for name, part in self._scene_settings.items()}
         changed = {name: value for name, value in settings.items() if value != str(own[name])}

@@ -221,7 +221,8 @@ class Page:
         try:
             seen = self._client.get_render(camera.image_height, camera.image_width, timeout=10.0)
         except Exception as error:  # what a viewer sends need not be a picture: then nobody gets one
-            self.say(f"There is no picture: {error}")
+            if not self._ended.is_set():
+                self.say(f"There is no picture: {error}")
             return
         file = BytesIO()
         Image.fromarray(seen).save(file, "PNG")

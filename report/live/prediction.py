@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reference.errors import SolverError
+from reference.errors import InputError, SolverError
 from reference.schemes.catalogue import Scheme
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
@@ -76,12 +76,12 @@ def predict(name: str, system: MassSpringSystem, dt: float) -> Prediction:
     if coordinates > MOST:
         return Prediction(None, f"not looked for, of {coordinates} coordinates; `stability` does", np.nan, scheme.name)
     if contacts:
-        with suppress(SolverError):
+        with suppress(SolverError, InputError, ArithmeticError):
             return _about(equilibrium_on_obstacles(still)[0], scheme, dt, coordinates)
     try:
         rest = spring_equilibrium(replace(still, obstacles=()))
         return _about(rest, scheme, dt, coordinates)
-    except (SolverError, np.linalg.LinAlgError) as error:
+    except (SolverError, InputError, ArithmeticError, np.linalg.LinAlgError) as error:
         return Prediction(None, str(error), np.nan, scheme.name)
 
 

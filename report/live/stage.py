@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -102,8 +103,9 @@ class Stage:
         for i, (state, shift) in enumerate(zip(states, shifts, strict=True)):
             self._build_lane(system, state, i, shift)
         seen = self._client.camera
-        seen.up_direction = (0.0, 1.0, 0.0)
-        seen.position, seen.look_at = camera(system, shifts, window)
+        with suppress(ValueError):  # from where a viewer looks at nothing, as their page has said, it is left there
+            seen.up_direction = (0.0, 1.0, 0.0)
+            seen.position, seen.look_at = camera(system, shifts, window)
 
     def _build_lane(self, system: MassSpringSystem, state: State, i: int, shift: Array) -> None:
         """Springs, masses and obstacles of lane i, moved by a shift (3,) [m]."""

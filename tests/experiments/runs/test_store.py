@@ -159,7 +159,10 @@ def test_a_file_that_is_no_database_is_let_be(tmp_path: Path) -> None:
     """A text file, say."""
     file = tmp_path / "notes.txt"
     file.write_text("not a database\n" * 100)
-    assert refusal(file) == "is damaged, or no store of springlab's (file is not a database)"
+    assert refusal(file) == (
+        "is damaged, or no store of springlab's (file is not a database); `springlab results --salvage NEW` takes over "
+        "what can be read"
+    )
 
 
 def test_a_database_of_another_programs_is_let_be(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import struct
 from contextlib import redirect_stdout
 from pathlib import Path
 
@@ -150,7 +151,27 @@ BAD_BLOCKS = {
     ),
     "cut short": (BLOCK[: BLOCK.index("4 1 2")], "expected a mesh in the format .vtk: "),
     "more vertices than there are": (BLOCK.replace("POINTS 5", "POINTS 6"), "expected a mesh in the format .vtk: "),
-    "more than any memory": (BLOCK.replace("POINTS 5", "POINTS 5000000000000"), "expected a mesh in the format .vtk: "),
+    "more than any memory": (
+        BLOCK.replace("POINTS 5", "POINTS 5000000000000"),
+        "POINTS announces 5,000,000,000,000 numbers: expected at most",
+    ),
+    "more elements than its bytes": (BLOCK.replace("CELLS 2 10", "CELLS 2 100000"), "CELLS announces 100,000 numbers"),
+    "an element of more corners": (
+        BLOCK.replace("4 1 2 3 4\n", "4000000000 1 2 3 4\n").replace("\n10\n10", "\n7\n7"),
+        "CELLS has the number 4000000000: expected at most",
+    ),
+    "an element of more corners in binary": (
+        BINARY_BLOCK.replace(struct.pack(">i", 4), struct.pack(">i", 2**30), 1),
+        "CELLS has the number 1073741824: expected at most",
+    ),
+    "a field beyond all": (
+        BLOCK + "POINT_DATA 5\nFIELD more 1\nheat 1000000 5 double\n1 2 3 4 5\n",
+        "a field announces 1,000,000 numbers: expected at most",
+    ),
+    "corners that are no whole numbers": (
+        NEXT_BLOCK.replace("CONNECTIVITY vtktypeint64\n0 1 2 3", "CONNECTIVITY double\n0 1 2 2.5"),
+        "element 1: expected the numbers of its vertices",
+    ),
     "a grid of numbers": (
         BLOCK.replace("UNSTRUCTURED_GRID", "STRUCTURED_POINTS"),
         "DATASET 'STRUCTURED_POINTS': expected UNSTRUCTURED_GRID",

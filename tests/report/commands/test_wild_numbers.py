@@ -21,8 +21,8 @@ LINES = [
     ("--dt 5e-324 --duration 1e-323", "dt = 4.94066e-324: expected a number from 1e-100 to 1e+100 [s]"),
     ("--duration 1e308", "duration = 1e+308: expected a number from 1e-100 to 1e+100 [s]"),
     ("--change 1e308:stiffness=1", "change of stiffness at 1e+308 s: expected at most 0.499 s"),
-    ("--change 5e-324:stiffness=1e308", "stiffness = 1e+308: expected a number of at most 1e+50 [N/m]"),
-    ("--change 0:mass=5e-324", "mass = 4.94066e-324: expected a number of at least 1e-50 [kg]"),
+    ("--change 5e-324:stiffness=1e308", "stiffness = 1e+308: expected a number of at most 1e+50"),
+    ("--change 0:mass=5e-324", "mass = 4.94066e-324: expected a number of at least 1e-50"),
     ("--set mass=5e-324", "mass = 4.94066e-324: expected a number of at least 1e-50 [kg]"),
     ("--set stiffness=1e308", "stiffness = 1e+308: expected a number of at most 1e+50 [N/m]"),
     ("--set masses=1e300", "masses = 1e+300: expected a number of at most 1e+50"),
@@ -40,11 +40,11 @@ def test_wild_numbers_are_one_clear_line(words: str, text: str) -> None:
     "words",
     ["--set stiffness=1e40", "--set mass=1e-40", "--dt 1e80 --duration 1e80", "--set stiffness=1e12"],
 )
-def test_a_motion_that_nobody_can_follow_is_a_line_and_not_without_end(words: str) -> None:
-    """The solver of the true motion sees after some hundred steps that it will not come to the end."""
+def test_where_nobody_can_follow_the_true_motion_the_runs_are_shown_without(words: str) -> None:
+    """Its solver sees after some hundred steps that it will not come to the end."""
     said = springlab("compare", "string", "--stepper", "heun", *words.split())
-    assert said.err.startswith("springlab: no exact solution: ")
-    assert (said.code, said.err.count("\n")) == (1, 1)
+    assert (said.code, said.err) == (0, "")
+    assert "No error is known: no exact solution: " in said.out
 
 
 def test_a_sweep_s_runs_are_counted_before_they_are_made() -> None:

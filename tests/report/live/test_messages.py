@@ -21,6 +21,7 @@ WRONG_VALUES: list[tuple[str, Any, str]] = [
     ("dt [ms]", 1e300, "dt = 1e+297: expected a number from 1e-12 to 1000 [s]"),
     ("dt [ms]", "1", "dt [ms] = '1': expected a finite number"),
     ("stiffness [N/m]", -1.0, "stiffness"),
+    ("stiffness [N/m]", 1e308, "stiffness = 1e+308: expected a number of at most 1e+50 [N/m]"),
     ("as on slide", "99", "as on slide = '99': expected one of 13, 14, 15, 16"),
     ("as on", "Pluto", "as on = 'Pluto': expected one of Earth, Moon, Jupiter"),
     ("scene", "x" * 300, "scene = 'xxxxxx"),
@@ -66,9 +67,9 @@ def test_a_wrong_value_is_a_notice_and_the_page_lives_on(
 
 
 def test_a_stiffness_that_no_dt_is_stable_for_blows_up_and_can_be_taken_back(lab: LiveServer, guest: Guest) -> None:
-    """As large as a float can be."""
+    """As large as it may be; beyond that it is refused."""
     (page,) = lab.pages.values()
-    guest.set("stiffness [N/m]", 1e308)
+    guest.set("stiffness [N/m]", 1e40)
     guest.once(lambda: not page.lab.playing)
     guest.set("stiffness [N/m]", 200.0)
     guest.set("", "Play")
@@ -143,3 +144,26 @@ def test_several_numbers_have_to_be_as_many_as_before() -> None:
     assert complaint(part, [3]) == "slider = [3]: expected 2 numbers"
     assert complaint(part, [3, 401]) == "slider = [3, 401]: expected a number from 0 to 400"
     assert complaint(part, [3, True]) == "slider = [3, True]: expected a number from 0 to 400"
+
+
+def test_a_viewer_who_looks_at_nothing_sees_another_scene_too(lab: LiveServer, guest: Guest) -> None:
+    """Where a camera is in the place that it looks at, it has no direction."""
+    (page,) = lab.pages.values()
+    guest.send(**{**CAMERA, "position": [0.0, 0.0, 0.0]})
+    guest.set("scene", "spring")
+    guest.once(lambda: page.lab.timeline.opened.name == "spring" and page.lab.timeline.time > 0)
+    guest.send(**CAMERA)
+
+
+def test_a_part_of_the_scene_before_is_no_mistake(lab: LiveServer, guest: Guest) -> None:
+    """It is set while another scene is still to be opened, which has other parameters."""
+    (page,) = lab.pages.values()
+    guest.set("scene", "string")
+    guest.once(lambda: page.lab.timeline.opened.name == "string")
+    frames = page.frames
+    guest.once(lambda: page.frames > frames + 2)  # and all is drawn anew
+    guest.notices.clear()
+    guest.set("scene", "oscillator")
+    guest.set("barrier in the way", True)
+    guest.once(lambda: page.lab.timeline.opened.name == "oscillator" and page.lab.timeline.time > 0)
+    assert not guest.notices
