@@ -9,7 +9,7 @@ from random import Random
 from typing import Any, Protocol, cast
 
 #: The doors, each a module of that name with a `make` and an `opened`.
-DOORS = ("live_message", "scene_file", "mesh_file", "command_line", "store")
+DOORS = ("live_message", "scene_file", "mesh_file", "command_line", "store", "submission_reply")
 
 
 class Enter(Protocol):
