@@ -22,6 +22,10 @@ ANNOUNCED = re.compile(
 CELLS = re.compile(rb"^[ \t]*CELLS[ \t]+(\d+)[ \t]+(\d+)[^\n]*\n", re.IGNORECASE | re.MULTILINE)
 BINARY = re.compile(rb"[^\n]*\n[^\n]*\n\s*BINARY", re.IGNORECASE)
 
+#: In files from version 5 on: where each element begins, then all corners, each of eight bytes in a binary file.
+OFFSETS = re.compile(rb"\s*OFFSETS[ \t]+\w+[ \t]*\n", re.IGNORECASE)
+CONNECTIVITY = re.compile(rb"\n?CONNECTIVITY[ \t]+\w+[ \t]*\n", re.IGNORECASE)
+
 
 def check_vtk_counts(content: bytes) -> None:
     """Refuse a file that announces more than it can hold, or elements of more corners. Raises InputError."""
@@ -42,10 +46,18 @@ def _corners(content: bytes) -> Array:
         return np.zeros(0)
     after = content[line.end() :]
     if BINARY.match(content):
-        return np.frombuffer(after[: len(after) // 4 * 4], ">i4", count=min(int(line[2]), len(after) // 4)).astype(
-            float
-        )
+        offsets, corners = OFFSETS.match(after), CONNECTIVITY.search(after)
+        if offsets and corners:
+            begins = _whole(after[offsets.end() :], ">i8", int(line[1]))
+            return np.concatenate([begins, _whole(after[corners.end() :], ">i8", int(line[2]))])
+        return _whole(after, ">i4", int(line[2]))
     text = re.match(rb"[^A-Za-z]*", after)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # what is no number is said by who reads it
         return np.fromstring((text[0] if text else b"").decode("latin-1"), sep=" ")
+
+
+def _whole(content: bytes, kind: str, count: int) -> Array:
+    """So many whole numbers, or as many as there are."""
+    size = np.dtype(kind).itemsize
+    return np.frombuffer(content[: len(content) // size * size], kind, min(count, len(content) // size)).astype(float)

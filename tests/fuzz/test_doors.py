@@ -19,7 +19,14 @@ from tests.fuzz.doors import DOORS, Enter, door
 from tests.fuzz.runner import inputs, run
 
 #: Inputs of each door in the ordinary tests: some seconds of them.
-FEW = {"live_message": 200, "scene_file": 200, "mesh_file": 200, "command_line": 60, "store": 30}
+FEW = {
+    "live_message": 200,
+    "scene_file": 200,
+    "mesh_file": 200,
+    "command_line": 60,
+    "store": 30,
+    "submission_reply": 200,
+}
 
 
 @pytest.mark.parametrize("name", DOORS)
