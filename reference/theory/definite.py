@@ -113,7 +113,10 @@ class Definiteness:
     def first_limit(self, last: float = np.inf) -> float:
         """The dt [s] up to which S is not negative; infinite where that is beyond the last dt to look at [s]."""
         if not self.in_proportion:
-            return self._march(last)
+            marched = (self.scheme, self.unit, last)
+            if marched not in self.linear.known_limits:
+                self.linear.known_limits[marched] = self._march(last)
+            return self.linear.known_limits[marched]
         # without damping many schemes have one and the same S
         parts = [np.round(part / self.linear.mass.max(), 12).tobytes() for part in self.damping_part(self.unit)]
         key = (self.unit, self.stiffness_part, *parts)
