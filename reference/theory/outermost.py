@@ -74,7 +74,7 @@ class Outermost:
 
     def _stepped(self, moves: Array, dt: float) -> tuple[Array, Array]:
         """The states that have such positions or such velocities, and what a step makes of them, by roots of masses."""
-        whole: Array = np.kron(np.eye(2), moves)
+        whole = np.asarray(np.kron(np.eye(2), moves), dtype=np.float64)
         return whole, self._root * self._step(dt, whole / self._root)
 
     def _missing(self, left: Array) -> Array:
