@@ -172,7 +172,11 @@ class Definiteness:
         return self.linear.scaled(self.linear.along_springs(springs) + self.linear.on_masses(masses))
 
     def _made(self, dt: float) -> DampingInStep:
-        return damping_in_step(self.scheme, self.linear, dt)
+        return self._made_of_unit if dt == self.unit else damping_in_step(self.scheme, self.linear, dt)
+
+    @cached_property
+    def _made_of_unit(self) -> DampingInStep:
+        return damping_in_step(self.scheme, self.linear, self.unit)
 
 
 #: Of a direction q: the constant, linear and square coefficients of q* S(x) q.
