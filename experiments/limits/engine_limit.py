@@ -29,6 +29,7 @@ from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium
 from reference.theory.layout import layout_of
 from reference.theory.measured_mode import WHOLE_UP_TO, FastestMode, fastest_mode_of_step
+from reference.theory.parts import falling_velocities
 from reference.theory.rates import Rates
 
 #: Limits are found to this part of themselves.
@@ -134,7 +135,8 @@ class _Watched:
         if any(run is None for run in runs):
             return None
         positions = self.rest.state.positions
-        at_rest = replace(self.predictions.system, positions=positions, velocities=np.zeros_like(positions))
+        system = self.predictions.system
+        at_rest = replace(system, positions=positions, velocities=falling_velocities(system))
         limit, engine = 2 * self.stepper.time_limit, self.stepper.engine
         answer = self.stepper.isolate(growths_along_modes, engine, at_rest, runs, time_limit=limit)
         return answer if isinstance(answer, Outcome) else answer["growth"].tolist()
