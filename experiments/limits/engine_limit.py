@@ -44,6 +44,9 @@ LADDER = (-1000, -300, -100, -10, -1, 0, 1, 2, 10, 100, 300, 1000)
 MARGIN = {"double": 2e-8, "single": 2e-4}
 SIZE = {"double": PERTURBATION, "single": 1e-3}
 
+#: Growth so many times as large is told from none for certain.
+CERTAIN = 3.0
+
 #: Where growth at any dt is predicted, an engine is run at these parts of the fastest mode's 1/w.
 TRIED = (0.1, 1.0)
 
@@ -104,7 +107,7 @@ def _along_modes(
     if not predicted.exact:
         return None
     above = fastest_mode(scheme, rest, (1 + PRECISION) * predicted.dt, found)
-    if above is not None and above.growth < margin:
+    if above is not None and above.growth < CERTAIN * margin:
         beyond = f"growth at {1 + PRECISION:g} of the predicted limit is {above.growth:.1g} a step"
         return Limit(None, f"not measured: {beyond}, too slow for a run of {MODE_STEPS} steps")
     below = floor(log(predicted.dt) / log1p(PRECISION))
