@@ -83,7 +83,7 @@ def growths_along_modes(engine: Engine, rest: MassSpringSystem, runs: Sequence[M
     """The "growth" of a mode in a step of an engine, in each of the runs; NaN where it tells no velocities.
 
     Args:
-        rest: the system at rest. What nothing holds falls: a run from rest is subtracted from each.
+        rest: the system at rest, or falling steadily: then a run from there is subtracted from each.
     """
     try:
         return {"growth": np.array([_growth_along(engine, rest, run) for run in runs])}
@@ -92,9 +92,9 @@ def growths_along_modes(engine: Engine, rest: MassSpringSystem, runs: Sequence[M
 
 
 def _growth_along(engine: Engine, rest: MassSpringSystem, run: ModeRun) -> float:
-    positions, velocities = rest.positions + run.positions, run.velocities
+    positions, velocities = rest.positions + run.positions, rest.velocities + run.velocities
     moved = started(engine, replace(rest, positions=positions, velocities=velocities), run.dt)
-    still = started(engine, rest, run.dt) if not rest.fixed.any() else None
+    still = started(engine, rest, run.dt) if falls(rest) else None
     free, size = ~rest.fixed, float(np.abs(run.positions).max())
     offsets = [_offset(run.positions, run.velocities, run.dt, free)]
     for _ in range(MODE_STEPS):
@@ -108,6 +108,15 @@ def _growth_along(engine: Engine, rest: MassSpringSystem, run: ModeRun) -> float
         if not np.abs(x - base_x).max() <= GROWN * size:
             break
     return mode_growth(np.array(offsets), run.left)
+
+
+def falls(system: MassSpringSystem) -> bool:
+    """Whether a mass that springs do not join to a fixed one is pulled anywhere: there is weight."""
+    held, (a, b) = system.fixed.copy(), system.springs[system.stiffness > 0].T
+    for _ in range(len(held)):
+        joined = held[a] | held[b]
+        held[a[joined]] = held[b[joined]] = True
+    return bool(system.gravity.any() and not held.all())
 
 
 def _offset(x: Array, v: Array, dt: float, free: BoolArray) -> Array:
@@ -127,11 +136,14 @@ def growths_of_engine(
 def growth_of_engine(engine: Engine, rest: Array, perturbed: MassSpringSystem, dt: float, steps: int) -> float:
     """What becomes of a perturbation in an engine, per step."""
     simulation = started(engine, perturbed, dt)
+    still = started(engine, replace(perturbed, positions=rest), dt) if falls(perturbed) else None
     offsets = [perturbed.positions - rest]
     far = GROWN * np.linalg.norm(offsets[0])
     for _ in range(steps):
         simulation.step()
-        offsets.append(simulation.state()[0] - rest)
+        if still is not None:
+            still.step()
+        offsets.append(simulation.state()[0] - (rest if still is None else still.state()[0]))
         if not np.linalg.norm(offsets[-1]) <= far:  # nor where it is not finite: the rest would say no more
             break
     return random_growth(np.array(offsets))

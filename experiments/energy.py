@@ -247,8 +247,9 @@ def _exceptions(rows: Sequence[Row]) -> list[str]:
                 continue
             on_rods = all(row.scheme and row.scheme.equations is PendulumMotion for row in found)
             why = (
-                " The prediction is for small swings; in large ones a pendulum's angular accelerations depend on its "
-                "velocities, and to such equations semi-implicit steps are not symplectic."
+                " These really drift: the prediction is for small swings, and in large ones the mass matrix of a "
+                "pendulum's angles depends on the angles, so that accelerations depend on velocities; to such "
+                "equations kick-drift, drift-kick and Verlet are not symplectic."
                 if on_rods and predicted == "bounded"
                 else ""
             )

@@ -15,6 +15,7 @@ from experiments.runs.progress import Progress
 from reference.identification import identify
 from reference.lecture.listings import Links, StringConstants, derivatives, force_from_next, listings
 from reference.lecture.slide_17 import CircleAsMeant, CircleAsPrinted
+from reference.limit import Limit
 from reference.scenes import find
 from reference.schemes import catalogue
 from reference.simulate import simulate
@@ -64,12 +65,14 @@ def _findings(remarks: list[Remark]) -> list[str]:
     value = {measured: number for _, _, measured, number, _ in remarks}
     apart = value["distance from slide 7, 500 steps"]
     wrong, right = value["order of heun_link_by_link"], value["order of heun"]
-    larger = value["largest stable dt, heun_link_by_link"] / value["largest stable dt, heun"]
+    stable = [value.get(f"largest stable dt, {name}") for name in ("heun_link_by_link", "heun")]
+    longer = ""
+    if stable[0] and stable[1]:
+        longer = f" It is also stable up to {stable[0] / stable[1]:.2f} times the dt: stable is not accurate."
     return [
         f"Slide 11's listing is better than its heading: run as printed it is {apart:g} m from slide 7's. Each of "
         "its loops reads one array and writes another.",
-        f"What the slide warns of is real: Heun link by link has order {wrong:.2f} where Heun has {right:.2f}. "
-        f"It is also stable up to {larger:.2f} times the dt: stable is not accurate.",
+        f"What the slide warns of is real: Heun link by link has order {wrong:.2f} where Heun has {right:.2f}.{longer}",
         "Slide 17 multiplies components where a projection is meant, slide 4's force from the next node has the sign "
         "of D0 turned, and slide 9's function closes after its first spring; each has a one-line remedy.",
     ]
@@ -112,10 +115,16 @@ def _in_place_variants(orders: dict[str, tuple[list[float], list[float], float]]
     rows: list[Remark] = []
     for name, (_, _, order) in orders.items():
         progress(f"stability of {name}")
-        stable = stability_limit(catalogue.find(name), rest).dt or 0.0
         rows.append(("7-11", what, f"order of {name}", order, ""))
-        rows.append(("7-11", what, f"largest stable dt, {name}", stable, "s"))
+        rows.append(("7-11", what, *stability_remark(name, stability_limit(catalogue.find(name), rest))))
     return rows
+
+
+def stability_remark(name: str, limit: Limit) -> tuple[str, float, str]:
+    """What is said of a scheme's limit, its value and unit; where it has none, how much grows in a step."""
+    if limit.dt is not None:
+        return f"largest stable dt, {name}", limit.dt, "s"
+    return f"growth in a step of {name}, {limit.reason}", limit.growth or 0.0, "1"
 
 
 def _barrier() -> tuple[Array, Array, Array]:

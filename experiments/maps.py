@@ -57,15 +57,22 @@ def result_of(maps: Sequence[StabilityMap], failures: Sequence[str] = ()) -> Res
 
 
 def predicted_unstable(found: StabilityMap) -> Array:
-    """Which points lie beyond the predicted limit; all, where no limit is predicted."""
-    if not len(found.boundary):
-        return np.ones(found.growth.shape, dtype=bool)
-    limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])
+    """Which points lie beyond the predicted limit, the one at the next value that it is known at, or between two."""
+    limits, values = found.boundary.T
+    nearest = limits[np.abs(found.y_values[:, None] - values).argmin(axis=1)]
+    with np.errstate(invalid="ignore"):
+        between = np.interp(found.y_values, values, limits)
+    limit = np.where(np.isfinite(between) & np.isfinite(nearest) & (nearest > 0), between, nearest)
     return np.asarray(found.x_values[None, :] > limit[:, None])
 
 
 def agreement(found: StabilityMap) -> float | None:
-    """The part of the surely measured points, growing or not, that lie on the side of the boundary they should."""
+    """The part of the surely measured points, growing or not, that lie on the side of the boundary they should.
+
+    None where nothing is predicted, or nothing is sure.
+    """
+    if not len(found.boundary):
+        return None
     growing = found.growth > SURE
     calm = found.growth < 0.1 * SURE
     sure = (growing | calm) & np.isfinite(np.where(growing, 0.0, found.growth))
@@ -74,8 +81,8 @@ def agreement(found: StabilityMap) -> float | None:
     return float((growing == predicted_unstable(found))[sure].mean())
 
 
-def _beyond(found: StabilityMap) -> float:
-    return float(predicted_unstable(found).mean())
+def _beyond(found: StabilityMap) -> float | None:
+    return float(predicted_unstable(found).mean()) if len(found.boundary) else None
 
 
 def _findings(maps: Sequence[StabilityMap]) -> list[str]:

@@ -8,13 +8,13 @@ started so, a random perturbation is watched in longer runs, from short steps on
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import floor, log, log1p, sqrt
 
 import numpy as np
 
 from engines.engine import precision as precision_of
-from engines.measured_limit import ModeRun, growths_along_modes, limit_of_engine
+from engines.measured_limit import MODE_STEPS, ModeRun, growths_along_modes, limit_of_engine
 from engines.process.isolation import EngineStepper
 from experiments.limits.perturbed import perturbed, rest_of_engine
 from experiments.limits.predictions import Predictions
@@ -28,7 +28,8 @@ from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium
 from reference.theory.layout import layout_of
-from reference.theory.measured_mode import WHOLE_UP_TO, fastest_mode_of_step
+from reference.theory.measured_mode import WHOLE_UP_TO, FastestMode, fastest_mode_of_step
+from reference.theory.parts import falling_velocities
 from reference.theory.rates import Rates
 
 #: Limits are found to this part of themselves.
@@ -42,6 +43,12 @@ LADDER = (-1000, -300, -100, -10, -1, 0, 1, 2, 10, 100, 300, 1000)
 #: shortest spring: in double and in single precision.
 MARGIN = {"double": 2e-8, "single": 2e-4}
 SIZE = {"double": PERTURBATION, "single": 1e-3}
+
+#: Growth so many times as large is told from none for certain.
+CERTAIN = 3.0
+
+#: Where growth at any dt is predicted, an engine is run at these parts of the fastest mode's 1/w.
+TRIED = (0.1, 1.0)
 
 #: By what both are larger for a scheme that stops iterating at velocities that count as none.
 ITERATED = 30.0
@@ -85,46 +92,89 @@ def measure_at_random(
 def _along_modes(
     stepper: EngineStepper, predictions: Predictions, rest: Equilibrium, scheme: SchemeStepper, predicted: Limit
 ) -> Limit | Outcome | None:
-    """From runs along modes at steps around the predicted limit; None where these do not tell."""
-    system, found = predictions.system, predictions.rates
-    engine = stepper.engine
+    """From runs along modes at steps around the predicted limit, or at a few; None where these do not tell."""
+    engine, found = stepper.engine, predictions.rates
     able = isinstance(rest.motion, SpringMotion) and {"stretched", "velocities"} <= engine.capabilities
-    if not able or scheme.on_rods or not predicted.exact or predicted.note or predicted.dt is None:
+    if not able or scheme.on_rods or predicted.note:
         return None
-    if layout_of(scheme.scheme, rest, predicted.dt)[0].size > WHOLE_UP_TO:
+    if layout_of(scheme.scheme, rest, predictions.unit)[0].size > WHOLE_UP_TO:
         return None
     larger = ITERATED if scheme.scheme.iterated else 1.0
-    size = larger * SIZE[precision_of(engine)] * rest.scale
+    watched = _Watched(stepper, predictions, rest, scheme, larger * SIZE[precision_of(engine)] * rest.scale)
+    margin = larger * MARGIN[precision_of(engine)]
+    if predicted.dt is None:
+        return _unstable_at_any(watched, margin) if predicted.growth is not None else None
+    if not predicted.exact:
+        return None
+    above = fastest_mode(scheme, rest, (1 + PRECISION) * predicted.dt, found)
+    if above is not None and above.growth < CERTAIN * margin:
+        beyond = f"growth at {1 + PRECISION:g} of the predicted limit is {above.growth:.1g} a step"
+        return Limit(None, f"not measured: {beyond}, too slow for a run of {MODE_STEPS} steps")
     below = floor(log(predicted.dt) / log1p(PRECISION))
     steps = [(1 + PRECISION) ** (below + further) for further in LADDER]
-    runs = [_mode_run(scheme, rest, dt, size, found) for dt in steps]
-    if any(run is None for run in runs):
-        return None
-    at_rest = replace(system, positions=rest.state.positions, velocities=np.zeros_like(rest.state.positions))
-    limit = 2 * stepper.time_limit
-    answer = stepper.isolate(growths_along_modes, engine, at_rest, runs, time_limit=limit)
-    if isinstance(answer, Outcome):
-        return answer
-    growths = answer["growth"].tolist()
-    first = _first_unstable(growths, larger * MARGIN[precision_of(engine)])
+    growths = watched.growths(steps)
+    if growths is None or isinstance(growths, Outcome):
+        return growths
+    first = _first_unstable(growths, margin)
     if first is None:
         return None
     factors = (1 + growths[LADDER.index(-100)], 1 + growths[LADDER.index(100)])
     return Limit(sqrt(steps[first - 1] * steps[first]), factors=factors, grows_beyond=True)
 
 
-def _mode_run(scheme: SchemeStepper, rest: Equilibrium, dt: float, size: float, found: Rates) -> ModeRun | None:
-    """The scheme's fastest mode at a dt, as a perturbation [m]."""
+@dataclass(frozen=True)
+class _Watched:
+    """An engine, to be watched in the fastest mode of the scheme it is, perturbed by so much [m]."""
+
+    stepper: EngineStepper
+    predictions: Predictions
+    rest: Equilibrium
+    scheme: SchemeStepper
+    size: float
+
+    def growths(self, steps: Sequence[float]) -> list[float] | Outcome | None:
+        """In a step, at each of the dts [s]; None where there is no such mode."""
+        runs = [self._mode_run(dt) for dt in steps]
+        if any(run is None for run in runs):
+            return None
+        positions = self.rest.state.positions
+        system = self.predictions.system
+        at_rest = replace(system, positions=positions, velocities=falling_velocities(system))
+        limit, engine = 2 * self.stepper.time_limit, self.stepper.engine
+        answer = self.stepper.isolate(growths_along_modes, engine, at_rest, runs, time_limit=limit)
+        return answer if isinstance(answer, Outcome) else answer["growth"].tolist()
+
+    def _mode_run(self, dt: float) -> ModeRun | None:
+        """The mode at a dt, as a perturbation [m]."""
+        mode = fastest_mode(self.scheme, self.rest, dt, self.predictions.rates)
+        if mode is None:
+            return None
+        nothing = np.zeros_like(self.rest.state.positions)
+        layout, _ = layout_of(self.scheme.scheme, self.rest, dt)
+        shape = mode.shape * (self.size / np.abs(mode.shape).max())
+        whole = layout.state(shape, State(0.0, nothing, nothing))
+        return ModeRun(dt, whole.positions, whole.velocities, mode.left)
+
+
+def fastest_mode(scheme: SchemeStepper, rest: Equilibrium, dt: float, found: Rates) -> FastestMode | None:
+    """The scheme's fastest mode at a dt; None where there is none that can be told."""
     try:
-        mode = fastest_mode_of_step(scheme.scheme, rest, dt, found)
+        return fastest_mode_of_step(scheme.scheme, rest, dt, found)
     except (SolverError, np.linalg.LinAlgError):
         return None
-    if mode is None:
+
+
+def _unstable_at_any(watched: _Watched, margin: float) -> Limit | Outcome | None:
+    """Where theory finds growth at any dt: whether it is seen at those that are tried."""
+    steps = [part * watched.predictions.unit for part in TRIED]
+    growths = watched.growths(steps)
+    if growths is None or isinstance(growths, Outcome):
+        return growths
+    if not all(growth > margin for growth in growths):
         return None
-    nothing = np.zeros_like(rest.state.positions)
-    layout, _ = layout_of(scheme.scheme, rest, dt)
-    whole = layout.state(mode.shape * (size / np.abs(mode.shape).max()), State(0.0, nothing, nothing))
-    return ModeRun(dt, whole.positions, whole.velocities, mode.left)
+    tried = " and ".join(f"{dt:.2g}" for dt in steps)
+    seen = f"unstable at any dt that was tried, {tried} s: grows by {growths[0]:.2g} of itself in the first"
+    return Limit(None, seen, growths[0])
 
 
 def _first_unstable(growths: Sequence[float], margin: float) -> int | None:

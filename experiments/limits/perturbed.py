@@ -21,6 +21,7 @@ from reference.state import Array, State
 from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, equilibrium_of, pendulum_equilibrium
+from reference.theory.parts import falling_velocities
 
 
 def rest_of_scheme(stepper: SchemeStepper, system: MassSpringSystem, rest: Equilibrium) -> Equilibrium | Limit:
@@ -48,9 +49,12 @@ def rest_of_engine(engine: Engine, system: MassSpringSystem, rest: Equilibrium) 
 
 
 def perturbed(system: MassSpringSystem, rest: Equilibrium) -> tuple[Array, MassSpringSystem]:
-    """Where all masses are at rest [m], and the system with every free mass (or angle) moved a little, at random."""
+    """Where all masses are at rest [m], and the system with every free mass (or angle) moved a little, at random.
+
+    What nothing holds falls steadily there.
+    """
     x = rest.state.positions.copy()
     x[rest.free] += PERTURBATION * rest.scale * np.random.default_rng(0).standard_normal(x[rest.free].shape)
     states = [rest.state, State(0.0, x, np.zeros_like(x))]
     at_rest, moved = rest.motion.trajectory(states).positions
-    return at_rest, replace(system, positions=moved, velocities=np.zeros_like(moved))
+    return at_rest, replace(system, positions=moved, velocities=falling_velocities(system))

@@ -22,14 +22,16 @@ NEVER, ALWAYS = 0.0, 10.0
 
 
 def predicted_boundary(scheme: SchemeStepper, plane: Plane) -> Array:
-    """The points (x, y) of the limit in a plane with an axis dt, shape (p, 2); none where there is no limit."""
+    """The points (x, y) of the limit in a plane with an axis dt, shape (p, 2).
+
+    The limit is 0 where the scheme is unstable at any dt, infinite where it is stable at any, NaN where nobody knows.
+    """
     dt_is_x = plane.x.name == "dt"
     other = plane.y if dt_is_x else plane.x
     found = []
     for value in other.values(BOUNDARY):
-        limit = _limit_at(scheme, plane, {other.name: float(value)})
-        if limit.dt is not None:
-            found.append((limit.dt, value) if dt_is_x else (value, limit.dt))
+        limit = _step(_limit_at(scheme, plane, {other.name: float(value)}))
+        found.append((limit, value) if dt_is_x else (value, limit))
     return np.array(found).reshape(-1, 2)
 
 
@@ -45,6 +47,13 @@ def _limit_at(scheme: SchemeStepper, plane: Plane, point: Point) -> Limit:
 
 
 def _over_dt(limit: Limit, dt: float) -> float:
-    if limit.dt is None:
-        return ALWAYS if limit.growth is None else NEVER
-    return min(limit.dt / dt, ALWAYS)
+    return float(np.clip(_step(limit) / dt, NEVER, ALWAYS))
+
+
+def _step(limit: Limit) -> float:
+    """The largest stable dt [s]: 0 if none is, infinite if all are, NaN if it is not known."""
+    if limit.dt is not None:
+        return limit.dt
+    if limit.growth is not None or limit.reason.startswith("no stable step"):
+        return 0.0
+    return np.inf if limit.reason.startswith(("stable", "nothing moves")) else np.nan

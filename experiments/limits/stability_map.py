@@ -34,7 +34,8 @@ class StabilityMap:
     Attributes:
         x, y: the axes, and their values where growth was measured.
         growth: per step, logarithmic (0.01 is 1 % a step), shape (y, x); NaN where nothing could be run.
-        boundary: predicted: the points (x, y) of the limit where one axis is dt, shape (p, 2); else empty.
+        boundary: predicted: the points (x, y) of the limit where one axis is dt, shape (p, 2), whose dt is 0 where a
+            scheme is unstable at any, infinite where it is stable at any; else empty.
         predicted_limit: predicted: (x values, y values, largest stable dt over dt), where no axis is dt; else None.
         predicted_by: the scheme the prediction is of.
     """
@@ -48,6 +49,12 @@ class StabilityMap:
     boundary: Array
     predicted_limit: tuple[Array, Array, Array] | None
     predicted_by: str
+
+    @property
+    def line(self) -> Array:
+        """The part of the boundary that can be drawn: where there is a limit."""
+        dt = self.boundary[:, 0 if self.x.name == "dt" else 1]
+        return self.boundary[np.isfinite(dt) & (dt > 0)]
 
 
 def stability_map(

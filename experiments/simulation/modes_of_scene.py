@@ -133,7 +133,8 @@ def swings(modes: Modes, steppers: Sequence[Stepper], progress: Progress) -> lis
 def _predicted(stepper: SchemeStepper, modes: Modes) -> list[Swing] | None:
     """By the eigenvalues l of the scheme's step: its swing is arg l / dt, and ln |l| tells how it decays."""
     scheme, dt = stepper.scheme, modes.setup.dt
-    if stepper.on_rods or not scheme.linear or not scheme.one_step or scheme.needs == "accelerations of one mass":
+    whole = scheme.linear and scheme.one_step and not scheme.iterated and scheme.needs != "accelerations of one mass"
+    if stepper.on_rods or not whole:
         return None
     natural = modes.natural
     squares = (2 * np.pi * natural.frequencies) ** 2

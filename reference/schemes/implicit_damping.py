@@ -85,7 +85,7 @@ def drift_kick_implicit_damping(motion: MotionOfSprings, state: State, dt: float
     return slowed(motion, kicked, dt * motion.system.damping)
 
 
-@scheme(order=1, kind="engine_scheme", linear=False, iterated=True)
+@scheme(order=1, kind="engine_scheme", iterated=True)
 def drift_kick_sequential_damping(motion: MotionOfSprings, state: State, dt: float, *, rounds: int = ROUNDS) -> State:
     """Drift-kick, then rounds of damping spring by spring in their order: sequential impulses.
 
@@ -99,13 +99,13 @@ def drift_kick_sequential_damping(motion: MotionOfSprings, state: State, dt: flo
     system = motion.system
     if not system.damping.any():
         return kicked
-    directions = spring_directions(system, kicked)
+    directions = spring_directions(system, motion.placed(kicked))
     mass = effective_masses(system)
     part = -np.expm1(-dt * system.damping / mass)
     inverse = np.where(system.fixed, 0.0, 1 / system.masses)
-    velocities = kicked.velocities.copy()
+    velocities = kicked.velocities.reshape(*system.positions.shape, -1).copy()
     damp_in_order(velocities, system.springs, directions, inverse, mass, part, rounds)
-    return State(kicked.time, kicked.positions, velocities)
+    return State(kicked.time, kicked.positions, velocities.reshape(kicked.velocities.shape))
 
 
 @scheme(order=1, kind="engine_scheme", implicit=True)
@@ -130,20 +130,25 @@ def sequential_impulses(
     part: Array,
     rounds: int,
 ) -> None:
-    """Slow the velocities v down in place, spring after spring, `rounds` times over."""
-    target = np.zeros(len(springs))
+    """Slow the velocities v down in place, spring after spring, `rounds` times over.
+
+    Args:
+        v: of many states at once, one per column, shape (n, d, columns).
+    """
+    target = np.zeros((len(springs), v.shape[2]))
     for _ in range(rounds):
         for j in range(len(springs)):
             a, b = springs[j, 0], springs[j, 1]
-            rate = 0.0
-            for axis in range(v.shape[1]):
-                rate += (v[b, axis] - v[a, axis]) * directions[j, axis]
-            taken = (rate - target[j]) * part[j]
-            target[j] = rate - taken
-            for axis in range(v.shape[1]):
-                impulse = effective[j] * taken * directions[j, axis]
-                v[a, axis] += inverse_masses[a] * impulse
-                v[b, axis] -= inverse_masses[b] * impulse
+            for column in range(v.shape[2]):
+                rate = 0.0
+                for axis in range(v.shape[1]):
+                    rate += (v[b, axis, column] - v[a, axis, column]) * directions[j, axis]
+                taken = (rate - target[j, column]) * part[j]
+                target[j, column] = rate - taken
+                for axis in range(v.shape[1]):
+                    impulse = effective[j] * taken * directions[j, axis]
+                    v[a, axis, column] += inverse_masses[a] * impulse
+                    v[b, axis, column] -= inverse_masses[b] * impulse
 
 
 (damp_in_order,) = compiled(sequential_impulses)

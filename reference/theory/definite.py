@@ -122,7 +122,10 @@ class Definiteness:
     def first_limit(self, last: float = np.inf) -> float:
         """The dt [s] up to which S is not negative; infinite where that is beyond the last dt to look at [s]."""
         if not self.in_proportion:
-            return self._march(last)
+            marched = (self.scheme, self.unit, last)
+            if marched not in self.linear.known_limits:
+                self.linear.known_limits[marched] = self._march(last)
+            return self.linear.known_limits[marched]
         # without damping many schemes have one and the same S
         parts = [np.round(part / self.linear.mass.max(), 12).tobytes() for part in self.damping_part(self.unit)]
         key = (self.unit, self.stiffness_part, *parts)
@@ -184,7 +187,11 @@ class Definiteness:
         return self.linear.scaled(self.linear.along_springs(springs) + self.linear.on_masses(masses))
 
     def _made(self, dt: float) -> DampingInStep:
-        return damping_in_step(self.scheme, self.linear, dt)
+        return self._made_of_unit if dt == self.unit else damping_in_step(self.scheme, self.linear, dt)
+
+    @cached_property
+    def _made_of_unit(self) -> DampingInStep:
+        return damping_in_step(self.scheme, self.linear, self.unit)
 
 
 #: Of a direction q: the constant, linear and square coefficients of q* S(x) q.

@@ -22,6 +22,7 @@ from reference.theory.layout import Layout, layout_of
 from reference.theory.linearisation import Linearisation
 from reference.theory.numerical_range import polygon
 from reference.theory.oscillators import growth_of_oscillators
+from reference.theory.outermost import Outermost
 from reference.theory.strong_damping import drowned_from
 
 #: Schemes whose limit is certified and near, by the name of those that they are near to.
@@ -32,6 +33,9 @@ NEARLY, BELOW = 0.97, 0.5
 
 #: Each dt looked at is so many times the one before; the limit is found to this part of itself.
 RATIO, PRECISION = 1.04, 1e-7
+
+#: The same in a subspace of moves, and the part of it below at which another eigenvalue is looked for.
+CLOSE, SHORT = 1e-9, 1e-4
 
 #: Growth of single oscillators that is no rounding.
 SEEN = 1e-6
@@ -47,6 +51,10 @@ def limit_of_large(scheme: Scheme, linear: Linearisation, rest: Equilibrium, uni
         unit: about as long as the fastest motion lasts [s].
     """
     near, direction = _relative(scheme, linear, unit)
+    if scheme.linear and np.isfinite(near):
+        found = _near_a_relative(scheme, linear, rest, unit, near)
+        if found is not None:
+            return Limit(found)
     start = _start(direction, linear)
 
     def beyond(dt: float, rounds: int = ROUNDS) -> float:
@@ -66,6 +74,26 @@ def limit_of_large(scheme: Scheme, linear: Linearisation, rest: Equilibrium, uni
     from scipy.optimize import brentq
 
     return Limit(float(brentq(beyond, low, high, xtol=PRECISION * low)))
+
+
+def _near_a_relative(
+    scheme: Scheme, linear: Linearisation, rest: Equilibrium, unit: float, near: float
+) -> float | None:
+    """The limit [s] where it is next to the relative's; None where it is not found there."""
+    from scipy.optimize import brentq
+
+    definite = relative_of(scheme, linear, unit)
+    assert definite is not None  # there is a limit of it
+    outermost = Outermost(lambda dt, z: _perturbed_step(scheme, rest, dt)[1](z), definite, near)
+    low, high = NEARLY * near, RATIO * NEARLY * near
+    try:
+        if not outermost.beyond(low) < 0 < outermost.beyond(high):
+            return None
+        limit = float(brentq(outermost.beyond, low, high, xtol=CLOSE * low))
+    except SolverError:
+        return None
+    # and another one, in no move of the subspace, would be seen by an iteration that starts from all moves
+    return None if past_minus_one(scheme, rest, (1 - SHORT) * limit, QUICK) > 0 else limit
 
 
 def relative_of(scheme: Scheme, linear: Linearisation, unit: float) -> Definiteness | None:
@@ -152,9 +180,13 @@ def _perturbed_step(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layou
     layout, settled = layout_of(scheme, rest, dt)
     if scheme.linear and rest.linear is not None:
         linear = scheme.on(rest.linear.motion)
-        nothing = np.zeros_like(rest.state.positions)
-        zero = State(0.0, nothing, nothing, (nothing,) * layout.remembered)
-        return layout, lambda z: layout.vector(linear(layout.state(z, zero), dt))[:, 0]
+
+        def of_columns(z: Array) -> Array:
+            nothing = np.zeros((*rest.state.positions.shape, *z.shape[1:]))
+            zero = State(0.0, nothing, nothing, (nothing,) * layout.remembered)
+            return layout.vector(linear(layout.state(z, zero), dt)).reshape(z.shape)
+
+        return layout, of_columns
     step, small = scheme.on(rest.motion), 1e-5 * rest.scale
 
     def product(z: Array) -> Array:

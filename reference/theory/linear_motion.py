@@ -26,9 +26,11 @@ class LinearMotion:
 
     def acceleration(self, state: State, damping: bool = True) -> Array:
         """Of all masses; without the damping of the springs if so asked."""
+        size = self._by_position.shape[0]
+        moved = self._by_position @ state.positions.reshape(size, -1)
         if damping:
-            return self._of_rows(slice(None), state).reshape(state.positions.shape)
-        moved = self._by_position @ state.positions.reshape(self._by_position.shape[0], -1)
+            moved = moved + self._by_velocity @ state.velocities.reshape(size, -1)
+            return np.asarray(moved.reshape(state.positions.shape))
         drag = self._drag.reshape(-1, *(1,) * (state.velocities.ndim - 1))
         return np.asarray(moved.reshape(state.positions.shape) - drag * state.velocities)
 
@@ -43,16 +45,14 @@ class LinearMotion:
     def acceleration_of(self, i: int, state: State) -> Array:
         """Of mass i alone."""
         d = state.positions.shape[1]
-        rows = self._of_rows(slice(i * d, i * d + d), state)
+        of_mass = slice(i * d, i * d + d)
+        x, v = (q.reshape(self._by_position.shape[0], -1) for q in (state.positions, state.velocities))
+        rows = np.asarray(self._by_position[of_mass] @ x + self._by_velocity[of_mass] @ v)
         return rows if state.positions.ndim == 3 else rows[:, 0]
 
     def slope(self, state: State) -> Slope:
         """(1, x', x'')."""
         return Slope(1.0, state.velocities, self.acceleration(state))
-
-    def _of_rows(self, rows: slice, state: State) -> Array:
-        x, v = (q.reshape(self._by_position.shape[0], -1) for q in (state.positions, state.velocities))
-        return np.asarray(self._by_position[rows] @ x + self._by_velocity[rows] @ v)
 
 
 def _by_mass(system: MassSpringSystem, blocks: Blocks) -> Any:

@@ -8,12 +8,13 @@ between. In one mode alone growth of a millionth in a step shows within some hun
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from reference.bisection import bisect
 from reference.errors import SolverError
+from reference.forces import SpringMotion
 from reference.limit import Limit
 from reference.measured_stability import GROWN, PERTURBATION, mode_growth
 from reference.schemes.catalogue import Scheme
@@ -21,6 +22,7 @@ from reference.simulate import projected
 from reference.state import Array, State
 from reference.theory.equilibria import Equilibrium
 from reference.theory.layout import layout_of
+from reference.theory.parts import falling_velocities
 from reference.theory.rates import Rates
 from reference.theory.step_map import resisted, settled_state, step_jacobian
 
@@ -174,12 +176,14 @@ def _left_eigenvector(jacobian: Array, value: complex) -> Array:
 def offsets(scheme: Scheme, rest: Equilibrium, dt: float, shape: Array) -> Iterator[Array]:
     """How far from rest a run is after every step, the start first, as vectors like the shape it starts in.
 
-    Where something falls, from a run that is not perturbed: it falls in both. It ends after STEPS, or once the
-    perturbation is GROWN times as large: what comes then says no more.
+    Where something falls, as fast as it does in the long run, from a run that is not perturbed: it falls in both. It
+    ends after STEPS, or once the perturbation is GROWN times as large: what comes then says no more.
     """
     # what stops iterating at a velocity that counts as none must be pushed well beyond it
     size = (100 if scheme.iterated else 1) * PERTURBATION * rest.scale
     layout, settled = layout_of(scheme, rest, dt)[0], settled_state(scheme, rest, dt)
+    if isinstance(rest.motion, SpringMotion) and not rest.contacts:
+        settled = replace(settled, velocities=falling_velocities(rest.system))
     free_step = scheme.on(rest.motion)
 
     def step(state: State, dt: float) -> State:

@@ -8,13 +8,14 @@ in a few directions enclose: so the shortest limit in the polygon is at most tha
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
 from reference.state import Array
 from reference.theory.linearisation import Linearisation
-from reference.theory.runge_kutta import stable_along
+from reference.theory.runge_kutta import first_limits_along
 
 #: Directions of supporting lines, and points along each edge of the polygon and inwards at which limits are looked at.
 DIRECTIONS, POINTS = 9, 24
@@ -28,16 +29,22 @@ def limit_from_below(polynomial: tuple[float, ...], linear: Linearisation) -> fl
         (1 - t) * a + t * b for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True) for t in weights[:-1]
     ]
     middle = corners.mean(axis=0)
-    points = [middle + inwards * (point - middle) for point in edges for inwards in weights[1:]]
-    return min(_limit(polynomial, square, damping) for square, damping in points)
+    points = np.array([middle + inwards * (point - middle) for point in edges for inwards in weights[1:]])
+    return float(_limits(polynomial, points).min())
 
 
-def _limit(polynomial: tuple[float, ...], square: float, damping: float) -> float:
-    rates = np.roots([1.0, max(damping, 0.0), max(square, 0.0)])
-    limits = [stable_along(polynomial, float(np.angle(r)))[0][1] / abs(r) for r in rates if abs(r) > 0 and r.imag >= 0]
-    return min(limits, default=np.inf)
+def _limits(polynomial: tuple[float, ...], points: Array) -> Array:
+    """Of oscillators with (w^2, g), shape (p, 2): both rates' where they do not swing."""
+    square, damping = np.maximum(points, 0.0).T
+    apart = np.sqrt(damping.astype(complex) ** 2 - 4 * square)
+    fast = -(damping + apart) / 2
+    slow = np.divide(square, fast, out=np.zeros_like(fast), where=fast != 0)
+    rates = np.concatenate([fast, slow])
+    rates = rates[np.abs(rates) > 0]
+    return first_limits_along(polynomial, np.abs(np.angle(rates))) / np.abs(rates)
 
 
+@lru_cache(maxsize=1)
 def polygon(linear: Linearisation) -> Array:
     """Corners (w^2 [1/s^2], g [1/s]) around the points of all modes, counter-clockwise, shape (corners, 2)."""
     system = linear.system

@@ -71,6 +71,18 @@ def loads(system: MassSpringSystem, parts: Parts) -> Array:
     return carried[:, None] * system.gravity
 
 
+def falling_velocities(system: MassSpringSystem) -> Array:
+    """How fast every mass falls in the long run [m/s], shape (n, d): m g over Cd, m the mean of a part nothing holds.
+
+    Zero without drag: all fall alike then, however fast.
+    """
+    parts, velocities = parts_of(system), np.zeros_like(system.positions)
+    for part in np.flatnonzero(~parts.held) if system.drag else ():
+        members = parts.of_mass == part
+        velocities[members] = system.masses[members].mean() * system.gravity / system.drag
+    return velocities
+
+
 def _refuse_creep(system: MassSpringSystem, parts: Parts) -> None:
     """A damper alone between what falls and what does not turns as it creeps: nothing comes to rest."""
     dampers = (system.stiffness == 0) & (system.damping > 0)

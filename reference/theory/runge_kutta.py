@@ -127,6 +127,49 @@ def stable_along(polynomial: tuple[float, ...], angle: float) -> tuple[tuple[flo
     return tuple(found)
 
 
+def first_limits_along(polynomial: tuple[float, ...], angles: Array) -> Array:
+    """Where the first of the intervals of `stable_along` ends, at many angles at once: shape (a,).
+
+    >>> first_limits_along((1.0, 1.0), np.array([np.pi, np.pi / 2]))  # Euler, of decay and of swings
+    array([2., 0.])
+    """
+    order = np.arange(len(polynomial))
+    squares = np.zeros((len(angles), 2 * len(polynomial) - 1))
+    for j in order:
+        for k in order:
+            squares[:, j + k] += polynomial[j] * polynomial[k] * np.cos((j - k) * angles)
+    squares[:, 0] -= 1.0
+    squares[np.abs(squares) < ROUNDING] = 0.0
+    limits = np.full(len(angles), np.inf)
+    first = np.argmax(squares != 0, axis=1)
+    for lowest in np.unique(first):
+        rows = (first == lowest) & squares.any(axis=1)
+        limits[rows] = _first_rise(squares[rows, lowest:])
+    return limits
+
+
+def _first_rise(squares: Array) -> Array:
+    """The first s > 0 above which polynomials are positive, by their coefficients, of s^0 (not zero) first."""
+    if squares.shape[1] == 1:
+        return np.where(squares[:, 0] > 0, 0.0, np.inf)
+    companion = np.zeros((len(squares), *2 * (squares.shape[1] - 1,)))
+    companion[:, 1:, :-1] = np.eye(companion.shape[1] - 1)
+    companion[:, 0, :] = -squares[:, -2::-1] / squares[:, -1:]
+    roots = np.linalg.eigvals(companion)
+    real = (np.abs(roots.imag) < 1e-9 * np.abs(roots)) & (roots.real > 0)
+    ends = np.sort(np.where(real, roots.real, np.inf), axis=1)
+    last = np.max(np.where(np.isfinite(ends), ends, 0.5), axis=1, keepdims=True)
+    ends = np.concatenate([0 * last, np.minimum(ends, 2 * last), 2 * last], axis=1)
+    middles = (ends[:, 1:] + ends[:, :-1]) / 2
+    values = np.zeros_like(middles)
+    for coefficient in squares.T[::-1]:
+        values = values * middles + coefficient[:, None]
+    rises = (values > 0) & (ends[:, 1:] > ends[:, :-1])
+    return np.where(
+        rises.any(axis=1), np.take_along_axis(ends, np.argmax(rises, axis=1)[:, None], axis=1)[:, 0], np.inf
+    )
+
+
 def stable_steps(polynomial: tuple[float, ...], rates: Complex) -> list[tuple[float, float]]:
     """The intervals of h in which no mode of these rates [1/s] grows, rising [s]; the first from 0."""
     common = [(0.0, np.inf)]

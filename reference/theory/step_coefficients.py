@@ -136,13 +136,17 @@ def damping_in_step(scheme: Scheme, linear: Linearisation, dt: float) -> Damping
     """Of a system's springs and masses, each alone."""
     system = linear.system
     masses, of_mass = np.unique(system.masses, return_inverse=True)
-    drag = coefficients(scheme, dt, masses, np.zeros(len(masses)), system.drag)
     if not len(system.springs):
-        none = np.zeros(0)
-        return DampingInStep(replace(drag, implicit=none, all=none), drag.of(of_mass.ravel()))
+        drag = coefficients(scheme, dt, masses, np.zeros(len(masses)), system.drag).of(of_mass.ravel())
+        return DampingInStep(replace(drag, implicit=np.zeros(0), all=np.zeros(0)), drag)
     pairs, which = np.unique(np.stack([effective_masses(system), system.damping]), axis=1, return_inverse=True)
-    springs = coefficients(scheme, dt, pairs[0], pairs[1])
-    return DampingInStep(springs.of(which.ravel()), drag.of(of_mass.ravel()))
+    springs = coefficients(scheme, dt, pairs[0], pairs[1]).of(which.ravel())
+    if not system.drag:
+        none = np.zeros(len(system.masses))
+        return DampingInStep(springs, replace(springs, implicit=none, all=none))
+    return DampingInStep(
+        springs, coefficients(scheme, dt, masses, np.zeros(len(masses)), system.drag).of(of_mass.ravel())
+    )
 
 
 def _odd_system(damped: bool, dragged: bool) -> MassSpringSystem:

@@ -29,8 +29,8 @@ def draw_field(axes: Any, found: StabilityMap) -> Any:
     field = axes.pcolormesh(
         found.x_values, found.y_values, np.clip(found.growth, -MOST, MOST), cmap="RdBu_r", norm=norm, rasterized=True
     )
-    if len(found.boundary):
-        axes.plot(*found.boundary.T, "-", color=BLACK_ON_COLOURS, linewidth=2)
+    if len(found.line):
+        axes.plot(*found.line.T, "-", color=BLACK_ON_COLOURS, linewidth=2)
     if found.predicted_limit is not None and _crosses(found.predicted_limit[2]):
         xs, ys, limit = found.predicted_limit
         axes.contour(xs, ys, limit, levels=[1.0], colors=BLACK_ON_COLOURS, linewidths=2)
@@ -67,6 +67,6 @@ def _prediction(found: StabilityMap) -> str:
     if found.predicted_limit is not None and not _crosses(found.predicted_limit[2]):
         word = "stable" if np.nanmin(found.predicted_limit[2]) >= 1 else "unstable"
         return f"{found.predicted_by}: predicted to be {word} on all of this plane"
-    if len(found.boundary) or found.predicted_limit is not None:
+    if len(found.line) or found.predicted_limit is not None:
         return f"black: predicted limit of\n{found.predicted_by}"
     return f"{found.predicted_by}: predicted to have no limit here, being stable or unstable at any dt"

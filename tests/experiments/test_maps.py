@@ -32,6 +32,23 @@ def test_a_field_that_grows_elsewhere_does_not(offset: float) -> None:
     assert agreement(made_up(offset)) == pytest.approx(0.75, abs=0.02)
 
 
-def test_without_a_limit_all_is_predicted_unstable() -> None:
-    """An empty boundary."""
-    assert predicted_unstable(replace(made_up(0.0), boundary=np.empty((0, 2)))).all()
+@pytest.mark.parametrize(("limit", "unstable"), [(0.0, True), (np.inf, False)])
+def test_without_a_limit_all_is_predicted_unstable_or_nothing(limit: float, unstable: bool) -> None:
+    """Unstable at any dt, a limit of 0; stable at any dt, an infinite one. dt 0 itself is neither."""
+    found = made_up(0.0)
+    predicted = predicted_unstable(replace(found, boundary=np.column_stack([np.full(11, limit), found.boundary[:, 1]])))
+    assert (predicted[:, 1:] == unstable).all()
+
+
+def test_where_only_a_part_has_a_limit_each_row_is_by_its_own() -> None:
+    """Unstable at any dt in the lower half, stable at any in the upper: no number between 0 and infinity counts."""
+    found = made_up(0.0)
+    dt = np.where(found.y_values < 0.5, 0.0, np.inf)
+    predicted = predicted_unstable(replace(found, boundary=np.column_stack([dt, found.y_values])))
+    assert predicted[found.y_values < 0.5, 1:].all()
+    assert not predicted[found.y_values >= 0.5].any()
+
+
+def test_where_nothing_is_predicted_nothing_agrees() -> None:
+    """No boundary."""
+    assert agreement(replace(made_up(0.0), boundary=np.empty((0, 2)))) is None

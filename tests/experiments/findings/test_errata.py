@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from experiments.errata import stability_remark
+from reference.limit import Limit
 from tests.experiments.canned import errata
 from tests.experiments.canned.errata import LIMITS, ORDERS
 from tests.experiments.canned.reading import finding, in_order, numbers, records
@@ -24,3 +26,12 @@ def test_the_sentences_have_the_order_link_by_link_then_heuns() -> None:
     assert numbers(said) == pytest.approx([ORDERS["heun_link_by_link"][1], ORDERS["heun"][1], LIMITS[1] / LIMITS[0]])
     assert in_order(said, "link by link has order 1.00", "Heun has 2.00")
     assert numbers(finding(errata.usual(), "better than its heading")) == [11, 0, 7]
+
+
+def test_without_a_limit_it_is_growth_that_is_told() -> None:
+    """No largest stable dt of 0."""
+    limited = stability_remark("heun", Limit(0.25))
+    assert limited == ("largest stable dt, heun", 0.25, "s")
+    said, value, unit = stability_remark("euler", Limit(None, "unstable at any dt: grows by 0.02 in a step", 0.02))
+    assert said == "growth in a step of euler, unstable at any dt: grows by 0.02 in a step"
+    assert (value, unit) == (0.02, "1")

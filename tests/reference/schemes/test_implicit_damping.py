@@ -237,7 +237,7 @@ def impulses(system: MassSpringSystem, dt: float, rounds: int) -> Array:
     velocities = system.velocities.copy()
     part = -np.expm1(-dt * system.damping / mass)
     directions = spring_directions(system, system.start)
-    sequential_impulses(velocities, system.springs, directions, inverse, mass, part, rounds)
+    sequential_impulses(velocities[:, :, None], system.springs, directions, inverse, mass, part, rounds)
     return velocities
 
 

@@ -37,7 +37,7 @@ def left_by_a_round(system: MassSpringSystem, dt: float) -> float:
     def after(rounds: int) -> Array:
         velocities = np.random.default_rng(1).normal(size=system.positions.shape)
         directions = spring_directions(system, system.start)
-        sequential_impulses(velocities, system.springs, directions, inverse, mass, part, rounds)
+        sequential_impulses(velocities[:, :, None], system.springs, directions, inverse, mass, part, rounds)
         return velocities
 
     missing = [float(np.linalg.norm(after(n) - after(1000))) for n in (39, 40)]

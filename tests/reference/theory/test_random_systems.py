@@ -6,7 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 import pytest
+from scipy.linalg import eig
 
+from experiments.limits.limit_rows import Row, stability_rows
+from experiments.runs.steppers import all_steppers
 from reference.errors import SolverError
 from reference.limit import Limit
 from reference.schemes.catalogue import Scheme, schemes
@@ -15,13 +18,21 @@ from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
 from reference.theory.limits import SOLVED, stability_limit
 from reference.theory.rates import Rates, rates
+from reference.theory.runge_kutta import stability_polynomial
 from reference.theory.step_map import resisted, step_jacobian
 
-#: What eigenvalues of a Jacobian round by: of one that is exact, and of one that is differenced.
+#: What a Jacobian that is differenced is wrong by; and growth that counts as none in the search itself (`EXACT` there;
+#: `DIFFERENCED` of impulses in rounds, where motion is that nothing resists).
+DIFFERENCED, NONE, ROUGHLY = 1e-9, 1e-11, 1e-8
+
+#: Growth that is no rounding, away from a limit: of a Jacobian that is exact, and of one that is differenced.
 ROUNDING = {True: 1e-9, False: 1e-7}
 
-#: Parts of a limit below it at which nothing grows, and above it at which something does.
-BELOW, ABOVE = (0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.999, 1 - 1e-6), (1 + 1e-6, 1 + 1e-5, 1 + 1e-4, 1 + 1e-3, 1.01)
+#: Parts of a limit well below it, at which nothing grows.
+BELOW = (0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.999)
+
+#: How near to a limit dense eigenvalues are asked, as a part of it: as near as they can tell, 1e-8 at first.
+APART = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0)
 
 
 def random_system(seed: int) -> MassSpringSystem:
@@ -56,14 +67,55 @@ def excess(scheme: Scheme, rest: Equilibrium, found: Rates, dt: float) -> float:
     return float(np.abs(values).max(initial=0.0) - 1)
 
 
-def check_limit(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) -> None:
-    """Nothing grows below the limit, something does above; without a limit, something at all dt, or nothing at any."""
+def excess_and_error(scheme: Scheme, rest: Equilibrium, found: Rates, dt: float) -> tuple[float, float]:
+    """Growth in a step, and by how much the eigenvalues near the unit circle can be wrong.
+
+    An eigenvalue with left and right eigenvectors y, x of length one moves by |E| / |y* x| at most, to first order,
+    where J is wrong by E; and by sqrt(|J| |E|) where it meets another one and that is less (Golub and Van Loan, *Matrix
+    Computations* (2013), 7.2.2 and 7.2.3). E is n roundings of J, or what differences leave.
+    """
+    jacobian: Array = step_jacobian(scheme, rest, dt)
+    values, left, right = eig(jacobian, left=True, right=True)
+    apart = np.maximum(np.abs(np.einsum("ji,ji->i", left.conj(), right)), 1e-300)
+    size = float(np.linalg.norm(jacobian, 2))
+    wrong = len(jacobian) * float(np.finfo(float).eps) * size + (0.0 if scheme.linear else DIFFERENCED)
+    errors = np.minimum(wrong / apart, np.sqrt(size * wrong))
+    kept = resisted(values.astype(complex), found.unresisted, dt * found.fastest)
+    among = np.isin(values, kept) & (np.abs(values) > 1 - 1e-3)
+    return float(np.abs(kept).max(initial=0.0) - 1), float(errors[among].max(initial=wrong))
+
+
+def told_apart(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) -> float:
+    """How near to a limit dense eigenvalues tell stable from unstable; they tell it as the limit does.
+
+    Just above the limit growth is more than error; just as near below, it is not.
+    """
+    assert limit.dt is not None
+    searched = limit.certainty != "certified" and stability_polynomial(scheme) is None
+    roughly = scheme.iterated and found.unresisted > 0
+    none = (ROUGHLY if roughly else NONE) if searched else 0.0
+    for apart in APART:
+        above, error = excess_and_error(scheme, rest, found, (1 + apart) * limit.dt)
+        if above <= 2 * (error + none):
+            continue
+        below, error = excess_and_error(scheme, rest, found, limit.dt / (1 + apart))
+        assert below <= 2 * (error + none), f"{scheme.name}: unstable at 1/{1 + apart:.10g} of its limit"
+        return apart
+    # in steps so short that growth is lost beside 1, they do not tell at all
+    assert limit.dt * found.fastest < 2e-3, f"{scheme.name}: nothing grows above its limit"
+    return np.inf
+
+
+def check_limit(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) -> float | None:
+    """Nothing grows below the limit, something does above; without a limit, something at all dt, or nothing at any.
+
+    Returns:
+        How near to the limit that could be told, as a part of it; None where there is none.
+    """
     if found.fastest == 0:
         assert limit.reason == "nothing moves"
-        return
+        return None
     rounding = ROUNDING[scheme.linear]
-    if limit.dt is not None and limit.dt * found.fastest < 1e-3:
-        rounding = 1e-7  # in so short steps slow modes are nearer to 1 than rounding tears pairs of eigenvalues apart
     if limit.dt is None:
         some = [excess(scheme, rest, found, part / found.fastest) for part in (0.03, 0.1, 0.3, 1.0, 3.0)]
         if limit.growth is not None:
@@ -72,10 +124,13 @@ def check_limit(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) -
             assert max(some) < 10 * rounding
         else:
             assert limit.reason.startswith(("nothing moves", "no stable step"))
-        return
-    assert max(excess(scheme, rest, found, part * limit.dt) for part in BELOW) < rounding
-    if limit.dt * found.fastest > 2e-3:  # in shorter steps growth of slow modes is lost beside 1
-        assert max(excess(scheme, rest, found, part * limit.dt) for part in ABOVE) > 1e-13
+        return None
+    for dt in (part * limit.dt for part in BELOW):
+        if excess(scheme, rest, found, dt) > rounding:
+            # in short steps slow modes are nearer to 1 than rounding tears pairs of eigenvalues apart
+            growth, error = excess_and_error(scheme, rest, found, dt)
+            assert growth <= 2 * error, f"{scheme.name}: unstable at {dt / limit.dt:.4g} of its limit"
+    return told_apart(limit, scheme, rest, found)
 
 
 def checked(seed: int) -> Iterator[tuple[Scheme, Equilibrium, Rates, Limit]]:
@@ -121,3 +176,51 @@ def test_many_more_systems(request: pytest.FixtureRequest) -> None:
     for seed in range(300):
         for scheme, rest, found, limit in checked(seed):
             check_limit(limit, scheme, rest, found)
+
+
+#: What schemes are called among steppers.
+SCHEMES = ("scheme", "in_place", "engine_scheme")
+
+#: A limit is measured to 4e-5 of itself by a scheme's runs, 1e-4 by an engine's: it is between two of its rungs.
+MEASURED = 1e-4
+
+
+def check_measured(row: Row) -> bool:
+    """Within MEASURED of what is predicted; or it says why it could not be measured.
+
+    Returns:
+        Whether it was.
+    """
+    if row.outcome == "unsupported" or not row.predicted.exact:
+        return False
+    assert row.outcome == "done", f"{row.stepper} {row.outcome}: {row.measured.reason}"
+    if row.relative_difference is None:
+        assert row.predicted.dt is not None
+        too_slow = row.measured.reason.startswith("not measured") or "in longer runs" in row.measured.reason
+        assert too_slow, f"{row.stepper}: predicted {row.predicted.dt:.6g} s, measured {row.measured.remark}"
+        return False
+    assert abs(row.relative_difference) < MEASURED, f"{row.stepper}: {row.relative_difference:.2g} off"
+    return True
+
+
+def measured(seed: int, kinds: tuple[str, ...]) -> int:
+    """How many limits of steppers were measured as predicted on one random system; none where it creeps for ever."""
+    steppers = [stepper for stepper in all_steppers().values() if stepper.kind in kinds]
+    try:
+        rows = stability_rows(random_system(seed), steppers, lambda _: None)
+    except SolverError:
+        return 0
+    return sum(check_measured(row) for row in rows)
+
+
+@pytest.mark.parametrize(("seed", "kinds"), [(0, SCHEMES), (1, SCHEMES), (0, ("engine",))])
+def test_measured_limits_are_those_predicted(seed: int, kinds: tuple[str, ...]) -> None:
+    """By every scheme, in two dimensions and in three, and by every engine that takes the system."""
+    assert measured(seed, kinds) >= 5
+
+
+def test_measured_limits_of_many_more_systems(request: pytest.FixtureRequest) -> None:
+    """300, by every scheme and engine, under --full: two hours of processor time."""
+    if not request.config.getoption("--full"):
+        pytest.skip("--full measures limits on 300 systems")
+    assert sum(measured(seed, (*SCHEMES, "engine")) for seed in range(300)) > 5000

@@ -1,0 +1,60 @@
+"""Limits of large steps, looked for in a few moves: against all eigenvalues, of systems on which both can be had."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find
+from reference.theory.equilibria import Equilibrium, spring_equilibrium
+from reference.theory.large_steps import limit_of_large
+from reference.theory.limits import stability_limit
+from reference.theory.rates import fastest_rate
+from reference.theory.runge_kutta import first_limits_along, stability_polynomial, stable_along
+
+#: A subspace's limit is bisected to 1e-9 of itself, that of all eigenvalues to 1e-8 where growth is more than 1e-11: an
+#: eigenvalue that passes -1 grows as fast as dt, or faster.
+PRECISION = 3e-8
+
+
+def cloth(damping: float) -> Equilibrium:
+    """Of 25 masses that hangs by an edge, with damping that differs from spring to spring."""
+    system = find_scene("cloth").system({"rows": 5, "columns": 5, "pinned": "edge", "damping": damping})
+    uneven = np.random.default_rng(0).uniform(0.5, 1.5, len(system.springs))
+    return spring_equilibrium(replace(system, damping=damping * uneven))
+
+
+def check_limit(scheme: Scheme, rest: Equilibrium, expected: float | None) -> None:
+    """In a few moves."""
+    assert rest.linear is not None
+    assert expected is not None
+    limit = limit_of_large(scheme, rest.linear, rest, 1 / fastest_rate(rest))
+    assert limit.dt == pytest.approx(expected, rel=PRECISION)
+
+
+@pytest.mark.parametrize("damping", [0.002, 0.02])
+@pytest.mark.parametrize("name", ["velocity_verlet", "drift_kick_sequential_damping"])
+def test_a_few_moves_give_the_limit_of_all_eigenvalues(name: str, damping: float) -> None:
+    """The same number by Davidson's method and by bisection of dense eigenvalues."""
+    rest = cloth(damping)
+    check_limit(find(name), rest, stability_limit(find(name), rest).dt)
+
+
+def test_a_limit_of_a_few_moves_fails_on_its_relative() -> None:
+    """Shown to fail: the limit of kick-drift, from which the search for Verlet's begins, is another one."""
+    rest = cloth(0.02)
+    with pytest.raises(AssertionError):
+        check_limit(find("velocity_verlet"), rest, stability_limit(find("kick_drift"), rest).dt)
+
+
+@pytest.mark.parametrize("name", ["euler", "heun", "rk4"])
+def test_limits_along_many_angles_are_those_along_each(name: str) -> None:
+    """Also on the axes, where powers of s cancel: the same roots, of many polynomials at once."""
+    polynomial = stability_polynomial(find(name))
+    assert polynomial is not None
+    angles = np.concatenate([[np.pi / 2, np.pi], np.linspace(np.pi / 2, np.pi, 200)[1:-1]])
+    expected = [stable_along(polynomial, float(angle))[0][1] for angle in angles]
+    assert first_limits_along(polynomial, angles) == pytest.approx(expected, rel=1e-9)
