@@ -130,8 +130,10 @@ CHECKED: Mapping[str, tuple[tuple[int | None, int | None], Condition]] = Mapping
     }
 )
 
-#: A signal to a thread of one's own.
+#: A signal to a thread of one's own; and which: those that end a program that has gone wrong (abort), and those that it
+#: may handle. Not SIGKILL or SIGSTOP, by which nobody could tell who struck.
 SIGNAL_THREAD = (234, 131)
+SIGNALS = (2, 4, 6, 8, 10, 11, 12, 14, 15)
 
 #: Its flags are out of a filter's sight: where it is missing, the C library takes clone.
 CLONE3 = 435
@@ -169,12 +171,14 @@ def program(machine: str, own_pid: int) -> list[Line]:
         number = numbers[which]
         if number is not None:
             lines += [(EQUAL, 0, 1, number), (GIVE, 0, 0, ALLOW)]
-    own = Condition(0, among=(own_pid,))
-    for numbers, condition in [*CHECKED.values(), (SIGNAL_THREAD, own)]:
+    for numbers, condition in CHECKED.values():
         number = numbers[which]
         if number is not None:
             checked = _checked(condition)
             lines += [(EQUAL, 0, len(checked), number), *checked]
+    own = [(LOAD, 0, 0, ARGUMENTS), (EQUAL, 1, 0, own_pid), (GIVE, 0, 0, REFUSE)]
+    signal = [*own, *_checked(Condition(2, among=SIGNALS))]
+    lines += [(EQUAL, 0, len(signal), SIGNAL_THREAD[which]), *signal]
     return [*lines, (GIVE, 0, 0, REFUSE)]
 
 

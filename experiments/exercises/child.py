@@ -28,7 +28,7 @@ NAME = "<submission>"
 #: Where Python's own modules are.
 LIBRARY = os.path.dirname(os.__file__)
 
-#: What an answer begins with: the sandbox stands and the submission is about to be read, or it does not stand.
+#: What is said before anything else: the sandbox stands and the submission is about to be read, or it does not stand.
 READY, CLOSED = b"springlab: ready\n", b"springlab: closed\n"
 
 #: Modules that submissions may import, besides Python's own that need no compiled code: loaded before the sandbox is
@@ -189,8 +189,9 @@ def read_all(handle: int) -> bytes:
 def main() -> None:
     """Standard input has the task, standard output takes the answer; what the submission prints goes elsewhere.
 
-    READY comes first, once the sandbox stands: whatever ends the process before that is no fault of the submission. It
-    is not read at all where a layer is missing, unless that was asked for.
+    READY goes to a file of its own, which is closed before the submission is read, once the sandbox stands: whatever
+    ends the process before that is no fault of the submission. It is not read at all where a layer is missing, unless
+    that was asked for.
     """
     task = unpack(read_all(0))
     out = os.dup(1)
@@ -208,13 +209,12 @@ def main() -> None:
     for name in ("sandbox_layers", "allowed_calls", "library_finder"):
         sys.modules.pop(name, None)
     np.seterr(all="ignore")
-    reply: dict[str, Any] = {"layers": active, "missing": [name for name in wanted if name not in active]}
-    if not reply["missing"] or task["exposed"]:
-        os.write(out, READY)
-        reply |= answered(task)
-    else:
-        os.write(out, CLOSED)
-    os.write(out, pack(reply))
+    missing = [name for name in wanted if name not in active]
+    stands = not missing or task["exposed"]
+    os.write(task["mark"], (READY if stands else CLOSED) + pack({"layers": active, "missing": missing}))
+    os.close(task["mark"])
+    if stands:
+        os.write(out, pack(answered(task)))
     os._exit(0)  # at once: threads and exit functions of the submission have nothing more to say
 
 

@@ -80,6 +80,17 @@ def of_error(error: Mapping[str, Any]) -> Finding:
     return Finding(name, f"{where}{kind}: {words}".rstrip(": ") + ".", hint, line)
 
 
+def of_words(catalogue: AnswerCatalogue, answers: Sequence[Mapping[str, Any]]) -> Finding | None:
+    """Words where numbers are asked for: nothing else can be said of such an answer."""
+    for answer, right in zip(answers, catalogue.right, strict=False):
+        for step in answer["values"]:
+            for part, want in zip(step, right[0], strict=False):
+                if part.dtype.kind == "U" and want.dtype.kind != "U":
+                    words = "Your function does not return numbers, but words."
+                    return Finding("not_numbers", words, "Look at what you return: is it in quotes, or made by str?")
+    return None
+
+
 def of_form(questions: Sequence[Question], given: Sequence[Answer], right: Sequence[Answer]) -> Finding | None:
     """Whole numbers where fractions are expected, wrong shapes, words for numbers, numbers that are not finite."""
     firsts = [pair for answer, want in zip(given, right, strict=True) for pair in zip(answer[0], want[0], strict=True)]

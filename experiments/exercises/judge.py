@@ -112,7 +112,7 @@ def verdict_on(catalogue: AnswerCatalogue, reply: Reply) -> Verdict:
         word: Outcome = "timed out" if reply.ended == "timed out" else "crashed"
         return _failed(catalogue, word, Finding(word.replace(" ", "_"), f"It was stopped: {reply.reason}."))
     try:
-        error = _error(catalogue, reply)
+        error = _error(catalogue, reply) or findings.of_words(catalogue, reply.answers)
         given = None if error else _comparable(catalogue, reply)
     except (TypeError, AttributeError, ValueError, IndexError, KeyError):
         error = given = None  # the submission wrote what it was not asked for

@@ -45,50 +45,46 @@ class Reply:
     missing: Sequence[str] = ()
 
 
-def read(data: bytes, exposed: bool, count: int) -> Reply:
+def read(mark: bytes, data: bytes, count: int) -> Reply:
     """The reply in what a process that came to its end has left.
 
     Args:
-        exposed: whether it was to go on without all layers of the sandbox.
+        mark: what the sandbox said of itself, before the submission was read: no submission can write there.
+        data: the answers; a submission may have written there.
         count: of the questions.
 
     Raises:
         NotGradedError: where the submission was not read, as the sandbox did not stand.
     """
-    if data.startswith(child.CLOSED):
-        raise NotGradedError(
-            f"this machine has no {_missing(data)} to keep submissions in; see --let-submissions-reach-my-files"
-        )
+    layers, missing = standing(mark)
     if len(data) > LONGEST:
         return Reply("crashed", f"it answered more than {LONGEST / 2**20:g} MiB")
-    if data == child.READY:
+    if not data:
         return Reply("crashed", "it ended its process before it had answered")
     try:
-        reply = child.unpack(data[len(child.READY) :])
-        _check(reply, exposed, count)
+        reply = child.unpack(data)
+        _check(reply, count)
     except (ValueError, UnicodeError):
         return Reply("crashed", "what it answered is not readable")
-    found = (reply.get("answers", ()), reply.get("error"), reply["layers"], reply.get("names", ()), reply["missing"])
-    return Reply("done", "", *found)
+    return Reply("done", "", reply.get("answers", ()), reply.get("error"), layers, reply.get("names", ()), missing)
 
 
-def _missing(data: bytes) -> str:
-    """Which layers, as the child says; a submission may have written there, too."""
-    try:
-        told = child.unpack(data[len(child.CLOSED) :])
-        _is_dict(told, {"layers", "missing"}, set())
-        _are_words(told["missing"])
-        return ", ".join(told["missing"]) or "sandbox"
-    except ValueError:
-        return "sandbox"
+def standing(mark: bytes) -> tuple[list[str], list[str]]:
+    """Which layers of the sandbox are active and which are missing. Raises NotGradedError where it does not stand."""
+    if mark.startswith(child.CLOSED):
+        missing = ", ".join(child.unpack(mark[len(child.CLOSED) :])["missing"])
+        raise NotGradedError(
+            f"this machine has no {missing} to keep submissions in; see --let-submissions-reach-my-files"
+        )
+    told = child.unpack(mark[len(child.READY) :])
+    return list(told["layers"]), list(told["missing"])
 
 
-def _check(reply: Any, exposed: bool, count: int) -> None:
+def _check(reply: Any, count: int) -> None:
     """Raises ValueError unless everything in it is as `child` writes it."""
-    _is_dict(reply, {"layers", "missing"}, {"names", "answers", "error"})
-    for words in ("layers", "missing", "names"):
-        _are_words(reply.get(words, []))
-    _expect(exposed or not reply["missing"])
+    _is_dict(reply, set(), {"names", "answers", "error"})
+    _expect(("error" in reply) != ("answers" in reply) and ("names" in reply) == ("answers" in reply))
+    _are_words(reply.get("names", []))
     answers = reply.get("answers", [])
     _expect(isinstance(answers, list) and len(answers) == (0 if "error" in reply else count))
     for answer in answers:

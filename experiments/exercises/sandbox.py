@@ -71,6 +71,8 @@ def run(
     Raises:
         NotGradedError: where it is not the submission's fault that there is no answer.
     """
+    if sys.platform == "win32":
+        raise NotGradedError("on Windows nothing can keep submissions in: grade them in a Linux container")
     limits = limits or Limits()
     task = {
         "source": source,
@@ -82,21 +84,22 @@ def run(
         "parent": os.getpid(),
     }
     try:
-        with _folder(files or {}) as folder, _file() as asked, _file() as said, _file() as printed:
-            task |= {"folder": str(folder), "readable": [*_readable(), str(folder)]}
+        with _folder(files or {}) as folder, _file() as asked, _file() as said, _file() as printed, _file() as mark:
+            task |= {"folder": str(folder), "readable": [*_readable(), str(folder)], "mark": mark.fileno()}
             asked.write(child.pack(task))
             asked.flush()
             with _for_reading(asked) as given:
-                ending, reason = _Process(given, said, printed, folder, limits).watch()
+                ending, reason = _Process(given, said, printed, mark, folder, limits).watch()
             said.seek(0)
-            data = said.read(LONGEST + 1)
+            mark.seek(0)
+            data, marked = said.read(LONGEST + 1), mark.read(LONGEST)
     except OSError as error:  # a full disk, no more processes: the machine's fault
         raise NotGradedError(f"the checker could not run it: {error.strerror or error}") from error
-    if not data.startswith((child.READY, child.CLOSED)):
+    if not marked.startswith((child.READY, child.CLOSED)):
         raise NotGradedError(f"its process never came so far as to read it: {reason or 'it ended early'}")
     if ending == "not graded":
         raise NotGradedError(reason)
-    return Reply(ending, reason) if ending != "done" else read(data, limits.exposed, len(questions))
+    return Reply(ending, reason) if ending != "done" else read(marked, data, len(questions))
 
 
 @contextmanager
@@ -134,16 +137,23 @@ def _for_reading(file: IO[bytes]) -> Iterator[IO[bytes]]:
 class _Process:
     """The process of a submission."""
 
-    def __init__(self, asked: IO[bytes], said: IO[bytes], printed: IO[bytes], folder: Path, limits: Limits) -> None:
+    def __init__(
+        self, asked: IO[bytes], said: IO[bytes], printed: IO[bytes], mark: IO[bytes], folder: Path, limits: Limits
+    ) -> None:
         begin = f"import sys; sys.path.append({str(_packages())!r}); import runpy; runpy.run_path({child.__file__!r}"
         command = [sys.executable, "-I", "-S", "-B", "-X", "utf8", "-c", f"{begin}, run_name='__main__')"]
         # nothing of the environment: it may hold secrets; and one thread, which is all that small arrays are worth
         bare = {"HOME": str(folder), "TMPDIR": str(folder), "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-        if sys.platform == "win32":
-            bare["SYSTEMROOT"] = os.environ["SYSTEMROOT"]
         self._limits = limits
         self._process = subprocess.Popen(
-            command, stdin=asked, stdout=said, stderr=printed, cwd=folder, env=bare, start_new_session=True
+            command,
+            stdin=asked,
+            stdout=said,
+            stderr=printed,
+            pass_fds=(mark.fileno(),),
+            cwd=folder,
+            env=bare,
+            start_new_session=True,
         )
 
     def watch(self) -> tuple[str, str]:

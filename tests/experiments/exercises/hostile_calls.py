@@ -194,6 +194,14 @@ HOSTILE_CALLS |= {
     "says_that_it_is_ready": Hostile(
         "import os\nos.write(3, b'springlab: closed\\n' * 9)\nos._exit(0)\n", "crashed", "crashed"
     ),
+    "strikes_itself": Hostile("import signal\nsignal.raise_signal(signal.SIGKILL)\n", "error", "reaches_out"),
+    "answers_in_words": Hostile("def step(y, v, dt, spring):\n    return str(y), 'fast'\n", "error", "not_numbers"),
+    "writes_over_its_answer": Hostile(
+        "import os\nfor handle in range(3, 64):\n    try:\n        os.lseek(handle, 0, 0)\n"
+        "        os.write(handle, b'springlab: closed\\n')\n    except OSError:\n        pass\nos._exit(0)\n",
+        "crashed",
+        "crashed",
+    ),
     "ends_with_120": Hostile("import os\nos._exit(120)\n", "crashed", "crashed"),
     "aborts": Hostile("import os\nos.abort()\n", "crashed", "crashed"),
     "loads_more_code": Hostile("import sqlite3\n", "error", "missing_module"),

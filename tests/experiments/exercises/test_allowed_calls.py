@@ -86,7 +86,8 @@ def test_arguments_are_looked_at(machine: str) -> None:
     for flags in (17, 0, threads | 0x10000000, threads | 1 << 32, threads & ~0x10000):
         assert answer(machine, number["clone"], flags) == REFUSE
     assert answer(machine, SIGNAL_THREAD[which], PID, 1, 6) == ALLOW
-    assert answer(machine, SIGNAL_THREAD[which], PID - 1, 1, 9) == REFUSE
+    assert answer(machine, SIGNAL_THREAD[which], PID - 1, 1, 6) == REFUSE
+    assert answer(machine, SIGNAL_THREAD[which], PID, 1, 9) == REFUSE  # it would look as if struck from outside
     assert answer(machine, number["prlimit64"], 0, 0, 0) == ALLOW
     assert answer(machine, number["prlimit64"], 0, 0, 1 << 40) == REFUSE
     assert answer(machine, number["fcntl"], 1, 8) == answer(machine, number["fcntl"], 1, 10) == REFUSE
