@@ -38,8 +38,9 @@ TOLERANCE = 1e-9
 RULES = """
 ## What your file may use
 
-Python's own library and NumPy, nothing else. It is checked by itself: of other files it
-finds those that you were given.
+NumPy, and Python's own modules for computing, nothing else: no files are written, no
+programs started, nothing is read from the keyboard. It is checked by itself: of other
+files it finds those that you were given.
 """
 
 #: What a question's answer is: for every step, every part of what was returned.

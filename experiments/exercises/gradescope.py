@@ -12,6 +12,7 @@ import sys
 import zipfile
 from collections.abc import Iterator, Mapping
 from importlib import metadata
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from experiments.exercises.sandbox import Limits
 from experiments.exercises.sandbox_errors import NotGradedError
 from experiments.exercises.submission import Submission, files_of, read
 from experiments.exercises.words import UNSEEN, paragraphs
+from experiments.exercises.writing import write_anew
 from reference.errors import InputError
 
 #: The checker's own packages; a submission's process has NumPy alone.
@@ -136,7 +138,8 @@ def write_zip(exercise: Exercise, key: str, file: Path, exposed: bool = False, k
         exposed: whether it grades even where nothing keeps submissions from files and processes.
         keyed: whether the exercise was handed out with the key.
     """
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+    content = BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
         settings = {"exercise": exercise.name, "key": key, "exposed": exposed, "keyed": keyed}
         packages = " ".join(f"{name}=={metadata.version(name)}" for name in PACKAGES)
         _add(archive, "setup.sh", SETUP.format(packages=packages), executable=True)
@@ -144,6 +147,7 @@ def write_zip(exercise: Exercise, key: str, file: Path, exposed: bool = False, k
         _add(archive, "exercise.json", json.dumps(settings) + "\n")
         for name, path in sorted(_carried(exercise)):
             _add(archive, name, path.read_text(encoding="utf-8"))
+    write_anew(file, content.getvalue())
 
 
 def _carried(exercise: Exercise) -> Iterator[tuple[str, Path]]:

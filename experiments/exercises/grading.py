@@ -112,7 +112,12 @@ def row_of(submission: Submission, given: Grade, key: str | None) -> dict[str, s
 
 
 def _row(name: str, **values: str) -> dict[str, str]:
-    return {column: _cell({"file": name, **values}.get(column, "")) for column in COLUMNS}
+    return {"file": _name(name), **{column: _cell(values.get(column, "")) for column in COLUMNS[1:]}}
+
+
+def _name(name: str) -> str:
+    """A file's name for a table: whole, and so that no two are the same; what cannot be printed is escaped."""
+    return str(cell("".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in name)))
 
 
 def _cell(words: str) -> str:
@@ -149,7 +154,7 @@ def grade_class(
     def one(path: Path, name: str) -> dict[str, str]:
         row = _graded(path, name, exercise, key, earlier, limits, keyed)
         with lock, table.open("a", newline="", encoding="utf-8") as file:
-            if row is not earlier.get(_cell(name)):
+            if row is not earlier.get(_name(name)):
                 csv.DictWriter(file, COLUMNS).writerow(row)
         return row
 
@@ -180,7 +185,7 @@ def _graded(
         submission = read(path, name, exercise, keyed)
     except (InputError, OSError) as error:
         return _row(name, score="0.0", outcome="error", finding="not_a_submission", words=str(error))
-    done = earlier.get(_cell(name))
+    done = earlier.get(_name(name))
     if done is not None and done["digest"] == submission.digest(key):
         return done
     try:

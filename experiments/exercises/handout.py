@@ -8,6 +8,7 @@ from pathlib import Path
 from experiments.exercises.exercise import Exercise
 from experiments.exercises.page import page
 from experiments.exercises.submission import Submission
+from experiments.exercises.writing import write_anew
 from reference.errors import InputError
 
 
@@ -17,8 +18,8 @@ def hand_out(exercise: Exercise, folder: Path, seed: str, key: str | None) -> li
     Raises:
         InputError: where the student's file is there already, or for a seed that does not fit on its line.
     """
-    if not re.fullmatch(r"[^\"'\\\n\0]{1,100}", seed):
-        raise InputError(f"seed = {seed!r}: expected 1 to 100 characters, no quotes and no backslash")
+    if not (re.fullmatch(r"[^\"'\\]{1,100}", seed) and seed.isprintable()):
+        raise InputError(f"seed = {seed[:40]!r}: expected 1 to 100 printable characters, no quotes and no backslash")
     own = folder / f"{exercise.name}.py"
     if own.exists():
         raise InputError(f"{own} is there already: expected another folder")
@@ -31,6 +32,6 @@ def hand_out(exercise: Exercise, folder: Path, seed: str, key: str | None) -> li
     if exercise.files is not None:
         files |= exercise.files(Submission("", "", exercise, seed, keyed=keyed).seed_with(key))
     folder.mkdir(parents=True, exist_ok=True)
-    for name, text in files.items():
-        (folder / name).write_text(text, encoding="utf-8")
+    for name, text in reversed(files.items()):  # the student's own file last: it stands for a whole handout
+        write_anew(folder / name, text.encode("utf-8"))
     return [folder / name for name in files]

@@ -89,7 +89,7 @@ def files_of(paths: Sequence[Path]) -> list[tuple[Path, str]]:
     for path in paths:
         if path.is_dir():
             inside = sorted(
-                p for p in path.rglob("*.py") if not any(q.startswith(".") for q in p.relative_to(path).parts)
+                p for p in path.rglob("*.[pP][yY]") if not any(q.startswith(".") for q in p.relative_to(path).parts)
             )
             if not inside:
                 raise InputError(f"{path}: expected Python files in it")

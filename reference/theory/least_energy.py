@@ -137,6 +137,8 @@ class Descent:
             step = _solve(stiffness, mu, force)
             step *= min(1.0, self.longest / (np.abs(step).max(initial=0.0) or 1.0))
             promised = force @ step - step @ (stiffness @ step) / 2
+            if abs(promised) < 4 * np.finfo(float).eps * (abs(height) + self.weight * self.size):
+                return q  # less than the energy rounds by: what is left is Newton's
             there = self.energy(q + step)
             kept = (height - there) / abs(promised) if promised else 0.0
             if kept > 0.1:

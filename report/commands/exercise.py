@@ -17,13 +17,16 @@ import click
 
 from report.commands.options import json_option
 from report.commands.terminal import progress, show_table
-from report.plain import plain
+from report.plain import plain, printable
 
 if TYPE_CHECKING:
     from experiments.exercises.exercise import Exercise
     from experiments.exercises.grading import Grade
     from experiments.exercises.sandbox import Limits
     from experiments.exercises.submission import Submission
+
+#: A key is no longer than that [bytes].
+LONGEST_KEY = 2**16
 
 #: The exit code where something could not be graded, and that is no fault of what was handed in.
 NOT_GRADED = 3
@@ -36,10 +39,14 @@ def _key(context: click.Context, parameter: click.Parameter, file: Path | None) 
     if file is None:
         return os.environ.get("SPRINGLAB_EXERCISE_KEY") or None
     try:
-        key = file.read_text(encoding="utf-8").strip()
+        with file.open("rb") as opened:
+            content = opened.read(LONGEST_KEY + 1)
+        key = content.decode("utf-8").strip()
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "expected text in UTF-8"
         raise InputError(f"--key-file {file}: {why}") from None
+    if len(content) > LONGEST_KEY:
+        raise InputError(f"--key-file {file}: expected a key of at most {LONGEST_KEY} bytes")
     if not key:
         raise InputError(f"--key-file {file}: expected the key, the file is empty")
     return key
@@ -170,11 +177,22 @@ def _check_one(path: Path, submission: Submission, key: str | None, limits: Limi
     except NotGradedError as error:
         click.echo(f"springlab: {submission.name} was not graded, which is not its fault: {error}", err=True)
         return NOT_GRADED
+    if _started_without(submission, given, key):
+        click.echo(f"springlab: {STARTED_WITHOUT}", err=True)
     if as_json:
         _print_grade(submission, given, key)
     else:
         _show_grade(path, submission, given, plot)
     return int(not given.verdict.right)
+
+
+#: What is said where a file has no word of a key, is graded with one, and is not right.
+STARTED_WITHOUT = "the file does not say that it was started with a key; if it was not: --started-without-key"
+
+
+def _started_without(submission: Submission, given: Grade, key: str | None) -> bool:
+    with_key = submission.exercise.keyed and submission.keyed and key is not None
+    return with_key and not submission.says_keyed and not given.public.right
 
 
 def _print_grade(submission: Submission, given: Grade, key: str | None) -> None:
@@ -197,8 +215,12 @@ def _show_grade(path: Path, submission: Submission, given: Grade, plot: bool) ->
     click.echo("\n" + in_terminal(lines))
     if plot:
         picture = path.with_suffix(".check.png")
-        as_png(lines, picture, given.verdict.name)
-        click.echo(f"written: {picture}")
+        try:
+            as_png(lines, picture, given.verdict.name)
+        except OSError as error:
+            click.echo(f"no picture, {printable(str(picture))} cannot be written: {error.strerror}", err=True)
+        else:
+            click.echo(f"written: {printable(str(picture))}")
 
 
 def _wrapped(line: str) -> str:

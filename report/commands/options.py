@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from reference.errors import InputError
 from report.commands.arguments import parse_changes, parse_ramps, parse_ranges, parse_settings, parse_sines
 
 if TYPE_CHECKING:  # this imports NumPy
@@ -78,6 +80,8 @@ def patient(stepper: Stepper, time_limit: float | None) -> Stepper:
     """A stepper; an engine with this limit on its time [s], if one is given."""
     from engines.process.isolation import EngineStepper
 
+    if time_limit is not None and not isfinite(time_limit):
+        raise InputError(f"--time-limit {time_limit:g}: expected a finite number > 0 [s]")
     if time_limit is None or not isinstance(stepper, EngineStepper):
         return stepper
     return replace(stepper, time_limit=time_limit)

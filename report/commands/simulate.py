@@ -64,7 +64,7 @@ def simulate_command(
 
     system = setup.system
     asked = [wanted(word, len(system.masses), system.dimension) for word in plots]
-    steppers = [patient(stepper, time_limit) for stepper in find_steppers(names or (DEFAULT,))]
+    steppers = [patient(stepper, time_limit) for stepper in find_steppers(dict.fromkeys(names or (DEFAULT,)))]
     _tell_room(setup, steppers)
     with progress("simulate") as tell:
         simulation = simulate_all(setup, steppers, tell)

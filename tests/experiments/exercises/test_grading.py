@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from experiments.exercises import grading
+from experiments.exercises import grading, handout, plot
 from experiments.exercises.exercise import find
 from experiments.exercises.gradescope import grade_folder, write_zip
 from experiments.exercises.grading import COLUMNS, grade_class
@@ -104,6 +104,54 @@ def test_a_file_that_could_not_be_graded_is_tried_again(a_class: Path, monkeypat
     (row,) = grade_class(files, table)
     assert row["finding"] == "heun_link_by_link"
     assert rows_of(table)["bert.py"] == row
+
+
+def test_every_file_has_a_row_of_its_own(tmp_path: Path) -> None:
+    """However it is called: with an ending in capitals, with what cannot be printed, with a long name."""
+    names = ("ADA.PY", "a b.py", "a\tb.py", "a\nb.py", f"{'x' * 230}1.py", f"{'x' * 230}2.py")
+    for name in names:
+        (tmp_path / name).write_text("EXERCISE = 77\n")
+    rows = grade_class(files_of([tmp_path]), tmp_path / "grades.csv")
+    assert {row["file"] for row in rows} == {name.replace("\t", "\\t").replace("\n", "\\n") for name in names}
+    assert len(rows_of(tmp_path / "grades.csv")) == len(names)
+
+
+def test_a_wrong_program_where_no_picture_can_be_written_is_wrong(
+    a_class: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The verdict is what it is, exit code 1; that there is no picture is said beside."""
+    monkeypatch.setattr(plot, "write_anew", lambda *_: (_ for _ in ()).throw(OSError(30, "Read-only file system")))
+    said = springlab("exercise", "check", str(a_class / "class" / "bert.py"))
+    assert (said.code, "no picture, " in said.err) == (1, True)
+
+
+def test_who_started_without_the_key_is_told_of_it(tmp_path: Path) -> None:
+    """Where the answers do not fit and the file says nothing of a key: the teacher, not the student, may have erred."""
+    (tmp_path / "key").write_text("sesame")
+    own = tmp_path / "which_engine.py"
+    own.write_text((MODELS / "e08_which_engine.py").read_text())
+    said = springlab("exercise", "check", str(own), "--key-file", str(tmp_path / "key"), "--no-plot")
+    assert "--started-without-key" in said.err
+    again = ("exercise", "check", str(own), "--key-file", str(tmp_path / "key"), "--started-without-key", "--no-plot")
+    assert springlab(*again).code == 0
+
+
+def test_a_full_disk_leaves_no_half_of_a_handout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The student's own file comes last: as long as it is not there the same command begins again."""
+    written, write = [], handout.write_anew
+
+    def full(file: Path, content: bytes) -> None:
+        if len(written) == 1:
+            raise OSError(28, "No space left on device")
+        written.append(file)
+        write(file, content)
+
+    with monkeypatch.context() as disk:
+        disk.setattr(handout, "write_anew", full)
+        assert springlab("exercise", "start", "4", str(tmp_path / "w")).code == 2
+    assert not (tmp_path / "w" / "whole_state.py").exists()
+    assert springlab("exercise", "start", "4", str(tmp_path / "w")).code == 0
+    assert springlab("exercise", "start", "5", str(tmp_path / "v"), "--seed", "\udcff").code == 2
 
 
 def test_another_table_is_not_written_over(tmp_path: Path) -> None:

@@ -223,6 +223,8 @@ def test_a_key_on_the_command_line_is_refused(tmp_path: Path) -> None:
     assert said.code == 2
     assert "--key-file FILE" in said.err
     assert "sesame" not in said.err
+    said = springlab("exercise", "check", "x.py", "--key-file", "/dev/zero")
+    assert (said.code, "at most 65536 bytes" in said.err) == (2, True)
     (tmp_path / "empty").write_text("\n")
     assert springlab("exercise", "check", "x.py", "--key-file", str(tmp_path / "empty")).code == 2
     assert "nowhere: No such file" in springlab("exercise", "check", "x.py", "--key-file", "nowhere").err

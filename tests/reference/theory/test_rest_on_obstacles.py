@@ -71,6 +71,25 @@ def test_a_surface_that_curves_lets_a_mass_slide() -> None:
     assert rates(rest).fastest == pytest.approx(np.sqrt((tension - force / radius) / 1.5), rel=1e-9)
 
 
+@pytest.mark.parametrize("above", [0.0, 1e-3, 0.1])
+def test_a_mass_that_starts_at_rest_stays(above: float) -> None:
+    """On top of a circle of radius R between two springs that are as long as at rest: m w^2 = 2 k - m g / R."""
+    mass, stiffness, radius = 0.5, 100.0, 0.5
+    system = MassSpringSystem(
+        positions=np.array([[-1.0, radius], [1.0, radius], [0.0, radius + above]]),
+        springs=np.array([[0, 2], [1, 2]]),
+        masses=np.full(3, mass),
+        rest_lengths=np.ones(2),
+        stiffness=np.full(2, stiffness),
+        fixed=np.array([True, True, False]),
+        obstacles=(Circle((0.0, 0.0), radius),),
+    )
+    rest = spring_equilibrium(system)
+    np.testing.assert_allclose(rest.state.positions[2], [0.0, radius], atol=1e-9)
+    swing = np.sqrt((2 * stiffness - mass * WEIGHT / radius) / mass)
+    assert rates(rest).fastest == pytest.approx(swing, rel=1e-8)
+
+
 def test_what_slides_off_is_on_no_rest() -> None:
     """The same circle without a spring that holds: from its very top, a ridge of the energy, the mass falls past it."""
     top = Circle((0.0, -2.0), 2.0)
