@@ -23,7 +23,7 @@ from reference.system import MassSpringSystem
 from reference.theory.exact import WHY_NOT_EXACT, exact
 
 #: Steps of the solver of the true motion besides one for every step of a run: seconds, for a string.
-MOST_STEPS = 30_000
+MOST_STEPS = 20_000
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import os
 import re
 import warnings
 from collections.abc import Mapping
-from contextlib import redirect_stderr
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -22,7 +22,7 @@ import numpy.typing as npt
 
 from reference.errors import InputError
 from reference.files.regular_file import check_file
-from reference.files.vtk_counts import check_vtk_counts
+from reference.files.vtk_counts import check_counts, check_vtk_counts
 from reference.state import Array
 from reference.system import IntArray
 
@@ -154,10 +154,16 @@ def _pairs(words: list[str]) -> list[tuple[int, int]]:
 
 
 def _read_other(path: Path) -> Any:
-    """By the ending of its name."""
+    """By the ending of its name. Where meshio cannot, it prints why and ends the program: here that is an error."""
     import meshio
 
-    return meshio.read(path)
+    check_counts(path.read_bytes())
+    said = io.StringIO()
+    try:
+        with redirect_stdout(said):
+            return meshio.read(path)
+    except SystemExit:
+        raise ValueError(said.getvalue()) from None
 
 
 def _read_vtk(path: Path) -> Any:

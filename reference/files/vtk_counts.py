@@ -27,6 +27,22 @@ OFFSETS = re.compile(rb"\s*OFFSETS[ \t]+\w+[ \t]*\n", re.IGNORECASE)
 CONNECTIVITY = re.compile(rb"\n?CONNECTIVITY[ \t]+\w+[ \t]*\n", re.IGNORECASE)
 
 
+#: In the other formats, what announces how much follows: of PLY, Gmsh, Medit and VTU.
+OTHERS = re.compile(
+    rb"^element[ \t]+\w+[ \t]+(\d+)|^\$\w+\s+(\d+(?:[ \t]+\d+)?)|^[ \t]*[A-Z][A-Za-z]+\s+(\d+)[ \t]*\r?$"
+    rb"|NumberOf\w+=[\"'](\d+)",
+    re.MULTILINE,
+)
+
+
+def check_counts(content: bytes) -> None:
+    """Refuse a file of another format that announces more than it can hold. Raises InputError."""
+    for found in OTHERS.finditer(content):
+        numbers = [int(digits) for group in found.groups() if group for digits in group.split()]
+        if max(numbers, default=0) > len(content):
+            raise InputError(f"it announces {max(numbers):,} numbers: expected at most {len(content):,}, its bytes")
+
+
 def check_vtk_counts(content: bytes) -> None:
     """Refuse a file that announces more than it can hold, or elements of more corners. Raises InputError."""
     for line in ANNOUNCED.finditer(content):

@@ -224,9 +224,13 @@ def _lowest_eigenvector(matrix: Any) -> Array:
 
 
 def _solve(matrix: Any, mu: float, right: Array) -> Array:
+    """Raises SolverError for a matrix that is singular in floats."""
     from scipy.sparse.linalg import splu
 
     # symmetric: a pattern that is kept so fills in less
     whole = (matrix + mu * _identity(len(right))).tocsc()
-    solved = splu(whole, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    try:
+        solved = splu(whole, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    except RuntimeError as error:
+        raise SolverError(f"no equilibrium: the stiffness of the springs cannot be inverted ({error})") from None
     return np.asarray(solved.solve(right))

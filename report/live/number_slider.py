@@ -94,7 +94,7 @@ class NumberSlider:
         elif value <= 0:
             part = 0.0
         else:
-            part = math.log(value / self._low) / math.log(self._high / self._low)
+            part = (math.log(value) - math.log(self._low)) / math.log(self._high / self._low)
             part = max(part, 1 / STEPS) if self._zero else part
         return round(STEPS * min(max(part, 0.0), 1.0))
 

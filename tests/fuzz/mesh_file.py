@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+import re
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from random import Random
 from typing import Any
+
+import meshio
+import numpy as np
 
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
@@ -21,15 +27,48 @@ SOUND: list[tuple[str, str | bytes]] = [
     (".vtk", BINARY_BLOCK),
 ]
 
+#: Formats that meshio reads as they are.
+OTHERS = (".vtu", ".msh", ".mesh", ".ply")
+
 
 def make(random: Random) -> tuple[str, bytes]:
     """A file's ending, and what is in it."""
-    kind = random.randrange(3)
+    kind = random.randrange(5)
+    if kind >= 3:
+        ending = wild.one_of(random, OTHERS)
+        return ending, _other(random, written(ending))
     if kind == 0:
         ending, content = wild.one_of(random, SOUND)
         return ending, wild.damaged(random, content if isinstance(content, bytes) else content.encode())
     lines = _obj(random) if kind == 1 else _vtk(random)
     return ".obj" if kind == 1 else ".vtk", "\n".join(lines).encode(errors="surrogatepass")
+
+
+def _other(random: Random, content: bytes) -> bytes:
+    """A file of another format, some of its bytes others; or one of its numbers, as often as not one of its counts."""
+    if random.random() < 0.4:
+        return wild.damaged(random, content)
+    numbers = [*re.finditer(rb"(?<![\w.])\d+(?![\w.])", content)]
+    found = wild.one_of(random, numbers[: random.choice((8, 40, len(numbers)))])
+    number = random.choice((b"0", b"-1", b"7", b"1000000", b"10000000000", b"9223372036854775808", b"nan", b"1e308"))
+    return content[: found.start()] + number + content[found.end() :]
+
+
+@cache
+def written(ending: str) -> bytes:
+    """The block of two tetrahedra, as meshio writes it; of surfaces two triangles."""
+    kind = "triangle" if ending == ".ply" else "tetra"
+    corners = [[0, 1, 2], [1, 2, 3]] if ending == ".ply" else [[0, 1, 2, 3], [1, 2, 3, 4]]
+    points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]][: 4 if ending == ".ply" else 5]
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / f"block{ending}"
+        options = {
+            ".msh": {"file_format": "gmsh", "binary": False},
+            ".ply": {"binary": False},
+            ".vtu": {"binary": False},
+        }
+        meshio.Mesh(np.array(points, dtype=float), [(kind, np.array(corners))]).write(file, **options.get(ending, {}))
+        return file.read_bytes()
 
 
 def _obj(random: Random) -> Iterator[str]:

@@ -292,3 +292,25 @@ def test_a_bad_scene_of_a_mesh_is_told(tmp_path: Path, old: str, new: str, messa
         load(scene(tmp_path, text), {})
     assert message in str(refusal.value)
     assert "\n" not in str(refusal.value)
+
+
+@pytest.mark.parametrize(
+    ("ending", "text", "said"),
+    [
+        (".ply", "plx\n", "expected a mesh in the format .ply: "),
+        (".ply", "ply\nformat ascii 1.0\nelement vertex 10000000000\n", "it announces 10,000,000,000 numbers"),
+        (
+            ".mesh",
+            "MeshVersionFormatted 2\nDimension\n3\nVertices\n10000000000\n",
+            "it announces 10,000,000,000 numbers",
+        ),
+        (".msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n10000000000\n", "it announces 10,000,000,000 numbers"),
+        (".vtu", '<VTKFile><Piece NumberOfPoints="10000000000"/></VTKFile>', "it announces 10,000,000,000 numbers"),
+    ],
+)
+def test_a_bad_file_of_another_format_neither_ends_the_program_nor_fills_the_memory(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], ending: str, text: str, said: str
+) -> None:
+    """As meshio would do with it; nothing is printed."""
+    check_told(tmp_path, text, f"bad{ending}", said)
+    assert capsys.readouterr() == ("", "")

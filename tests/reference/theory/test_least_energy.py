@@ -7,13 +7,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.sparse import csc_matrix
 
+from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.scenes import find
 from reference.state import State
 from reference.system import MassSpringSystem
 from reference.theory.equilibrium import equilibrium, hanging_string
-from reference.theory.least_energy import least_energy
+from reference.theory.least_energy import _solve, least_energy
 from reference.theory.modes import squared_frequencies
 from reference.theory.parts import parts_of
 from tests import wrong
@@ -108,3 +110,9 @@ def test_the_lowest_frequencies_are_the_lowest_of_all(scene: str) -> None:
     system = find(scene).system({})
     rest = equilibrium(system)
     assert squared_frequencies(system, rest, lowest=6) == pytest.approx(squared_frequencies(system, rest)[:6], rel=1e-9)
+
+
+def test_a_stiffness_that_cannot_be_inverted_is_no_equilibrium() -> None:
+    """As of springs so soft, or so stiff, that floats hold nothing beside them."""
+    with pytest.raises(SolverError, match="no equilibrium: the stiffness of the springs cannot be inverted"):
+        _solve(csc_matrix((2, 2)), 0.0, np.ones(2))

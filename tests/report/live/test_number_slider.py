@@ -58,6 +58,22 @@ def test_a_number_slider_has_its_new_value_when_it_is_told_of_and_its_old_one_if
     assert (seen[-1], shown.value, number.value) == ((7.0, 7.0), 10.0, 10.0)
 
 
+@pytest.mark.parametrize(("value", "place"), [(5e-324, 0), (1e-310, 0), (200.0, STEPS // 2), (1e300, STEPS)])
+def test_any_number_has_its_place(value: float, place: int) -> None:
+    """What is typed may lie as far beyond the slider as floats go."""
+    made: list[Box] = []
+
+    def add(*_: object, initial_value: object, **__: object) -> Box:
+        made.append(Box(initial_value))
+        return made[-1]
+
+    client = SimpleNamespace(gui=SimpleNamespace(add_number=add, add_multi_slider=add))
+    NumberSlider(client, "stiffness", 200.0, 2.0, 20_000.0, lambda do: do(), lambda _: None)  # type: ignore[arg-type]
+    number, slider = made
+    number.move(value)
+    assert slider.value == (place,)
+
+
 @pytest.mark.parametrize(
     ("number", "said"),
     [
