@@ -31,8 +31,8 @@ ROUNDING = {True: 1e-9, False: 1e-7}
 #: Parts of a limit well below it, at which nothing grows.
 BELOW = (0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.999)
 
-#: How near to a limit dense eigenvalues are asked, as a part of it: as near as they can tell, 1e-8 at first. Further off
-#: only in steps of less than SHORT of the fastest 1/w, where growth is lost beside 1.
+#: How near to a limit dense eigenvalues are asked, as a part of it: as near as they can tell, 1e-8 at first. Further
+#: off only in steps of less than SHORT of the fastest 1/w, where growth is lost beside 1.
 APART, FURTHER, SHORT = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), (0.1, 1.0), 5e-3
 
 
