@@ -94,7 +94,7 @@ def told_apart(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) ->
     assert limit.dt is not None
     searched = limit.certainty != "certified" and stability_polynomial(scheme) is None
     roughly = scheme.iterated and found.unresisted > 0
-    none = (ROUGHLY if roughly else NONE) if searched else 0.0
+    none = (ROUGHLY if roughly else NONE) * max(1.0, limit.dt * found.fastest) if searched else 0.0
     short = limit.dt * found.fastest < SHORT
     for apart in (*APART, *(FURTHER if short else ())):
         above, error = excess_and_error(scheme, rest, found, (1 + apart) * limit.dt)
