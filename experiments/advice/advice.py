@@ -57,6 +57,7 @@ class Advice:
         advised: the step to use [s]; None where there is none.
         confirmed: how the scene ended with it.
         reasons: why the limit is where it is, by theory; None where no scheme is known.
+        ties: other schemes that match it as well, on this scene and pushed.
     """
 
     engine: str
@@ -67,6 +68,7 @@ class Advice:
     advised: float | None = None
     confirmed: Outcome | None = None
     reasons: Reasons | None = None
+    ties: tuple[str, ...] = ()
 
     @property
     def limit(self) -> float | None:
@@ -160,7 +162,7 @@ def _advice(
 ) -> Advice:
     scheme, predicted = named(found), predictions.of_engine(found)
     measured = measure_engine(engine, predictions, scheme, predicted)
-    known = Advice(engine.name, found.identified_as, predicted, _limit(measured), own)
+    known = Advice(engine.name, found.identified_as, predicted, _limit(measured), own, ties=tuple(found.ties))
     if scheme is not None and not scheme.on_rods:
         known = replace(known, reasons=reasons_of(scheme.scheme, predictions, predicted, setup.dt))
     if known.safe is None:

@@ -10,8 +10,14 @@ from experiments.runs.progress import Progress
 from experiments.runs.steppers import installed_engines
 from reference.scenes import Setup
 
-COLUMNS = ["engine", "identified as", "at the scene's dt", "margin", "predicted limit [s]", "measured limit [s]"]
-COLUMNS += ["advised dt [s]", "the scene with it", "perturbations at 1.1 of the limit", "steps for 1/60 s"]
+COLUMNS = ["engine", "identified as", "ties", "at the scene's dt", "margin", "predicted limit [s]"]
+COLUMNS += [
+    "measured limit [s]",
+    "advised dt [s]",
+    "the scene with it",
+    "perturbations at 1.1 of the limit",
+    "steps for 1/60 s",
+]
 COLUMNS += ["limited by", "times as stiff at the scene's dt", "reason"]
 
 #: A mode with this part of its energy in one spring is that spring's.
@@ -140,4 +146,5 @@ def _row(setup: Setup, advice: Advice) -> list[object]:
     limits = [advice.predicted.dt, advice.measured.dt]
     stiffest = advice.reasons.stiffest if advice.reasons else None
     why = [advice.substeps, limited_by(advice) or None, stiffest, said]
-    return [advice.engine, advice.scheme, advice.own.ending, margin, *limits, advice.advised, confirmed, grows, *why]
+    named = [advice.engine, advice.scheme, ", ".join(advice.ties)]
+    return [*named, advice.own.ending, margin, *limits, advice.advised, confirmed, grows, *why]

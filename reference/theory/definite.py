@@ -184,7 +184,8 @@ class Definiteness:
         springs, masses = part
         if self._small:
             return self.linear.scaled_array(springs, masses)
-        return self.linear.scaled(self.linear.along_springs(springs) + self.linear.on_masses(masses))
+        along = self.linear.along_springs(springs)
+        return self.linear.scaled(along + self.linear.on_masses(masses) if masses.any() else along)
 
     def _made(self, dt: float) -> DampingInStep:
         return self._made_of_unit if dt == self.unit else damping_in_step(self.scheme, self.linear, dt)

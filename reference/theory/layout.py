@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -25,7 +26,7 @@ class Layout:
     dt: float
     remembered: int
 
-    @property
+    @cached_property
     def block(self) -> int:
         """How many numbers of z are positions."""
         return self.rest.state.positions[self.rest.free].size
@@ -49,7 +50,7 @@ class Layout:
         parts = [unit * q[self.rest.free] for q, unit in zip(whole, self._units, strict=True)]
         return np.concatenate([part.reshape(self.block, -1) for part in parts])
 
-    @property
+    @cached_property
     def _units(self) -> list[float]:
         """Of what is remembered nobody knows the unit, and none matters to eigenvalues."""
         return [1.0, *[self.dt] * (1 + self.remembered)]

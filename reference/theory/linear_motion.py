@@ -20,8 +20,8 @@ class LinearMotion:
 
     def __init__(self, system: MassSpringSystem, equilibrium: State) -> None:
         self.system, self._equilibrium = system, equilibrium
-        by_position, by_velocity = spring_blocks(system, equilibrium)
-        self._by_position, self._by_velocity = (_by_mass(system, blocks) for blocks in (by_position, by_velocity))
+        self._blocks = spring_blocks(system, equilibrium)
+        self._by_position, self._by_velocity = (_by_mass(system, blocks) for blocks in self._blocks)
         self._drag = np.where(system.fixed, 0.0, system.drag / system.masses)
 
     def acceleration(self, state: State, damping: bool = True) -> Array:
@@ -40,7 +40,7 @@ class LinearMotion:
 
     def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
         """The derivatives of the forces by positions [N/m] and by velocities [N s/m], those at rest."""
-        return spring_blocks(self.system, self._equilibrium)
+        return self._blocks
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Of mass i alone."""

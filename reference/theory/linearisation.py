@@ -99,10 +99,10 @@ class Linearisation:
 
     def scaled(self, matrix: Any) -> Any:
         """M^-1/2 A M^-1/2 of a sparse A."""
-        from scipy.sparse import diags_array
-
-        root = diags_array(self.mass**-0.5)
-        return (root @ matrix @ root).tocsc()
+        scaled, root = matrix.tocsc(copy=True), self.mass**-0.5
+        scaled.data *= root[scaled.indices]
+        scaled.data *= np.repeat(root, np.diff(scaled.indptr))
+        return scaled
 
     @cached_property
     def operator(self) -> Any:

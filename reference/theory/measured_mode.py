@@ -191,9 +191,13 @@ def offsets(scheme: Scheme, rest: Equilibrium, dt: float, shape: Array) -> Itera
 
     still, state = settled, layout.state(shape * (size / np.abs(shape).max()), settled)
     falls = np.abs(step(settled, dt).positions - settled.positions).max() > 1e-3 * size
+    base = layout.vector(still)
     for _ in range(STEPS + 1):
-        offset = (layout.vector(state) - layout.vector(still))[:, 0]
+        offset = (layout.vector(state) - base)[:, 0]
         yield offset
         if not np.abs(offset[: layout.block]).max() <= GROWN * size:
             return
-        still, state = step(still, dt) if falls else still, step(state, dt)
+        state = step(state, dt)
+        if falls:
+            still = step(still, dt)
+            base = layout.vector(still)

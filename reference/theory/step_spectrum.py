@@ -52,8 +52,8 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     size = layout_of(scheme, rest, unit)[0].size
     # rounding in an iteration tears motion that nothing resists, which is no growth of it
     torn = scheme.iterated and found.unresisted > 0
-    exact = rest.linear is not None and rest.contacts is None and scheme.linear and not torn
-    margin = EXACT if exact else DIFFERENCED
+    exact = rest.linear is not None and rest.contacts is None and scheme.linear
+    margin, precision = EXACT if exact and not torn else DIFFERENCED, PRECISION if exact else ROUGH
 
     def excess(dt: float) -> float:
         return _excess(scheme, rest, dt, found)
@@ -70,7 +70,7 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             # up to near the limit of what it would come to, it does as that does
             converged = limit_of_relative(scheme, rest.linear, unit)
             start = NEARLY * converged if np.isfinite(converged) else start
-        limit = _scan(excess, start, unit, margin, FARTHEST / float(np.abs(found.values).min()))
+        limit = _scan(excess, start, unit, margin, FARTHEST / float(np.abs(found.values).min()), precision)
         phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
         if phantom:
             return _of_unresisted_motion(scheme, rest, found, unit)
@@ -172,7 +172,9 @@ def _growth_of_mode(scheme: Scheme, rest: Equilibrium, mu: complex, dt: float) -
     return float(np.abs(values[np.argmin(np.abs(values - np.exp(dt * mu)))]) - 1)
 
 
-def _scan(excess: Callable[[float], float], start: float, unit: float, margin: float, last: float) -> Limit:
+def _scan(
+    excess: Callable[[float], float], start: float, unit: float, margin: float, last: float, precision: float
+) -> Limit:
     """From a short step on, each a little longer, to the first at which perturbations grow, or to the last."""
 
     def unstable(dt: float) -> bool:
@@ -188,7 +190,6 @@ def _scan(excess: Callable[[float], float], start: float, unit: float, margin: f
         dt *= RATIO
         if dt > last:
             return Limit(None, f"stable at any dt that was looked at, up to {dt:.3g} s")
-    precision = PRECISION if margin == EXACT else ROUGH
     low, high = bisect(unstable, dt, RATIO * dt, lambda low, high: high - low <= precision * low)
     return Limit((low + high) / 2)
 

@@ -111,3 +111,9 @@ def test_nobody_and_no_limit_are_told() -> None:
     first = advice.only(UNMEASURED, CRASHED, CANNOT).findings[0]
     assert numbers(first) == [SETUP.dt, 1, 2]
     assert in_order(first, "it has its own step", "it crashed")
+
+
+def test_what_ties_with_the_scheme_stands_beside_it() -> None:
+    """Never the first of several alone."""
+    tied = advice.only(replace(STABLE, ties=("velocity_verlet", "drift_kick")), CABLE)
+    assert [row["ties"] for row in records(tied)] == ["velocity_verlet, drift_kick", ""]

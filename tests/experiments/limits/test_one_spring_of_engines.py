@@ -32,6 +32,10 @@ PRECISION = 1e-4
 #: Growth in a step that is no rounding of a run.
 SEEN = 2e-8
 
+#: With critical damping the two rates along the spring are one, of which no mode can be told apart, and a perturbation
+#: goes as n r^n in n steps: runs of random ones show a limit where n still wins.
+CRITICAL = 5e-3
+
 #: Engines that put rods for springs: these cannot start stretched, and have no damping along a rod.
 ON_RODS = ("mujoco_cable", "mujoco_cable_rk4", "mujoco_rope")
 
@@ -96,7 +100,8 @@ def check_row(row: Row, ratio: float) -> None:
         assert row.measured.dt is None, f"{row.stepper}: {row.measured.dt}"
         assert "unstable at any dt" in row.measured.reason
         return
-    assert row.measured.dt == pytest.approx(closed_form(ratio), rel=PRECISION), row.stepper
+    precision = CRITICAL if ratio == 1.0 and closed_form is runge_kutta else PRECISION
+    assert row.measured.dt == pytest.approx(closed_form(ratio), rel=precision), row.stepper
 
 
 def test_engines_blow_up_where_closed_forms_say(ratio: float) -> None:
@@ -128,7 +133,8 @@ def check_windows(ratio: float, edges: list[float]) -> None:
     """Unstable between the two edges and beyond the pendulum's limit: looked at on both sides of each."""
     across = 2 / ACROSS
     steps = [edge * side for edge in (*edges, across) for side in (1 - PRECISION, 1 + PRECISION)]
-    expected = [dt > across or (len(edges) == 2 and edges[0] < dt < edges[1]) for dt in steps]
+    low, high = (*edges, np.inf)[:2] if edges else (np.inf, np.inf)
+    expected = [dt > across or low < dt < high for dt in steps]
     assert [growth > SEEN for growth in growths(ratio, steps)] == expected
 
 

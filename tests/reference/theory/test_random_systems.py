@@ -31,8 +31,9 @@ ROUNDING = {True: 1e-9, False: 1e-7}
 #: Parts of a limit well below it, at which nothing grows.
 BELOW = (0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.999)
 
-#: How near to a limit dense eigenvalues are asked, as a part of it: as near as they can tell, 1e-8 at first.
-APART = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0)
+#: How near to a limit dense eigenvalues are asked, as a part of it: as near as they can tell, 1e-8 at first. Further
+#: off only in steps of less than SHORT of the fastest 1/w, where growth is lost beside 1.
+APART, FURTHER, SHORT = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), (0.1, 1.0), 5e-3
 
 
 def random_system(seed: int) -> MassSpringSystem:
@@ -93,16 +94,16 @@ def told_apart(limit: Limit, scheme: Scheme, rest: Equilibrium, found: Rates) ->
     assert limit.dt is not None
     searched = limit.certainty != "certified" and stability_polynomial(scheme) is None
     roughly = scheme.iterated and found.unresisted > 0
-    none = (ROUGHLY if roughly else NONE) if searched else 0.0
-    for apart in APART:
+    none = (ROUGHLY if roughly else NONE) * max(1.0, limit.dt * found.fastest) if searched else 0.0
+    short = limit.dt * found.fastest < SHORT
+    for apart in (*APART, *(FURTHER if short else ())):
         above, error = excess_and_error(scheme, rest, found, (1 + apart) * limit.dt)
         if above <= 2 * (error + none):
             continue
         below, error = excess_and_error(scheme, rest, found, limit.dt / (1 + apart))
         assert below <= 2 * (error + none), f"{scheme.name}: unstable at 1/{1 + apart:.10g} of its limit"
         return apart
-    # in steps so short that growth is lost beside 1, they do not tell at all
-    assert limit.dt * found.fastest < 2e-3, f"{scheme.name}: nothing grows above its limit"
+    assert short, f"{scheme.name}: nothing grows above its limit"
     return np.inf
 
 
