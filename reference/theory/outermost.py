@@ -40,11 +40,12 @@ class Outermost:
     """
 
     def __init__(self, step: StepOfColumns, near: Definiteness, limit: float) -> None:
+        from scipy.sparse import csc_array
         from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
         self._step, self._root = step, np.tile(np.sqrt(near.linear.mass), 2)[:, None]
         matrix = near.matrix((1 - BELOW) * limit)
-        self._solve: Callable[[Array], Array] = splu(matrix.tocsc()).solve
+        self._solve: Callable[[Array], Array] = splu(csc_array(matrix)).solve
         size = matrix.shape[0]
         inverse: Any = LinearOperator((size, size), self._solve, dtype=float)
         start = np.random.default_rng(0).normal(size=size)
