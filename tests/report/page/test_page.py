@@ -232,8 +232,9 @@ def test_a_store_that_cannot_be_used_is_said_before_anything_is_run(
     store = tmp_path / "notes.txt"
     store.write_text("no store " * 100)
     said = springlab(*command, "--out", str(tmp_path / "out"), "--store", str(store))
-    line = f"springlab: store {store}: is damaged, or no store of springlab's (file is not a database)\n"
-    assert (said.code, said.out, said.err) == (2, "", line)
+    line = f"springlab: store {store}: is damaged, or no store of springlab's (file is not a database); "
+    assert (said.code, said.out, said.err.count("\n")) == (2, "", 1)
+    assert said.err.startswith(line)
 
 
 def test_run_and_report_leave_a_store_where_they_are_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
