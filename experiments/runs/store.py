@@ -142,8 +142,11 @@ class Store:
         with self._changing():
             if self._current(task) is not None:
                 return
+            # of damaged rows, whose generation may be anything, none counts
             (columns["generation"],) = self._sql.execute(
-                "SELECT COALESCE(MAX(CAST(generation AS INTEGER)) + 1, 0) FROM runs WHERE key = ?", [task.key]
+                "SELECT COALESCE(MAX(generation) + 1, 0) FROM runs "
+                "WHERE key = ? AND typeof(generation) = 'integer' AND generation BETWEEN 0 AND 1000000000",
+                [task.key],
             ).fetchone()
             columns["arrays"] = self._write(f"{task.key}-{columns['generation']}", arrays) if arrays else None
             self._sql.execute("UPDATE runs SET retired = 1 WHERE question = ?", [task.question])

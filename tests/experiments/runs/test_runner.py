@@ -174,13 +174,17 @@ def fails_at(number: int, monkeypatch: pytest.MonkeyPatch, store: Store) -> None
 
 
 def test_a_store_that_fails_stops_everything_and_says_so(store: Store, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Nothing more is asked for, no thread is left, and what was kept before is kept."""
+    """Nothing more is asked for, no thread is left, and what was kept before is kept.
+
+    2 x size tasks are under way at once. Who hands them out may have looked just before the failure, and takes as many
+    once more for those that were done then; at the next look it is seen.
+    """
     fails_at(5, monkeypatch, store)
     executor, threads = FakeExecutor(size=2), threading.active_count()
     with pytest.raises(StoreError, match="the disk is full"):
         answered(Runner(executor, store), *range(1000))
     assert executor.stopped
-    assert len(executor.asked) <= 5 + 1 + 2 * executor.size
+    assert len(executor.asked) <= 5 + 1 + 4 * executor.size
     assert threading.active_count() == threads
     assert {(number, "done") for number in range(4)} <= {*endings(store.file)}
 

@@ -105,6 +105,16 @@ def test_what_is_retired_is_run_again_and_stays(store: Store, store_file: Path) 
     assert sorted(len(arrays["answer.trajectory.times"]) for arrays in found if arrays) == [1, 2, 3]
 
 
+def test_a_row_with_a_generation_that_is_none_is_followed_by_a_sound_one(store: Store) -> None:
+    """A damaged number beyond all is not counted on from (found by `tests.fuzz`)."""
+    store.keep(task(1), ended("done"), 0.0)
+    with closing(sqlite3.connect(store.file)) as sql, sql:
+        sql.execute("UPDATE runs SET generation = 1e146")
+    assert store.find(task(1)) is None
+    store.keep(task(1), ended("done"), 0.0)
+    assert store.find(task(1)) is not None
+
+
 def test_only_what_is_named_is_retired(store: Store) -> None:
     """Other tasks stay done."""
     for number in range(3):
