@@ -157,7 +157,11 @@ def _read_other(path: Path) -> Any:
     """By the ending of its name. Where meshio cannot, it prints why and ends the program: here that is an error."""
     import meshio
 
-    check_counts(path.read_bytes())
+    content = path.read_bytes()
+    check_counts(content)
+    # without it meshio would look for it for ever
+    if path.suffix.lower() == ".ply" and not re.search(rb"^end_header\s*?$", content, re.MULTILINE):
+        raise InputError("expected a mesh in the format .ply: its header has no end")
     said = io.StringIO()
     try:
         with redirect_stdout(said):

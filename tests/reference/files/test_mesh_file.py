@@ -100,6 +100,12 @@ def test_files_of_other_programs_formats(tmp_path: Path, ending: str) -> None:
     assert edges(found) == [(0, 1), (0, 2), (1, 2), (1, 3), (2, 3)]
 
 
+def test_a_ply_file_without_the_end_of_its_header_is_told(tmp_path: Path) -> None:
+    """Its reader would go on for ever (found by `tests.fuzz`)."""
+    text = "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\n"
+    check_told(tmp_path, text, "cut.ply", "expected a mesh in the format .ply: its header has no end")
+
+
 def test_single_points_are_passed_over(tmp_path: Path) -> None:
     """As Gmsh marks corners with them: they join nothing."""
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
