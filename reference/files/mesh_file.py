@@ -224,6 +224,9 @@ def _blocks(cells: Any) -> list[_Block]:
             raise InputError(f"element {first} is of the kind {block.type}: expected one of {known}")
         if corners.ndim != 2 or corners.size == 0 or not _whole(corners):
             raise InputError(f"element {first}: expected the numbers of its vertices")
+        needed = 1 + max(max(pair) for pair in EDGES.get(block.type, [(-1, -1)]))
+        if corners.shape[1] < needed:
+            raise InputError(f"element {first}: expected {needed} vertices of a {block.type}, not {corners.shape[1]}")
         blocks.append(_Block(block.type, corners, first))
         first += len(corners)
     if first == 1:

@@ -106,6 +106,16 @@ def test_a_ply_file_without_the_end_of_its_header_is_told(tmp_path: Path) -> Non
     check_told(tmp_path, text, "cut.ply", "expected a mesh in the format .ply: its header has no end")
 
 
+def test_an_element_of_too_few_vertices_is_told(tmp_path: Path) -> None:
+    """As a damaged file may have them (found by `tests.fuzz`)."""
+    file = tmp_path / "few.mesh"
+    file.write_text(
+        "MeshVersionFormatted 2\nDimension 3\nVertices\n3\n0 0 0 1\n1 0 0 1\n0 1 0 1\nTriangles\n1\n1 2\nEnd\n"
+    )
+    with pytest.raises(InputError):
+        read_mesh(file)
+
+
 def test_single_points_are_passed_over(tmp_path: Path) -> None:
     """As Gmsh marks corners with them: they join nothing."""
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
