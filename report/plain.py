@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from reference.printable import printable
+
 #: The most characters of a text that is said in a line, not all of which is news.
 IN_A_LINE = 60
 
@@ -15,15 +17,6 @@ def plain(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.3g}"
     return printable(str(value))
-
-
-def printable(text: str) -> str:
-    r"""A text with control characters escaped: names come from files, and a terminal obeys what is in them.
-
-    >>> print(printable("scene \x1b]0;title\x07.toml"))
-    scene \x1b]0;title\x07.toml
-    """
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def shortened(text: str, most: int = IN_A_LINE) -> str:

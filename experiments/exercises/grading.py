@@ -21,6 +21,7 @@ from experiments.exercises.submission import Submission, read
 from experiments.exercises.writing import write_anew
 from reference.errors import InputError
 from reference.files.csv_cell import cell
+from reference.printable import printable
 
 #: The columns of a table of grades; `departs` is the first difference.
 COLUMNS = (
@@ -117,7 +118,7 @@ def _row(name: str, **values: str) -> dict[str, str]:
 
 def _name(name: str) -> str:
     """A file's name for a table: whole, and so that no two are the same; what cannot be printed is escaped."""
-    return str(cell("".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in name)))
+    return str(cell(printable(name)))
 
 
 def _cell(words: str) -> str:

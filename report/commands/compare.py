@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from reference.printable import printable
 from report.commands.options import json_option, out_option, patient, setup_options, steppers_option, time_limit_option
 from report.commands.terminal import RESULTS, progress, say, show_table
-from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.runs.comparison import Comparison

@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from reference.printable import printable
 from report.commands.options import json_option
 from report.commands.terminal import progress, show_table
-from report.plain import plain, printable
+from report.plain import plain
 
 if TYPE_CHECKING:
     from experiments.exercises.exercise import Exercise

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import click
 
 from reference.errors import InputError
+from reference.printable import printable
 from report.commands.options import out_option
 from report.commands.runner_options import chosen_runner, resume_option, store_option
 from report.commands.terminal import RESULTS, progress
-from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.experiment import Experiment

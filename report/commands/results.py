@@ -11,10 +11,11 @@ from typing import Any
 
 import click
 
+from reference.printable import printable
 from report.commands.options import json_option
 from report.commands.runner_options import store_option
 from report.commands.terminal import say, show_table
-from report.plain import plain, printable
+from report.plain import plain
 
 #: Rows of results that are shown in the terminal.
 SHOWN = 40

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import click
 
+from reference.printable import printable
 from report.commands.options import out_option
 from report.commands.runner_options import chosen_runner, runner_options
 from report.commands.terminal import RESULTS, progress, say, show_result
-from report.plain import printable
 
 
 @click.command("run")

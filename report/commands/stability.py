@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from reference.printable import printable
 from report.commands.options import (
     dt_option,
     json_option,
@@ -19,7 +20,6 @@ from report.commands.options import (
     steppers_option,
 )
 from report.commands.terminal import RESULTS, progress, show_result
-from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.limits.limit_rows import Row

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.errors import InputError, SolverError
-from report.plain import plain, printable
+from reference.printable import printable
+from report.plain import plain
 
 if TYPE_CHECKING:  # these import NumPy, Numba and the engines' adapters: `springlab --help` does without
     from experiments.experiment import Experiment, Result, Table

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from reference.errors import InputError
+from reference.printable import printable
 from report.commands.options import json_option, out_option
 from report.commands.terminal import RESULTS, progress, show_table
-from report.plain import printable
 
 if TYPE_CHECKING:
     from experiments.engine_versions.versions import Subject, VersionMeasurements

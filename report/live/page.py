@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from reference.errors import InputError, unknown_name
+from reference.printable import printable
 from report.live import scenes
 from report.live.controls import Controls
 from report.live.lab import Lab
@@ -24,7 +25,7 @@ from report.live.parameters import PRESETS
 from report.live.plots import Plots
 from report.live.stage import Stage
 from report.live.values import guard_values
-from report.plain import printable, shortened
+from report.plain import shortened
 
 if TYPE_CHECKING:
     from viser import ClientHandle

@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 from engines.process.supervisor import stop_supervisors
+from reference.printable import printable
 from reference.scenes import find, scenes
 from reference.system import PARAMETERS
-from report.plain import printable
 from tests.fuzz import wild
 from tests.fuzz.doors import Enter
 from tests.report.commands.terminal import Said, springlab

@@ -10,8 +10,9 @@ import pytest
 from experiments.runs.steppers import find_steppers
 from experiments.runs.sweeps import MOST_RUNS, ParameterSweep
 from reference.errors import InputError
+from reference.printable import printable
 from report.commands.terminal import show_table
-from report.plain import plain, printable, shortened
+from report.plain import plain, shortened
 from tests.report.commands.terminal import Said, springlab
 from tests.report.commands.test_bad_input import check_one_clear_line
 
