@@ -28,7 +28,7 @@ from reference.theory.numerical_range import limit_from_below
 from reference.theory.rates import Rates, rates
 from reference.theory.rates import fastest_rate as fastest_rate
 from reference.theory.runge_kutta import stability_polynomial, stable_steps
-from reference.theory.step_coefficients import is_quadratic
+from reference.theory.step_coefficients import is_quadratic, solves_for_positions
 from reference.theory.step_map import step_jacobian
 from reference.theory.step_on_obstacles import require_pressed
 from reference.theory.step_spectrum import WHOLE_UP_TO, first_limit, unstable_at_any
@@ -42,7 +42,7 @@ SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
 DROWNS = "in such steps the damping of springs drowns all else in rounding"
 
 #: Steps that solve for positions are differenced on obstacles up to this size of the whole state only: it takes long.
-SOLVES_FOR_POSITIONS, IMPLICIT_UP_TO = ("backward_euler", "implicit_midpoint"), 12
+IMPLICIT_UP_TO = 12
 
 #: The Runge-Kutta limit of a large system is one value where it is known so nearly from both sides.
 AS_GOOD_AS_ONE = 1e-8
@@ -87,7 +87,7 @@ def _on_obstacles(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     """Of a step that springs see inside obstacles, or whose end follows a surface that curves."""
     require_pressed(scheme, rest, 1 / found.fastest)
     size, most = layout_of(scheme, rest, 1 / found.fastest)[0].size, WHOLE_UP_TO
-    if scheme.name in SOLVES_FOR_POSITIONS:
+    if solves_for_positions(scheme):
         most = IMPLICIT_UP_TO
     if size > most:
         why = f"in this scheme's step springs see masses inside obstacles; up to {most} it is"

@@ -14,7 +14,7 @@ modes (`is_quadratic`); schemes of users are found out in the same way.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 import numpy as np
@@ -122,6 +122,13 @@ def quadratic(scheme: Scheme, linear: Linearisation, dt: float) -> tuple[Any, An
     a2 = a2 + made.springs.implicit_stiffness * stiffness
     a0 = a2 - slowed - made.springs.damping_stiffness * stiffness
     return a2, stiffness - a2 - a0, a0
+
+
+@cache
+def solves_for_positions(scheme: Scheme) -> bool:
+    """Whether a step takes stiffness implicitly, kappa > 0: its positions are the solution of equations."""
+    one = np.ones(1)
+    return is_quadratic(scheme, False, False) and coefficients(scheme, 1.0, one, 0 * one).implicit_stiffness > 1e-9
 
 
 @dataclass(frozen=True, eq=False)

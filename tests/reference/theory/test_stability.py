@@ -24,6 +24,7 @@ from reference.theory.limits import (
 )
 from reference.theory.linear_motion import LinearMotion
 from reference.theory.modes import squared_frequencies, string_mode
+from reference.theory.step_coefficients import solves_for_positions
 from reference.theory.step_map import step_jacobian
 from tests import wrong
 from tests.reference.systems import label, random_mesh, with_fields
@@ -382,3 +383,9 @@ def test_limit_by_runs_fails_on_anothers_prediction(scheme: Scheme, other: str) 
     """The limit of another scheme is not where this one blows up."""
     with pytest.raises(AssertionError):
         check_limit_by_runs(scheme, lambda rest: stability_limit(find(other), rest).dt)
+
+
+def test_which_steps_solve_for_positions_is_seen_in_them() -> None:
+    """Of their stiffness part, whatever they are called: those two of the catalogue that are implicit in positions."""
+    named = [name for name, scheme in schemes().items() if scheme.kind == "scheme" and solves_for_positions(scheme)]
+    assert named == ["backward_euler", "implicit_midpoint"]
