@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reference.changes import Change, whole_steps
-from reference.errors import InputError
+from reference.errors import InputError, unknown_name
 from reference.state import Array
 from reference.system import FIELDS, PARAMETERS, MassSpringSystem
 
@@ -77,7 +77,7 @@ class Sine:
 
     def changes(self, system: MassSpringSystem, dt: float, duration: float) -> list[Change]:
         """One at every step from begin on. Raises InputError where the parameter would become what it cannot be."""
-        along = _own(system, self.parameter) * 0.0 + 1.0
+        along = np.ones_like(_own(system, self.parameter))
         if self.parameter == "gravity":
             along = _own(system.with_parameter("gravity", 1.0), "gravity")
 
@@ -91,8 +91,6 @@ class Sine:
 
 def _known(parameter: str) -> None:
     if parameter not in PARAMETERS:
-        from reference.errors import unknown_name
-
         raise unknown_name("parameter", parameter, PARAMETERS)
 
 

@@ -19,7 +19,7 @@ import platform
 import signal
 import struct
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 if sys.platform != "win32":
     import resource
@@ -162,10 +162,10 @@ def seccomp(libc: ctypes.CDLL, lines: bytes) -> bool:
     return refused(os.pipe) and refused(lambda: os.open(".", os.O_WRONLY | os.O_TMPFILE))
 
 
-def refused(attempt: object) -> bool:
+def refused(attempt: Callable[[], object]) -> bool:
     """Whether the kernel refuses to."""
     try:
-        attempt()  # type: ignore[operator]
+        attempt()
     except PermissionError:
         return True
     except OSError:

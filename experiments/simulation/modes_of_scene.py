@@ -23,6 +23,9 @@ from reference.theory.oscillators import step_matrices
 #: Up to so many coordinates all modes are computed unless a number is asked for; of larger systems so many.
 ALL_UP_TO, LOWEST = 600, 20
 
+#: Damping that acts between modes by no more than this part of itself is rounding.
+UNCOUPLED = 1e-9
+
 #: A measured swing starts so far from rest, as a part of the system's size, and lasts so many steps at most.
 START, STEPS = 1e-5, 2_000
 
@@ -132,6 +135,8 @@ def swings(modes: Modes, steppers: Sequence[Stepper], progress: Progress) -> lis
 
 def _predicted(stepper: SchemeStepper, modes: Modes) -> list[Swing] | None:
     """By the eigenvalues l of the scheme's step: its swing is arg l / dt, and ln |l| tells how it decays."""
+    if modes.natural.coupled > UNCOUPLED:
+        return None  # what is measured is then no mode's alone
     scheme, dt = stepper.scheme, modes.setup.dt
     whole = scheme.linear and scheme.one_step and not scheme.iterated and scheme.needs != "accelerations of one mass"
     if stepper.on_rods or not whole:
@@ -155,15 +160,13 @@ def _swing(values: Any, dt: float) -> Swing:
 def _measured(stepper: Stepper, modes: Modes, i: int) -> tuple[Swing | None, str]:
     """From a run started in the shape of the mode: x_(n+1) = p x_n + q x_(n-1), with the roots a step multiplies by."""
     system, rest, natural, dt = modes.setup.system, modes.rest, modes.natural, modes.setup.dt
-    if natural.frequencies[i] == 0 or (rest.contacts is None and system.obstacles):
-        return None, "nothing brings it back" if natural.frequencies[i] == 0 else modes.about
-    shape = natural.shapes[i]
-    at_rest = rest.state.positions
-    started = replace(
-        system, positions=at_rest + START * system.scale * shape, velocities=np.zeros_like(at_rest), obstacles=()
-    )
-    if rest.contacts is not None:
-        return None, "on obstacles it is not measured"
+    if natural.frequencies[i] == 0:
+        return None, "nothing brings it back"
+    if system.obstacles:
+        return None, "with obstacles it is not measured"
+    shape, at_rest = natural.shapes[i], rest.state.positions
+    moved_a_little = at_rest + START * system.scale * shape
+    started = replace(system, positions=moved_a_little, velocities=np.zeros_like(at_rest))
     steps = int(min(STEPS, max(8, 3 / (natural.frequencies[i] * dt))))
     outcome = stepper.run(started, dt, steps)
     if outcome.trajectory is None or outcome.ending != "done":

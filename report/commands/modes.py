@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from math import isnan, pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -61,16 +62,18 @@ def _document(swing: StepperSwing) -> dict[str, Any]:
 
 
 def _show(modes: Modes, made: list[StepperSwing]) -> None:
+    from experiments.simulation.modes_of_scene import UNCOUPLED
+
     natural = modes.natural
     rows = [
-        [str(i + 1), float(f), float(2 * 3.141592653589793 * f), 1 / f if f else None, _ratio(ratio)]
+        [str(i + 1), float(f), 2 * pi * float(f), 1 / f if f else None, _known(ratio)]
         for i, (f, ratio) in enumerate(zip(natural.frequencies, natural.damping_ratios, strict=True))
     ]
     columns = ["mode", "frequency [Hz]", "angular [rad/s]", "period [s]", "damping ratio"]
     show_table(f"{modes.setup.name}: natural modes about its rest", columns, rows[:SHOWN])
     if len(rows) > SHOWN or len(rows) < modes.asked:
         click.echo(f"{min(SHOWN, len(rows))} of {modes.asked} modes are shown; --json has {len(rows)}.")
-    if natural.coupled > 1e-9:
+    if natural.coupled > UNCOUPLED:
         click.echo(
             f"Damping couples the modes ({natural.coupled:.1%} of it): the damping ratios are what acts within each."
         )
@@ -108,11 +111,11 @@ def _show_swings(modes: Modes, made: list[StepperSwing]) -> None:
 
 
 def _pair(predicted: Swing | None, measured: Swing | None, what: str) -> list[float | None]:
-    return [None if swing is None else _ratio(getattr(swing, what)) for swing in (predicted, measured)]
+    return [None if swing is None else _known(getattr(swing, what)) for swing in (predicted, measured)]
 
 
-def _ratio(value: float) -> float | None:
-    return float(value) if value == value else None
+def _known(value: float) -> float | None:
+    return None if isnan(value) else float(value)
 
 
 def _write(modes: Modes, out: Path, animate: bool) -> None:

@@ -60,7 +60,7 @@ def simulate_command(
     """Run steppers on SCENE (a name or a TOML file), and show what it did: where, how far, with which forces."""
     from experiments.runs.steppers import find_steppers
     from experiments.simulation.simulation import simulate_all
-    from report.figures.motions import wanted
+    from report.figures.simulation import wanted
 
     system = setup.system
     asked = [wanted(word, len(system.masses), system.dimension) for word in plots]
@@ -182,7 +182,7 @@ def _write(simulation: Simulation, out: Path, every: int, tell: Any) -> None:
 
 
 def _plot(simulation: Simulation, what: Any, file: Path) -> None:
-    from report.figures.motions import draw
+    from report.figures.simulation import draw
 
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(draw(simulation, what).svg(), encoding="utf-8")

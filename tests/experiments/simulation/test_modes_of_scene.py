@@ -110,3 +110,9 @@ def test_pictures_and_a_film_of_modes(tmp_path: Path) -> None:
         for ending in ("svg", "csv", "gif"):
             assert (tmp_path / f"{scene}-modes.{ending}").stat().st_size > 40
     assert springlab("modes", "string", "--animate").code == 2
+
+
+def test_where_damping_couples_modes_nothing_is_predicted_beside_a_run() -> None:
+    """One damped spring among others: a run has no mode alone, and what one oscillator would do is another quantity."""
+    modes = modes_of(setup_for("chain", settings={"masses": "3", "damping": "0.5,0,0"}))
+    assert {swing.predicted for swing in swings(modes, find_steppers(["heun"]), lambda _: None)} == {None}
