@@ -1,0 +1,46 @@
+"""Pictures of natural modes: each panel has the frequency of its mode and the shape of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from matplotlib.collections import LineCollection
+
+from experiments.simulation.modes_of_scene import modes_of
+from reference.files.setup import setup_for
+from report.figures.modes import AMPLITUDE, MOST, draw, swinging
+
+
+def test_every_panel_has_its_mode() -> None:
+    """The rest in grey, the shape moved by AMPLITUDE of the size, with frequency and damping ratio above."""
+    modes = modes_of(setup_for("string", settings={"masses": "3", "drag": "0.05"}))
+    panels = draw(modes).figure.axes
+    springs, rest = modes.setup.system.springs, modes.rest.state.positions
+    for i, panel in enumerate(panels[: len(modes.natural.frequencies)]):
+        still, moved = (c for c in panel.collections if isinstance(c, LineCollection))
+        np.testing.assert_allclose(np.array(still.get_segments()), rest[springs])
+        far = AMPLITUDE * modes.setup.system.scale * modes.natural.shapes[i]
+        np.testing.assert_allclose(np.array(moved.get_segments()), (rest + far)[springs])
+        number, told = panel.get_title().split(": ")
+        assert int(number) == i + 1
+        assert float(told.split(" Hz")[0]) == pytest.approx(modes.natural.frequencies[i], rel=1e-3)
+        assert f"damping ratio {modes.natural.damping_ratios[i]:.3g}" in told
+    assert panels[0].get_ylabel() == "y [m]"
+
+
+def test_more_modes_than_there_is_room_for_are_said_to_be() -> None:
+    """The slowest MOST of them."""
+    modes = modes_of(setup_for("cloth"), 12)
+    figure = draw(modes).figure
+    assert f"the slowest {MOST} of {modes.asked}" in figure.get_suptitle()
+    assert len(figure.axes) == MOST
+
+
+def test_a_film_goes_through_one_swing() -> None:
+    """From one side to the other and back, about the rest."""
+    modes = modes_of(setup_for("chain", settings={"masses": "2"}))
+    film = swinging(modes, 2, 24)
+    for i, shot in enumerate(film.shots):
+        x = shot.motion.positions - modes.rest.state.positions
+        far = AMPLITUDE * modes.setup.system.scale * modes.natural.shapes[i]
+        np.testing.assert_allclose(x[[0, 12, 24]], [far, -far, far], atol=1e-12)
