@@ -20,6 +20,9 @@ from report.film.view import view_of
 #: How many modes are drawn, in rows of so many; how far the largest move goes, as a part of the system's size.
 MOST, IN_A_ROW, AMPLITUDE = 9, 3, 0.08
 
+#: From so many springs on they are drawn thin.
+MANY = 150
+
 
 def draw(modes: Modes) -> Picture:
     """The slowest modes, a panel each; rest in grey."""
@@ -41,8 +44,8 @@ def draw(modes: Modes) -> Picture:
         panel.set_aspect("equal", adjustable="datalim")
         if rest.shape[1] == 3:  # seen from a corner: the picture's axes are none of the scene's
             panel.set_axis_off()
-        panel.set_xlabel("x [m]" if i // IN_A_ROW == rows - 1 else "")
-        panel.set_ylabel("y [m]" if i % IN_A_ROW == 0 else "")
+        panel.set_xlabel("x [m]")
+        panel.set_ylabel("y [m]")
     more = f", the slowest {count} of {modes.asked}" if count < modes.asked else ""
     figure.suptitle(f"{modes.setup.name}: natural modes about its rest (grey){more}", fontsize=11)
     said = ", ".join(f"{f:.3g}" for f in modes.natural.frequencies[:count])
@@ -73,6 +76,7 @@ def _sideways(rest: Array, moved: Array) -> Array:
 def _springs(panel: Any, places: Array, springs: IntArray, colour: str, width: float) -> None:
     from matplotlib.collections import LineCollection
 
+    width = width if len(springs) < MANY else 0.4 * width
     panel.add_collection(LineCollection(list(places[springs]), colors=colour, linewidths=width))
     panel.plot(places[:, 0], places[:, 1], ".", color=colour, markersize=4 if len(places) < 200 else 1)
 

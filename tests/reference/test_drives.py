@@ -72,6 +72,8 @@ def test_a_mass_that_is_held_stays_and_falls_from_rest_when_released() -> None:
     assert motion.positions[-1, 1, 1] == pytest.approx(held - 9.81 * 0.2**2 / 2)
     assert motion.positions[0, 0] == pytest.approx(motion.positions[-1, 0])
     np.testing.assert_allclose(exact(FREE, 0.01, 70, changes).positions, motion.positions, atol=1e-10)
+    wrong = simulate(FREE, find("euler"), 0.01, 0.7, changes)  # shown to fail: a first-order step falls another way
+    assert wrong.positions[-1, 1, 1] != pytest.approx(held - 9.81 * 0.2**2 / 2, rel=1e-3)
 
 
 @pytest.mark.parametrize("name", ["mujoco_tendons", "pymunk_springs"])

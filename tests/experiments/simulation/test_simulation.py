@@ -49,6 +49,9 @@ def test_a_sheet_of_exercises_is_answered_by_one_command() -> None:
     b = (1.0 + z * w * a) / wd
     assert u == pytest.approx(0.02 + np.exp(-z * w) * (a * np.cos(wd) + b * np.sin(wd)), abs=2e-7)
     assert u == pytest.approx(0.01183, abs=5e-6)
+    said = springlab("simulate", "oscillator", "--stepper=euler", *times, "--json", *(f"--set={w}" for w in words))
+    wrong = -json.loads(said.out)["runs"][0]["positions_m"][1][0] - 1.0
+    assert wrong != pytest.approx(0.01183, abs=1e-4)  # shown to fail: Euler's step is told apart
 
 
 def test_a_mass_on_a_tendon_sags_by_its_weight_over_its_stiffness() -> None:

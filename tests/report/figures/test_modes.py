@@ -9,6 +9,7 @@ from matplotlib.collections import LineCollection
 from experiments.simulation.modes_of_scene import modes_of
 from reference.files.setup import setup_for
 from report.figures.modes import AMPLITUDE, MOST, draw, swinging
+from tests.report.figures.artists import cut_off, laid_out, overlaps, unlabelled
 
 
 def test_every_panel_has_its_mode() -> None:
@@ -34,6 +35,13 @@ def test_more_modes_than_there_is_room_for_are_said_to_be() -> None:
     figure = draw(modes).figure
     assert f"the slowest {MOST} of {modes.asked}" in figure.get_suptitle()
     assert len(figure.axes) == MOST
+
+
+@pytest.mark.parametrize("scene", ["string", "bridge", "jello", "chain"])
+def test_all_of_it_can_be_read(scene: str) -> None:
+    """In the plane, in space, along a line: axes with units, nothing over anything else."""
+    figure = laid_out(draw(modes_of(setup_for(scene), 6)).figure)
+    assert unlabelled(figure) == overlaps(figure) == cut_off(figure) == []
 
 
 def test_a_film_goes_through_one_swing() -> None:
