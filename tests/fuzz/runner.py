@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import signal
 import traceback
 from collections import Counter
 from collections.abc import Iterator
@@ -58,7 +57,7 @@ def entered(found: Door, enter: Enter, seed: int) -> str:
     made = found.make(Random(seed))
     forget_most_memory()
     try:
-        with processor_limit(SECONDS), time_limit(WAITING):
+        with time_limit(SECONDS, of_the_processor=True), time_limit(WAITING):
             ending = enter(made)
     except TooLong:
         return f"takes more than {SECONDS:g} s of the processor, or {WAITING:g} s"
@@ -67,22 +66,6 @@ def entered(found: Door, enter: Enter, seed: int) -> str:
             raise
         return "".join(traceback.format_exception(error)[-4:])
     return f"takes {most_memory() / 2**20:.0f} MiB" if most_memory() > MEMORY else ending
-
-
-@contextlib.contextmanager
-def processor_limit(seconds: float) -> Iterator[None]:
-    """Raise TooLong where what is done in it takes longer of the processor [s]: however busy that is with others."""
-
-    def stop(*_: object) -> None:
-        raise TooLong
-
-    before = signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0.0)
-        signal.signal(signal.SIGPROF, before)
 
 
 def most_memory() -> int:
