@@ -12,7 +12,7 @@ import warnings
 from collections.abc import Sequence
 
 from reference.errors import InputError
-from report.live.door import door_for, guarded
+from report.live.access import guarded, policy_for
 from report.live.page import Page
 from report.live.scenes import open_scene
 from report.live.stepping import checked
@@ -20,7 +20,7 @@ from report.live.stepping import checked
 #: Viewers with a simulation of their own; more than that two cores do not make.
 MOST_VIEWERS = 8
 
-#: Who has been shown the door may come again.
+#: Who has been turned away may come again.
 FULL = "This lab has {} viewers already, each with a simulation of their own: come back when one has left."
 
 
@@ -46,7 +46,7 @@ class LiveServer:
         origins: Sequence[str] = (),
     ) -> None:
         open_scene(scene)
-        door = door_for(host, origins)
+        policy = policy_for(host, origins)
         self._scene, self._steppers = scene, checked(steppers)
         check_port(host, port)
         import viser
@@ -62,7 +62,7 @@ class LiveServer:
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.pages: dict[int, Page] = {}
         self._lock = threading.Lock()
-        with guarded(door), contextlib.redirect_stdout(io.StringIO()):  # it would print a table
+        with guarded(policy), contextlib.redirect_stdout(io.StringIO()):  # it would print a table
             self._server = Server(host=host, port=port, label="springlab live", verbose=False)
         self._server.gui.configure_theme(show_logo=False, show_share_button=False, control_width="large")
         # In place of viser's environment and shadows, which cost a page seconds without a graphics card.

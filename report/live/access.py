@@ -1,4 +1,4 @@
-"""The door of the live page: who may come in, and what they may send; whoever else knocks gets nothing but a line.
+"""Access to the live page: which pages and clients its server answers, and what they may send; others get one line.
 
 A browser lets any web page speak to any address, this machine's own included, and a name of that page's own may be made
 to mean this machine (DNS rebinding). What tells such a page from ours is what the browser says of it and no page can
@@ -28,18 +28,18 @@ _PATCHING = threading.Lock()
 
 
 @dataclass(frozen=True)
-class Door:
-    """Which Host and Origin are let in.
+class AccessPolicy:
+    """Which Host and Origin are answered.
 
     Attributes:
         host: the address the server listens at; one of its own names besides OWN_NAMES.
-        origins: let in besides, as "https://lab.example:8443"; so is what they have for a Host.
+        origins: allowed besides, as "https://lab.example:8443"; so is what they have for a Host.
     """
 
     host: str
     origins: frozenset[str] = frozenset()
 
-    def lets_in(self, host: str, origin: str | None, arrived_at: str, handshake: bool) -> bool:
+    def allows(self, host: str, origin: str | None, arrived_at: str, handshake: bool) -> bool:
         """Whether a request is answered.
 
         Args:
@@ -58,14 +58,14 @@ class Door:
         return _name(host) in names
 
 
-def door_for(host: str, origins: Iterable[str]) -> Door:
-    """The door of a server at an address. Raises InputError for an origin that is none."""
-    return Door(host.lower(), frozenset(map(_checked, origins)))
+def policy_for(host: str, origins: Iterable[str]) -> AccessPolicy:
+    """The policy of a server at an address. Raises InputError for an origin that is none."""
+    return AccessPolicy(host.lower(), frozenset(map(_checked, origins)))
 
 
 @contextlib.contextmanager
-def guarded(door: Door) -> Iterator[None]:
-    """A server of viser's that is started within has this door.
+def guarded(policy: AccessPolicy) -> Iterator[None]:
+    """A server of viser's that is started within has this policy.
 
     viser has no option for it: what it asks of websockets is changed on the way.
     """
@@ -84,7 +84,7 @@ def guarded(door: Door) -> Iterator[None]:
 
     def serve_guarded(*arguments: Any, process_request: Any, **named: Any) -> Any:
         def answer(connection: Any, request: Any) -> Any:
-            return _refusal(door, connection, request) or process_request(connection, request)
+            return _refusal(policy, connection, request) or process_request(connection, request)
 
         named |= {"process_request": answer, "create_connection": Connection, "max_size": LARGEST}
         return serve(*arguments, **named)
@@ -97,13 +97,13 @@ def guarded(door: Door) -> Iterator[None]:
             websockets.serve = serve  # type: ignore[misc]
 
 
-def _refusal(door: Door, connection: Any, request: Any) -> Any:
+def _refusal(policy: AccessPolicy, connection: Any, request: Any) -> Any:
     """The response to whoever is not let in; None for those who are."""
     hosts, origins = request.headers.get_all("Host"), request.headers.get_all("Origin")
     handshake = "upgrade" in request.headers
     arrived_at = str(connection.local_address[0]).removeprefix("::ffff:")
     origin = origins[0].lower() if origins else None
-    if len(hosts) == 1 and len(origins) <= 1 and door.lets_in(hosts[0].lower(), origin, arrived_at, handshake):
+    if len(hosts) == 1 and len(origins) <= 1 and policy.allows(hosts[0].lower(), origin, arrived_at, handshake):
         return None
     return connection.respond(
         http.HTTPStatus.FORBIDDEN,

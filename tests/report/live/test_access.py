@@ -1,6 +1,6 @@
 """Who is let in to the live page: its own page, whatever this machine is called, and no other one.
 
-The server is a real one; what knocks is a client that says of itself what a browser would say of a page.
+The server is a real one; the other side is a client that says of itself what a browser would say of a page.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import pytest
 from websockets.exceptions import InvalidStatus
 
 from reference.errors import InputError
-from report.live.door import Door, door_for
+from report.live.access import AccessPolicy, policy_for
 from report.live.server import LiveServer
 from tests.soak.guests import Guest
 
@@ -91,20 +91,20 @@ def test_only_a_host_that_is_this_machine_gets_the_page(lab: LiveServer, host: s
 
 def test_a_page_that_is_allowed_comes_in_and_others_do_not_with_it() -> None:
     """It may be loaded from this machine, or from where it says that it is."""
-    door = door_for("0.0.0.0", ["https://Lab.example:443/"])
-    assert door.origins == {"https://lab.example"}
-    assert door.lets_in("lab.example", "https://lab.example", "10.0.0.5", handshake=True)
-    assert door.lets_in("localhost:8080", "https://lab.example", "10.0.0.5", handshake=True)
-    assert not door.lets_in("evil.example", "https://lab.example", "10.0.0.5", handshake=True)
-    assert not door.lets_in("lab.example", "http://lab.example", "10.0.0.5", handshake=True)
+    policy = policy_for("0.0.0.0", ["https://Lab.example:443/"])
+    assert policy.origins == {"https://lab.example"}
+    assert policy.allows("lab.example", "https://lab.example", "10.0.0.5", handshake=True)
+    assert policy.allows("localhost:8080", "https://lab.example", "10.0.0.5", handshake=True)
+    assert not policy.allows("evil.example", "https://lab.example", "10.0.0.5", handshake=True)
+    assert not policy.allows("lab.example", "http://lab.example", "10.0.0.5", handshake=True)
 
 
 def test_open_to_all_its_own_addresses_are_those_that_are_come_to() -> None:
     """Whoever comes to 10.0.0.5 may call it so; 0.0.0.0 is nobody's name."""
-    door = Door("0.0.0.0")
-    assert door.lets_in("10.0.0.5:8080", "http://10.0.0.5:8080", "10.0.0.5", handshake=True)
-    assert not door.lets_in("10.0.0.6:8080", "http://10.0.0.6:8080", "10.0.0.5", handshake=True)
-    assert not door.lets_in("0.0.0.0:8080", "http://0.0.0.0:8080", "10.0.0.5", handshake=True)
+    policy = AccessPolicy("0.0.0.0")
+    assert policy.allows("10.0.0.5:8080", "http://10.0.0.5:8080", "10.0.0.5", handshake=True)
+    assert not policy.allows("10.0.0.6:8080", "http://10.0.0.6:8080", "10.0.0.5", handshake=True)
+    assert not policy.allows("0.0.0.0:8080", "http://0.0.0.0:8080", "10.0.0.5", handshake=True)
 
 
 @pytest.mark.parametrize(
@@ -113,4 +113,4 @@ def test_open_to_all_its_own_addresses_are_those_that_are_come_to() -> None:
 def test_what_is_no_origin_is_refused(origin: str) -> None:
     """In a line."""
     with pytest.raises(InputError, match=r"--allow-origin .*: expected as in https://lab\.example"):
-        door_for("127.0.0.1", [origin])
+        policy_for("127.0.0.1", [origin])
