@@ -13,7 +13,7 @@ from weakref import WeakSet
 
 from engines.engine import Engine, Simulation
 from engines.line import started
-from engines.process.worker import NoAnswerError, Worker
+from engines.process.worker import NoAnswerError, NotStartedError, Worker
 from reference.errors import InputError, Unsupported
 from reference.outcome import Outcome
 from reference.state import Array
@@ -92,6 +92,9 @@ class Session:
         except NoAnswerError as failure:
             self.end()
             raise EngineStopped(failure.outcome) from None
+        except NotStartedError as failure:
+            self.end()
+            raise EngineStopped(Outcome("unsupported", str(failure))) from None
         if isinstance(answer, Outcome):
             self.end()
             raise EngineStopped(answer)

@@ -6,6 +6,7 @@ is noticed at once; what the task had to say on its way out is kept. Needs NumPy
 
 from __future__ import annotations
 
+import math
 import multiprocessing
 import os
 import shutil
@@ -31,6 +32,9 @@ LOOK = 0.05
 
 #: How long a process that has closed its connection has to end by itself [s].
 GRACE = 1.0
+
+#: How long a process may take to be ready for its first task [s]: it imports NumPy, on a machine however busy.
+READY_LIMIT = 600.0
 
 #: How often to try to start a process, should the server that forks it be killed meanwhile.
 STARTS = 20
@@ -68,6 +72,10 @@ class NoAnswerError(Exception):
         self.from_outside = from_outside
 
 
+class NotStartedError(OSError):
+    """A process came to its end before any task was begun: no task, and no engine, is to blame."""
+
+
 class Process(Protocol):
     """What a worker needs of the process it is."""
 
@@ -98,6 +106,7 @@ class Worker:
 
     def __init__(self, python: Path | None = None) -> None:
         self.fresh = True
+        self._ready = False
         self._scratch = scratch_folder()
         for _ in range(STARTS - 1):
             with suppress(OSError, EOFError):  # the server was killed just now; once it is gone, a try starts a new one
@@ -131,7 +140,10 @@ class Worker:
 
         Raises:
             NoAnswerError: with how it ended. The worker is of no more use then.
+            NotStartedError: where the process could not be started at all.
         """
+        if not self._ready:
+            self._await_start()
         with suppress(BrokenPipeError, ConnectionResetError):  # it is no more; why is seen below
             self._connection.send((function, arguments))
         self._wait(time_limit, memory_limit)
@@ -140,9 +152,27 @@ class Worker:
                 answer = self._connection.recv()
                 self.fresh = False
                 return answer
+        raise self._ended()
+
+    def _await_start(self) -> None:
+        """Until the process says that it is ready. What goes wrong before that is no task's doing."""
+        with suppress(NoAnswerError):  # the time is up
+            self._wait(READY_LIMIT, math.inf)
+        with suppress(EOFError, OSError):
+            if self._connection.poll():
+                self._connection.recv()
+                self._ready = True
+                return
+        ended = self._ended()
+        if ended.from_outside:
+            raise ended
+        raise NotStartedError(f"no process for engines could be started: it {ended.outcome.reason}")
+
+    def _ended(self) -> NoAnswerError:
+        """How the process came to its end."""
         code = self._process.exit_code()
         outcome = Outcome("crashed", _cause(code) + _last_words(self._scratch / OUTPUT))
-        raise NoAnswerError(outcome, from_outside=-code in FROM_OUTSIDE or code == UNSEEN)
+        return NoAnswerError(outcome, from_outside=-code in FROM_OUTSIDE or code == UNSEEN)
 
     def end(self) -> None:
         """End the process, whatever it is at, and remove what it left."""
@@ -171,12 +201,14 @@ class _Forked:
 
     def __init__(self, connection: Connection, lifeline: Connection, scratch: Path, _: Path | None) -> None:
         if sys.platform == "win32":
-            context: Any = multiprocessing.get_context("spawn")
+            make: Any = multiprocessing.get_context("spawn").Process
         else:
+            from engines.process.start_method import ForkedProcess
+
             _own_temporary_folder()
-            context = multiprocessing.get_context("forkserver")
-            context.set_forkserver_preload(_IMPORTED)
-        self._process = context.Process(target=work, args=(connection, lifeline, scratch))
+            multiprocessing.get_context("forkserver").set_forkserver_preload(_IMPORTED)
+            make = ForkedProcess
+        self._process = make(target=work, args=(connection, lifeline, scratch))
         with stopped_ends():
             self._process.start()
         self.pid, self.sentinel = self._process.pid, self._process.sentinel

@@ -15,7 +15,9 @@ import sys
 from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
+from typing import Any
 
+from reference.errors import Unsupported
 from reference.outcome import Outcome
 
 if sys.platform == "linux":
@@ -24,12 +26,16 @@ if sys.platform == "linux":
 #: Where, in its scratch folder, a process's output is kept.
 OUTPUT = "output.txt"
 
+#: What is said before the first task: whatever goes wrong from then on is a task's doing.
+READY = "ready"
+
 
 def work(connection: Connection, lifeline: Connection, scratch: Path) -> None:
     """What the process does: tasks, one after another, until nobody is left to send one."""
     _hang_on(lifeline)
     with suppress(EOFError, OSError):  # nobody is there any more, or not even our folder
         _prepare(scratch)
+        connection.send(READY)
         while True:
             _do(connection, connection.recv_bytes(), scratch / "run")
     shutil.rmtree(scratch, ignore_errors=True)
@@ -67,14 +73,27 @@ def _do(connection: Connection, message: bytes, folder: Path) -> None:
     folder.mkdir()
     os.chdir(folder)
     try:
-        function, arguments = pickle.loads(message)
+        function, arguments = _understood(message)
         answer = pickle.dumps(function(*arguments))
+    except Unsupported as error:
+        answer = pickle.dumps(Outcome("unsupported", str(error)))
     except Exception as error:
         answer = pickle.dumps(Outcome("crashed", f"{type(error).__name__}: {one_line(str(error))}"))
     finally:
         os.chdir(folder.parent)
         shutil.rmtree(folder, ignore_errors=True)
     connection.send_bytes(answer)
+
+
+def _understood(message: bytes) -> Any:
+    """A task's function and arguments. Raises Unsupported for what stands in the program that asks for it."""
+    try:
+        return pickle.loads(message)
+    except AttributeError as error:
+        if "__main__" not in str(error):
+            raise
+        name = str(error).partition("attribute ")[2].split("'")[1]
+        raise Unsupported(f"{name} stands in the program itself: expected it in a file that it imports") from None
 
 
 def one_line(text: str) -> str:

@@ -161,7 +161,8 @@ def in_one_line(command: Callable[[], object]) -> int:
         say("springlab: there is not enough memory for that: expected fewer masses, steps or steppers")
         return 2
     except OSError as error:
-        say(f"springlab: {error.filename or 'input or output'}: {error.strerror or error}")
+        what = error.filename or ("input or output" if error.strerror else None)
+        say(": ".join(["springlab", *([str(what)] if what else []), error.strerror or str(error)]))
         return 2
     return 0
 

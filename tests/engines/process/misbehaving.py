@@ -83,6 +83,11 @@ def answer_what_no_pickle_can_hold() -> Outcome:
     return Outcome("done", lambda: "")  # type: ignore[arg-type]
 
 
+def leave_before_any_task(*_: object) -> NoReturn:
+    """In place of `work`: the process ends before it is ready."""
+    os._exit(3)
+
+
 def die_in_mid_sentence() -> NoReturn:
     """Announce an answer of a thousand bytes, send ten, and be killed: as the kernel does when memory runs out."""
     (pipe,) = (o for o in gc.get_objects() if isinstance(o, Connection) and not o.closed and o.writable)

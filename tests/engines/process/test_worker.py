@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from engines.process import worker
-from engines.process.worker import NoAnswerError, Worker
+from engines.process.worker import NoAnswerError, NotStartedError, Worker
 from reference.outcome import Outcome
 from tests.engines.process import misbehaving, used
 
@@ -51,3 +51,14 @@ def test_what_is_to_be_imported_beforehand_is_told_to_the_server_that_forks_once
         worker.import_beforehand("json", *needed)
     Worker().end()
     assert multiprocessing.forkserver._forkserver._preload_modules == [*needed, "json"]  # type: ignore[attr-defined]
+
+
+def test_a_process_that_cannot_start_is_nobodys_crash(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It ends before any task was begun: that is no outcome of a task, and is told as what it is."""
+    monkeypatch.setattr(worker, "work", misbehaving.leave_before_any_task)
+    stillborn = Worker()
+    try:
+        with pytest.raises(NotStartedError, match="ended with exit code 3"):
+            stillborn.do(used.say, ("anything",), *LIMITS)
+    finally:
+        stillborn.end()
