@@ -4,18 +4,29 @@ from __future__ import annotations
 
 import doctest
 import importlib
+import re
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[1]
 
+#: Where the public module stands.
+PYTHON = ROOT / "report" / "python"
+
+
+def module_of(file: Path) -> str:
+    """The name that a file is imported by."""
+    inside = file.relative_to(PYTHON if file.is_relative_to(PYTHON) else ROOT).with_suffix("")
+    return ".".join(inside.parent.parts if inside.name == "__init__" else inside.parts)
+
+
 #: The modules that have examples.
 MODULES = sorted(
-    ".".join(file.relative_to(ROOT).with_suffix("").parts)
+    module_of(file)
     for room in ("reference", "engines", "experiments", "report")
     for file in (ROOT / room).rglob("*.py")
-    if "\n    >>> " in file.read_text(encoding="utf-8")
+    if re.search(r"^ *>>> ", file.read_text(encoding="utf-8"), re.MULTILINE)
 )
 
 

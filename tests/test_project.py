@@ -65,6 +65,7 @@ def check_direction(room: str, source: str) -> None:
         top = module.split(".")[0]
         assert top not in ROOMS or top in allowed, f"{room} imports {module}"
         assert top != "tests", f"{room} imports the tests"
+        assert top != "springlab" or room == "report", f"{room} imports the public module"
 
 
 def check_named(module: str, source: str) -> None:

@@ -103,19 +103,12 @@ def _write(comparison: Comparison, document: str, out: Path) -> None:
 
 def _show(comparison: Comparison) -> None:
     """A comparison as a table."""
-    from experiments.runs.comparison import remarks
+    from report.shown import of_comparison
 
-    setup = comparison.setup
-    title = f"{setup.name}: dt = {setup.dt:g} s, {setup.run_duration:.6g} s"
-    if abs(setup.run_duration - setup.duration) > 1e-9 * setup.duration:
-        title += f", which is {setup.steps} whole steps ({setup.duration:g} s were asked for)"
-    columns = ["stepper", "outcome", "error [m]", "identified as", "deviation [m]", "reason"]
-    keys = ["stepper", "outcome", "error_m", "identified_as", "identification_error_m"]
-    show_table(title, columns, [[*(run.row[key] for key in keys), run.why] for run in comparison.runs])
-    for remark in remarks(comparison.runs):
-        click.echo(printable(remark))
-    if comparison.why_no_true_motion:
-        click.echo(f"No error is known: {comparison.why_no_true_motion}.")
+    shown = of_comparison(comparison)
+    show_table(shown.title, shown.columns, shown.rows)
+    for note in shown.notes:
+        click.echo(printable(note))
 
 
 def _draw(comparison: Comparison, names: Sequence[str], slow: float, part: Path, path: Path) -> None:

@@ -50,12 +50,11 @@ def _print_json(stepper: str, identification: Identification) -> None:
     click.echo(json.dumps(document, indent=2))
 
 
-def _show(stepper: str, identification: Identification) -> None:
-    from experiments.runs.comparison import finite
+def _show(_: str, identification: Identification) -> None:
+    from report.shown import of_identification
 
-    click.echo(str(identification))
-    if identification.remark:
-        click.echo(identification.remark)
-    rows = [[match.scheme, plain(finite(match.error)), match.steps] for match in identification.ranking]
-    deviation = "deviation in a step [m]" if identification.by_single_steps else "deviation [m]"
-    show_table("", ["scheme", deviation, "over [steps]"], rows)
+    shown = of_identification(identification)
+    click.echo(shown.title)
+    for note in shown.notes:
+        click.echo(note)
+    show_table("", shown.columns, [[scheme, plain(error), steps] for scheme, error, steps in shown.rows])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from math import isnan, pi
+from math import isnan
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -62,31 +62,17 @@ def _document(swing: StepperSwing) -> dict[str, Any]:
 
 
 def _show(modes: Modes, made: list[StepperSwing]) -> None:
-    from experiments.simulation.modes_of_scene import UNCOUPLED
+    from report.shown import of_modes, of_springs_at_rest
 
-    natural = modes.natural
-    rows = [
-        [str(i + 1), float(f), 2 * pi * float(f), 1 / f if f else None, _known(ratio)]
-        for i, (f, ratio) in enumerate(zip(natural.frequencies, natural.damping_ratios, strict=True))
-    ]
-    columns = ["mode", "frequency [Hz]", "angular [rad/s]", "period [s]", "damping ratio"]
-    show_table(f"{modes.setup.name}: natural modes about its rest", columns, rows[:SHOWN])
-    if len(rows) > SHOWN or len(rows) < modes.asked:
-        click.echo(f"{min(SHOWN, len(rows))} of {modes.asked} modes are shown; --json has {len(rows)}.")
-    if natural.coupled > UNCOUPLED:
-        click.echo(
-            f"Damping couples the modes ({natural.coupled:.1%} of it): the damping ratios are what acts within each."
-        )
-    if modes.about:
-        click.echo(f"These are {modes.about}.")
-    springs = modes.setup.system.springs.tolist()
-    forces = [
-        [str(j), f"{a} - {b}", float(force), "tension" if force > 0 else "compression" if force < 0 else "none"]
-        for j, ((a, b), force) in enumerate(zip(springs, modes.forces, strict=True))
-    ]
-    show_table("Springs at rest", ["spring", "masses", "force [N]", ""], forces[:SHOWN])
-    if len(forces) > SHOWN:
-        click.echo(f"{SHOWN} of {len(forces)} springs are shown; --json has all.")
+    shown, springs = of_modes(modes), of_springs_at_rest(modes)
+    show_table(shown.title, shown.columns, shown.rows[:SHOWN])
+    if len(shown.rows) > SHOWN or len(shown.rows) < modes.asked:
+        click.echo(f"{min(SHOWN, len(shown.rows))} of {modes.asked} modes are shown; --json has {len(shown.rows)}.")
+    for note in shown.notes:
+        click.echo(note)
+    show_table(springs.title, springs.columns, springs.rows[:SHOWN])
+    if len(springs.rows) > SHOWN:
+        click.echo(f"{SHOWN} of {len(springs.rows)} springs are shown; --json has all.")
     if made:
         _show_swings(modes, made)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,7 +14,6 @@ from report.commands.runner_options import chosen_runner, resume_option, store_o
 from report.commands.terminal import RESULTS, progress
 
 if TYPE_CHECKING:
-    from experiments.experiment import Experiment
     from report.page.section import Section
 
 
@@ -36,52 +34,19 @@ def report_command(
     """
     if scene is not None and (names or full):
         raise InputError("--only and --full are of experiments: expected no SCENE with them")
-    if scene is not None:
-        html, sections = _scene_page(scene, out, resume, store)
-    else:
-        html, sections = _page(_wanted(names, full), full, out, resume, store)
-    written = out / "index.html"
-    written.write_text(html, encoding="utf-8")
-    for section in sections:
+    from report.page.written import write_page, write_scene_page
+
+    with chosen_runner(resume, store), progress("report") as tell:
+        if scene is not None:
+            written = write_scene_page(scene, out, tell)
+        else:
+            written = write_page(names, out, store, tell, fresh=not resume, full=full)
+    for section in written.sections:
         click.echo(f"{section.experiment.title}: {_told(section)}\n")
-    click.echo(printable(f"written: {written}"))
+    click.echo(printable(f"written: {written.file}"))
     if show:
-        click.launch(str(written))
-    return int(any(section.result is None for section in sections))
-
-
-def _wanted(names: Sequence[str], full: bool) -> list[Experiment]:
-    """The experiments of these names; without names those that belong in the report, in full all."""
-    from experiments.experiment import NAMES, find
-
-    wanted = [find(name) for name in dict.fromkeys(names or NAMES)]
-    return wanted if names or full else [experiment for experiment in wanted if experiment.in_report]
-
-
-def _page(
-    wanted: Sequence[Experiment], full: bool, out: Path, resume: bool, store: Path
-) -> tuple[str, Sequence[Section]]:
-    """The page of experiments, and its sections."""
-    from report.page.page import page
-    from report.page.sections import all_sections
-
-    out.mkdir(parents=True, exist_ok=True)
-    with chosen_runner(resume, store), progress("report") as tell:
-        sections = all_sections(wanted, out, tell, store, fresh=not resume, full=full)
-        return page(sections), sections
-
-
-def _scene_page(scene: str, out: Path, resume: bool, store: Path) -> tuple[str, Sequence[Section]]:
-    """The page of a user's own scene, and its sections."""
-    from reference.files.setup import setup_for
-    from report.page.page import scene_page
-    from report.page.sections import scene_sections
-
-    setup = setup_for(scene)
-    out.mkdir(parents=True, exist_ok=True)
-    with chosen_runner(resume, store), progress("report") as tell:
-        sections = scene_sections(setup, f"springlab report {scene}", out, tell)
-        return scene_page(setup.name, sections), sections
+        click.launch(str(written.file))
+    return int(any(section.result is None for section in written.sections))
 
 
 def _told(section: Section) -> str:

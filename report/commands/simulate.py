@@ -21,7 +21,7 @@ from report.commands.options import (
 from report.commands.terminal import RESULTS, progress, show_table
 
 if TYPE_CHECKING:
-    from experiments.simulation.simulation import Largest, Run, Simulation
+    from experiments.simulation.simulation import Run, Simulation
     from reference.scenes import Setup
     from reference.stepper import Stepper
 
@@ -93,16 +93,12 @@ def _tell_room(setup: Setup, steppers: Sequence[Stepper]) -> None:
 
 def _show(simulation: Simulation) -> None:
     """A summary of each run, and with few masses where they are at the end."""
-    setup = simulation.setup
-    title = f"{setup.name}: dt = {setup.dt:g} s, {setup.run_duration:.6g} s"
-    if abs(setup.run_duration - setup.duration) > 1e-9 * setup.duration:
-        title += f", which is {setup.steps} whole steps ({setup.duration:g} s were asked for)"
-    names = [run.stepper.name for run in simulation.runs]
-    rows = [[label, *(cell(run) for run in simulation.runs)] for label, cell in SUMMARY.items()]
-    show_table(title, ["", *names], rows)
-    for run in simulation.runs:
-        if run.outcome.reason:
-            click.echo(f"{run.stepper.name}: {run.outcome.ending}: {run.outcome.reason}")
+    from report.shown import of_simulation
+
+    shown = of_simulation(simulation)
+    show_table(shown.title, shown.columns, shown.rows)
+    for note in shown.notes:
+        click.echo(note)
     for run in simulation.runs:
         _show_end(run)
 
@@ -121,37 +117,6 @@ def _show_end(run: Run) -> None:
         [str(i), *x, *v] for i, (x, v) in enumerate(zip(end.positions.tolist(), end.velocities.tolist(), strict=True))
     ]
     show_table(f"{run.stepper.name}, t = {end.time:.6g} s", columns, rows)
-
-
-def _of_motion(cell: Any) -> Any:
-    return lambda run: None if run.motion is None else cell(run.motion)
-
-
-def _largest(found: Largest | None, what: str, unit: str) -> str | None:
-    if found is None:
-        return "none"
-    return f"{found.value:.4g} {unit}, {what} {found.which}, t = {found.time:.4g} s"
-
-
-def _vector(values: Any) -> str:
-    return ", ".join(f"{value:.4g}" for value in values.tolist())
-
-
-#: What is said of every run.
-SUMMARY = {
-    "outcome": lambda run: run.outcome.ending,
-    "blew up at [s]": lambda run: run.blew_up_at,
-    "largest sag": _of_motion(lambda m: _largest(m.sag, "mass", "m")),
-    "largest stretch": _of_motion(lambda m: _largest(m.stretched, "spring", "m")),
-    "largest tension": _of_motion(lambda m: None if m.forces is None else _largest(m.tension, "spring", "N")),
-    "largest compression": _of_motion(lambda m: None if m.forces is None else _largest(m.compression, "spring", "N")),
-    "energy at the start [J]": _of_motion(lambda m: f"{m.energy_at_start['total']:.6g}"),
-    "energy at the end [J]": _of_motion(lambda m: f"{m.energy['total']:.6g}"),
-    "of it kinetic, elastic, gravitational [J]": _of_motion(
-        lambda m: ", ".join(f"{m.energy[name]:.4g}" for name in ("kinetic", "elastic", "gravitational"))
-    ),
-    "momentum at the end [kg m/s]": _of_motion(lambda m: _vector(m.momentum)),
-}
 
 
 def _write(simulation: Simulation, out: Path, every: int, tell: Any) -> None:

@@ -22,9 +22,18 @@ HEIGHT, LINE, LETTERS = 5.8, 0.17, 38
 
 
 def draw(result: Result) -> Picture:
-    """Two bands of lines on one logarithmic axis: what is to be explained, and what is left of it once it is."""
+    """The engines' part of the experiment's comparison."""
     comparison: Comparison = result.data["comparison"]
-    runs = [run for run in comparison.runs if run.stepper.kind == "engine" and run.error is not None]
+    return draw_runs(comparison, [run for run in comparison.runs if run.stepper.kind == "engine"])
+
+
+def draw_runs(comparison: Comparison, wanted: Sequence[Run]) -> Picture:
+    """Two bands of lines on one logarithmic axis: what is to be explained, and what is left of it once it is.
+
+    Args:
+        wanted: runs of the comparison; those without an error are left out.
+    """
+    runs = [run for run in wanted if run.error is not None]
     groups = _groups(runs)
     lines = sum(1 + _label(group).count("\n") for group in groups)
     figure, axes = new_figure(figsize=(10.5, max(HEIGHT, LINE * (lines + 4))))

@@ -1,0 +1,55 @@
+"""What there is, as tables: scenes, steppers, engines, experiments."""
+
+from __future__ import annotations
+
+from report.shown import Shown
+
+
+def scene_rows() -> Shown:
+    """Scenes with their slides and parameters."""
+    from reference.scenes import scenes
+
+    rows = [
+        [s.name, s.slides, s.summary, ", ".join(f"{key}={value}" for key, value in s.parameters.items())]
+        for s in scenes().values()
+    ]
+    return Shown("scenes", ["scene", "slides", "what", "parameters"], rows)
+
+
+def stepper_rows() -> Shown:
+    """All steppers that are not engines."""
+    from experiments.runs.steppers import all_steppers
+    from reference.stepper import SchemeStepper
+
+    rows = []
+    for stepper in all_steppers().values():
+        if stepper.kind != "engine":
+            summary = stepper.scheme.summary if isinstance(stepper, SchemeStepper) else stepper.summary  # type: ignore[attr-defined]
+            rows.append([stepper.name, stepper.kind, summary])
+    return Shown("schemes", ["stepper", "kind", "what"], rows)
+
+
+def engine_rows() -> Shown:
+    """Each with its version, the schemes it claims to step by, and what is recorded with its results."""
+    from engines.engine import precision, registry, version
+
+    rows = [
+        [
+            engine.name,
+            version(engine) or f"not available: {engine.package} is not installed",
+            ", ".join(dict.fromkeys(engine.identified_as.values())),
+            engine.semantics,
+            dict(engine.settings),
+            precision(engine),
+        ]
+        for engine in registry().values()
+    ]
+    return Shown("engines", ["engine", "version", "known to be", "in SI units", "settings", "precision"], rows)
+
+
+def experiment_rows() -> Shown:
+    """Experiments with their questions."""
+    from experiments.experiment import experiments
+
+    rows = [[experiment.name, experiment.slides, experiment.question] for experiment in experiments().values()]
+    return Shown("experiments", ["experiment", "slides", "question"], rows)

@@ -1,0 +1,207 @@
+"""What `import springlab` answers: arrays of the right shapes, the commands' numbers, and how it is shown."""
+
+from __future__ import annotations
+
+import inspect
+import json
+import sys
+from dataclasses import FrozenInstanceError
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import springlab as lab
+from click.testing import CliRunner
+
+from report.commands.main import springlab as command_line
+from tests.report.html import Page
+
+#: A string that is quickly run.
+QUICK: dict[str, Any] = {"masses": 4, "duration": 0.05}
+WORDS = ["string", "--set", "masses=4", "--duration", "0.05"]
+
+
+@pytest.fixture(scope="module")
+def compared() -> lab.Comparison:
+    """Two schemes and an engine."""
+    return lab.compare("string", "heun", ["euler", "mujoco_tendons"], **QUICK)
+
+
+@pytest.fixture(scope="module")
+def simulated() -> lab.Simulation:
+    """A string with damping that is stiffer from the middle on."""
+    return lab.simulate("string", "rk4", changes=[(0.025, "stiffness", 400.0)], damping=0.1, **QUICK)
+
+
+def said(*words: str) -> Any:
+    """What a command prints with --json."""
+    done = CliRunner().invoke(command_line, [*words, "--json"], catch_exceptions=False)
+    return json.loads(done.stdout)
+
+
+def test_every_public_function_has_an_example_but_those_that_write() -> None:
+    """They are run by tests/test_examples.py; a name in them that is no more fails there."""
+    functions = {name: getattr(lab, name) for name in lab.__all__ if inspect.isfunction(getattr(lab, name))}
+    without = {name for name, function in functions.items() if ">>>" not in (function.__doc__ or "")}
+    assert without == {"report"}
+    assert {"simulate", "compare", "identify", "stability", "modes", "scene", "system"} <= functions.keys()
+
+
+def test_a_comparison_has_arrays_of_every_step_and_the_commands_numbers(compared: lab.Comparison) -> None:
+    """51 states of 5 masses in the plane (one holds the string); documents are what the command prints."""
+    run = compared["mujoco_tendons"]
+    assert run.positions.shape == run.velocities.shape == (51, 5, 2)
+    assert compared.true_positions is not None
+    assert run.error == pytest.approx(np.linalg.norm(run.positions - compared.true_positions, axis=2).max(axis=1))
+    assert (run.outcome, run.reason, run.identified_as) == ("done", "", "kick_drift")
+    assert run.deviation is not None
+    assert run.deviation.max() < 1e-13
+    words = ["--stepper", "heun", "--stepper", "euler", "--stepper", "mujoco_tendons"]
+    assert compared.document == said("compare", *WORDS, *words)
+
+
+def test_a_simulation_has_forces_stretches_and_energies_of_every_step(simulated: lab.Simulation) -> None:
+    """By the law of the spring, k (length - rest length) + c times the rate; k is another one from the change on."""
+    run = simulated["rk4"]
+    system = simulated.scene.system
+    a, b = system.springs.T
+    between = run.positions[:, b] - run.positions[:, a]
+    length = np.linalg.norm(between, axis=2)
+    assert run.stretches == pytest.approx(length - system.rest_lengths)
+    rate = ((run.velocities[:, b] - run.velocities[:, a]) * between).sum(axis=2) / length
+    stiffness = np.where(run.times > 0.025 + 1e-9, 400.0, system.stiffness[0])[:, None]
+    assert run.spring_forces == pytest.approx(stiffness * run.stretches + 0.1 * rate)
+    kinetic = 0.5 * (system.masses[:, None] * run.velocities**2).sum(axis=(1, 2))
+    assert run.energies["kinetic"] == pytest.approx(kinetic)
+    words = ["--set", "damping=0.1", "--change", "0.025:stiffness=400", "--stepper", "rk4"]
+    assert simulated.document == said("simulate", *WORDS, *words)
+
+
+def test_other_answers_have_the_commands_numbers() -> None:
+    """Which scheme, which modes, up to which dt."""
+    found = lab.identify("pymunk_springs", damping=0.5, **QUICK)
+    told = said("identify", "pymunk_springs", *WORDS, "--set", "damping=0.5")
+    assert (found.identified_as, list(found.ties), found.error) == (
+        told["identified_as"],
+        told["ties"],
+        told["error_m"],
+    )
+    modes = lab.modes("string", masses=4)
+    assert modes.document == said("modes", *WORDS)
+    assert modes.shapes.shape == (8, 5, 2)
+    limits = lab.stability("oscillator", "kick_drift", "euler")
+    assert limits.predicted["euler"] is None
+    assert limits.measured["kick_drift"] == pytest.approx(limits.predicted["kick_drift"], rel=1e-3)
+
+
+def test_every_answer_is_shown_as_a_table_and_drawn(compared: lab.Comparison, simulated: lab.Simulation) -> None:
+    """A notebook has tables whose columns have headings, and plots with alternative text."""
+    identified = lab.identify("heun", **QUICK)
+    modes = lab.modes("string", masses=4)
+    limits = lab.stability("oscillator", "kick_drift")
+    for answer in (compared, simulated, identified, modes, limits):
+        page = Page(answer._repr_html_())
+        assert page.attributes("scope") == ["col"] * len(answer.table.columns)
+        assert [name for name, _ in page.elements].count("tr") == 1 + len(answer.table)
+        assert all(str(cell) in page.words for cell in answer.table.columns)
+        plot = answer.plot()
+        assert plot.alt
+        assert plot._repr_html_().startswith("<img alt=")
+        assert str(answer.table.rows[0][0]) in str(answer)
+    assert {row["scene"] for row in lab.scenes()} >= {"string", "cloth"}
+
+
+def test_numbers_go_to_pandas_tidily(compared: lab.Comparison, simulated: lab.Simulation) -> None:
+    """A row for every mass at every time; a row for every stepper."""
+    masses = simulated["rk4"].to_pandas()
+    assert list(masses.columns) == ["time", "mass", "x", "y", "vx", "vy"]
+    last = masses[(masses["mass"] == 4) & (masses["time"] == simulated["rk4"].times[-1])]
+    assert last[["x", "y"]].to_numpy()[0] == pytest.approx(simulated["rk4"].positions[-1, 4])
+    assert list(compared.to_pandas()["stepper"]) == ["heun", "euler", "mujoco_tendons"]
+    assert set(simulated.to_pandas()["stepper"]) == {"rk4"}
+
+
+def test_without_pandas_there_is_one_line(compared: lab.Comparison, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It says what is missing, and how to have it."""
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ImportError, match=r"^to_pandas\(\) needs pandas: .*pip install pandas") as caught:
+        compared.to_pandas()
+    assert "\n" not in str(caught.value)
+
+
+def test_plots_are_saved_by_their_names(compared: lab.Comparison, tmp_path: Path) -> None:
+    """As text that a browser draws, or as pixels."""
+    plot = compared.plot()
+    assert plot.save(tmp_path / "a.svg").read_text(encoding="utf-8").startswith("<svg")
+    assert plot.save(tmp_path / "a.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_answers_cannot_be_changed(compared: lab.Comparison) -> None:
+    """They are frozen."""
+    with pytest.raises(FrozenInstanceError):
+        compared.runs = ()  # type: ignore[misc]
+
+
+def test_an_engine_that_refuses_is_an_answer_with_nothing_in_it() -> None:
+    """Not an exception: its arrays have no frames, and its reason is told."""
+    run = lab.simulate("cloth", "pymunk_springs")["pymunk_springs"]
+    assert run.outcome == "unsupported"
+    assert run.reason
+    assert run.positions.shape[0] == 0
+    assert run.energies == {}
+    assert run.spring_forces.shape[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: lab.simulate("strin"), "did you mean 'string'"),
+        (lambda: lab.simulate("string", "huen"), "did you mean 'heun'"),
+        (lambda: lab.simulate("string", stifness=3.0), "did you mean 'stiffness'"),
+        (lambda: lab.simulate("string", changes=["0.1:drag=1"]), "expected .time, parameter, value."),
+        (lambda: lab.simulate("string", time_limit=-1.0), "time_limit = -1: expected a finite number > 0"),
+        (lambda: lab.simulate("string", 7), "stepper 7: expected a name"),
+        (lambda: lab.simulate(7), "scene 7: expected a name"),
+        (lambda: lab.modes("string", lowest=0), "lowest = 0: expected a number >= 1"),
+        (lambda: lab.system([[0.0]], [], masses=1, stifness=1, stiffness=1), "did you mean 'stiffness'"),
+        (lambda: lab.simulate("string").plot("energies"), "expected paths, energy, forces"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_a_line(call: Any, message: str) -> None:
+    """With what was expected."""
+    with pytest.raises(lab.InputError, match=message) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+
+
+def test_names_that_are_not_there_are_told_with_those_that_are(compared: lab.Comparison) -> None:
+    """Of runs and of columns."""
+    with pytest.raises(KeyError, match="expected one of heun, euler"):
+        compared["rk4"]
+    with pytest.raises(KeyError, match="expected one of stepper"):
+        compared.table["error"]
+
+
+def test_a_system_of_ones_own_falls_as_it_should() -> None:
+    """Free fall, x = -g t^2 / 2: the reference's Verlet has it exactly, but for rounding."""
+    stone = lab.system([[0.0, 0.0]], np.zeros((0, 2), dtype=int), masses=2.0, stiffness=1.0, gravity=9.81)
+    run = lab.simulate(stone, "velocity_verlet", dt=1e-2, duration=0.5)[0]
+    assert run.positions[:, 0, 1] == pytest.approx(-9.81 * run.times**2 / 2, abs=1e-13)
+
+
+def test_a_ramp_and_a_change_act_on_a_system_that_is_there_already() -> None:
+    """As on a named scene: the same motion, to the bit."""
+    ramp, change = lab.Ramp("stiffness", 0.01, 0.03, 300.0), lab.Change(0.02, "drag", 0.1)
+    named = lab.simulate("string", "heun", changes=[ramp, change], **QUICK)[0]
+    there = lab.simulate(lab.scene("string", **QUICK), "heun", changes=[ramp, change])[0]
+    assert np.array_equal(named.positions, there.positions)
+    assert not np.array_equal(named.positions, lab.simulate("string", "heun", **QUICK)[0].positions)
+
+
+def test_a_page_is_written_and_says_what_was_found(tmp_path: Path) -> None:
+    """Of one experiment; its file needs no other."""
+    page = lab.report(only=["errata"], out=tmp_path / "page")
+    assert page.path == tmp_path / "page" / "index.html"
+    assert page.findings[0] in page.path.read_text(encoding="utf-8").replace("&#39;", "'")
+    assert str(page.path) in page._repr_html_()
