@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import pytest
@@ -106,6 +107,23 @@ def test_a_time_is_the_least_of_what_a_busy_machine_gives(clock: Clock) -> None:
         clock.now += 1e-4 * steps + 3e-3 * (calls % 2)
 
     assert timing.seconds_per_step(advance_steps) == pytest.approx(1e-4, rel=1e-9)
+
+
+def test_a_step_through_the_adapter_and_the_engines_own_are_told_in_this_order(clock: Clock) -> None:
+    """One takes 3 ms and the other 2 ms: what the adapter adds is half of the engine's own step."""
+
+    class Covered(KickDrift):
+        def step(self) -> None:
+            clock.now += 3e-3
+
+        def bare_step(self) -> Callable[[], object]:
+            return lambda: clock.__setattr__("now", clock.now + 2e-3)
+
+    class Adapter(Doctored):
+        def start(self, system: MassSpringSystem, dt: float) -> KickDrift:
+            return Covered(system, dt)
+
+    assert timing.adapter_overhead(Adapter(), STRINGS[0], 1e-3) == pytest.approx((3e-3, 2e-3), rel=1e-9)
 
 
 def test_strings_that_would_take_too_long_are_not_tried(clock: Clock) -> None:

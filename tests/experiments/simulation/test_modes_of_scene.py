@@ -67,6 +67,24 @@ def test_coupled_damping_is_told() -> None:
     assert natural_modes(spring_equilibrium(one).linear).coupled > 0.1  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("stiffness", [3e-4, 1.0, 7e8])
+def test_what_nothing_resists_has_no_frequency(stiffness: float) -> None:
+    """A free triangle, aslant: moved as a whole it swings at exactly 0 Hz, two ways and a turn, however stiff it is."""
+    system = MassSpringSystem(
+        positions=np.array([[0.1, 0.2], [1.3, 0.5], [0.4, 1.7]]),
+        springs=np.array([[0, 1], [1, 2], [2, 0]]),
+        masses=np.array([0.3, 0.7, 1.1]),
+        rest_lengths=np.linalg.norm(np.array([[1.2, 0.3], [-0.9, 1.2], [-0.3, -1.5]]), axis=1),
+        stiffness=np.full(3, stiffness),
+        gravity=np.zeros(2),
+    )
+    linear = spring_equilibrium(system).linear
+    assert linear is not None
+    frequencies = natural_modes(linear).frequencies
+    assert list(frequencies[:3]) == [0, 0, 0]
+    assert frequencies[3] > 0.01 * frequencies[-1]
+
+
 def test_the_slowest_of_a_large_system_are_those_of_all() -> None:
     """By sparse matrices, from below."""
     linear = spring_equilibrium(setup_for("cloth").system).linear

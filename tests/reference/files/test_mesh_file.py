@@ -128,6 +128,7 @@ def test_single_points_are_passed_over(tmp_path: Path) -> None:
 
 BAD = {
     "out of range": (BLANKET.replace("f 1 2 3", "f 1 2 5"), "element 1 names vertex 5: expected one from 1 to 4"),
+    "two out of range": (BLANKET.replace("f 1 2 3", "f 6 2 5"), "element 1 names vertex 6: expected one from 1 to 4"),
     "backwards": (BLANKET.replace("f 1 2 3", "f 1 2 -1"), "element 1 names vertex -1: expected one from 1 to 4"),
     "from zero": (BLANKET.replace("f 1 2 3", "f 0 1 2"), "element 1 names vertex 0: expected one from 1 to 4"),
     "a number beyond all": (BLANKET.replace("2/1/1 4", f"2/1/1 {10**30}"), "element 2 names vertex 1000000"),
