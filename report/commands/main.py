@@ -22,6 +22,7 @@ COMMANDS = {
     "modes": "Natural frequencies, shapes and damping about the rest, and what springs carry there.",
     "compare": "Run many steppers on one scene: how far from the true motion, and why.",
     "identify": "Say which scheme a stepper is.",
+    "explain": "Derive what a stepper computes, from the outside.",
     "stability": "Predict and measure the largest stable dt; map growth.",
     "live": "Open a page where scenes run and everything can be changed.",
     "sweep": "Run steppers over a grid of parameters; nothing is lost.",

@@ -1,0 +1,202 @@
+"""What a stepper computes, from the outside: its formulas, what follows from them, and its name where it has one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from reference.derivation.consequences import FAR, Consequences, Windows, consequences
+from reference.derivation.implicit import implicit_tableau, tableau_by_points
+from reference.derivation.near import nearest_known
+from reference.derivation.nonlinear_order import nonlinear_order
+from reference.derivation.of_schemes import updates_of_scheme
+from reference.derivation.oscillators import runs_of
+from reference.derivation.pasts import Pasts, pasts
+from reference.derivation.recording import Recording
+from reference.derivation.step_matrix import StepMatrix, step_matrix
+from reference.derivation.tableau import Tableau, tableau_of
+from reference.derivation.updates import Updates, updates_of
+from reference.errors import Unsupported
+from reference.identification import Identification, identify
+from reference.identification.scale import precision_of
+from reference.scenes import find as find_scene
+from reference.stepper import SchemeStepper, Stepper
+
+#: What it is identified on: a string of few masses, so many steps of dt [s], with damping and drag where it can.
+MASSES, DT, STEPS, DAMPING, DRAG = 4, 2e-3, 60, 2.0, 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """All that is told of a stepper; None where something cannot be.
+
+    Attributes:
+        stepper: its name.
+        identification: which scheme reproduces it, on a string.
+        pasts: whether a step depends on the state alone.
+        matrix: its step matrix.
+        follows: what follows from that.
+        updates: its update formulas, where it asks for slopes.
+        tableau: its Butcher tableau, where it is a Runge-Kutta method.
+        nonlinear_order: the order seen on a spring that turns.
+        nearest: where it has no name, the nearest scheme and in what it differs, in words.
+        reasons: why something cannot be told, each a sentence without its stop.
+        remarks: what it does that a stepper should not.
+    """
+
+    stepper: str
+    identification: Identification
+    pasts: Pasts | None
+    matrix: StepMatrix | None
+    follows: Consequences | None
+    updates: Updates | None
+    tableau: Tableau | None
+    nonlinear_order: int | None
+    nearest: str
+    reasons: tuple[str, ...]
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def explicit(self) -> bool | None:
+        """Whether a step is had without solving equations."""
+        if self.tableau is not None:
+            return self.tableau.explicit
+        if self.updates is not None:
+            return True
+        return None if self.matrix is None else self.matrix.is_polynomial
+
+    @property
+    def order(self) -> int | None:
+        """By the conditions on its tableau; else the lower of those on linear motion and on a spring that turns."""
+        if self.tableau is not None:
+            return self.tableau.order
+        if self.pasts is not None and self.pasts.one_step is False:
+            return self.nonlinear_order
+        known = [n for n in (self.follows.order if self.follows else None, self.nonlinear_order) if n is not None]
+        return min(known, default=None)
+
+    @property
+    def symplectic(self) -> bool | None:
+        """By its tableau, which tells it of any motion; else by its determinant on the oscillator."""
+        if self.tableau is not None:
+            return self.tableau.symplectic
+        return self.follows.symplectic if self.follows and self.of_one_step else None
+
+    @property
+    def of_one_step(self) -> bool:
+        """Whether the step matrix tells all steps."""
+        return self.pasts is None or self.pasts.one_step is True
+
+    @property
+    def reason(self) -> str:
+        """What cannot be told and why, and what it does that it should not, in a line."""
+        return "; ".join((*self.remarks, *self.reasons))
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """As JSON has it: fractions and formulas as text."""
+        follows = self.follows if self.of_one_step else None
+        return {
+            "stepper": self.stepper,
+            "identified_as": self.identification.identified_as,
+            "one_step": self.pasts.one_step if self.pasts else None,
+            "explicit": self.explicit,
+            "deterministic": self.pasts.deterministic if self.pasts else None,
+            "slope_evaluations": self.updates.calls if self.updates else None,
+            "tableau": self.tableau.text() if self.tableau else None,
+            "step_matrix": self.matrix.text() if self.matrix else None,
+            "order": self.order,
+            "symplectic": self.symplectic,
+            "reversible": follows.reversible if follows else None,
+            "stability": {
+                "real_axis": first_limit(follows.real_axis) if follows else None,
+                "imaginary_axis": first_limit(follows.imaginary_axis) if follows else None,
+            },
+            "reason": self.reason,
+        }
+
+
+def first_limit(windows: Windows | None) -> float | str | None:
+    """Where the first interval ends; "unlimited" where it does not as far as is looked."""
+    if windows is None:
+        return None
+    return "unlimited" if windows[0][1] >= FAR else round(windows[0][1], 9)
+
+
+def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -> Explanation:
+    """Find out all of it.
+
+    Args:
+        stepper: a scheme, an engine, a user's own.
+        tell: is told what is being done.
+    """
+    reasons: list[str] = []
+    runs, precision = runs_of(stepper), precision_of(stepper)
+    tell("its step matrix")
+    matrix = _tried(lambda: step_matrix(runs, precision), reasons, "no step matrix: ")
+    damped, dragged = (matrix.damped, matrix.dragged) if matrix else (False, False)
+    tell("its past")
+    past = _tried(lambda: pasts(runs, precision, damped, dragged), reasons, "whether it looks back: ")
+    tell("its slopes")
+    updates, tableau, remarks = _asked(stepper, reasons)
+    tell("its order")
+    seen = None if precision == "single" else nonlinear_order(runs, damped, dragged)
+    tell("its name")
+    system = find_scene("string").system(
+        {"masses": MASSES, "damping": DAMPING if damped else 0.0, "drag": DRAG if dragged else 0.0, "angle": 0.5}
+    )
+    identification = identify(stepper, system, DT, STEPS)
+    nearest = ""
+    if identification.identified_as is None:
+        reasons.append(f"not identified: {identification.reason}")
+        nearest = nearest_known(stepper.name, tableau, matrix)
+    if past is not None and past.one_step is False:
+        reasons.append("it remembers earlier steps: its step matrix is that of a first step")
+    follows = consequences(matrix) if matrix else None
+    return Explanation(
+        stepper.name,
+        identification,
+        past,
+        matrix,
+        follows,
+        updates,
+        tableau,
+        seen,
+        nearest,
+        tuple(reasons),
+        remarks,
+    )
+
+
+def _tried(find: Callable[[], Any], reasons: list[str], words: str) -> Any:
+    try:
+        return find()
+    except Unsupported as error:
+        reasons.append(f"{words}{error}")
+        return None
+
+
+def _asked(stepper: Stepper, reasons: list[str]) -> tuple[Updates | None, Tableau | None, tuple[str, ...]]:
+    """What is seen of a stepper that asks for slopes: its formulas, its tableau, what it does that it should not."""
+    if isinstance(stepper, SchemeStepper):
+        if stepper.on_rods or stepper.scheme.needs != "accelerations":
+            return None, None if stepper.on_rods else implicit_tableau(stepper.scheme), ()
+        updates = _tried(lambda: updates_of_scheme(stepper.scheme), reasons, "no update formulas: ")
+        return updates, tableau_of(updates) if updates else None, ()
+    recorded: Callable[[], Recording | None] | None = getattr(stepper, "recording", None)
+    recording = recorded() if recorded else None
+    if recording is None:
+        return None, None, ()
+    remarks: tuple[str, ...] = ("it writes into the state it is given",) if recording.overwrites else ()
+    solved = recording.solved
+    if solved is not None:
+        found = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes)
+        if found is None:
+            reasons.append("no tableau: it iterates, and what it comes to is no Runge-Kutta method of few stages")
+        return None, found, remarks
+    updates = _tried(lambda: updates_of(recording), reasons, "no update formulas: ")
+    tableau = tableau_of(updates, recording.timed) if updates else None
+    if tableau is not None and tableau.times_at_odds:
+        remarks += (tableau.times_at_odds,)
+    return updates, tableau, remarks

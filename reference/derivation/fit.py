@@ -1,0 +1,131 @@
+"""The rational function of smallest size that values follow to rounding, its coefficients as fractions.
+
+Linear least squares for numerator - value x denominator = 0, the denominator's constant being 1; more and more terms
+are allowed until what is left is rounding. What was found is then checked on all values, also those held back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import product
+
+import numpy as np
+
+from reference.derivation.formula import ONE, VARIABLES, WEIGHTS, Formula, Monomial, Number, evaluated, weight
+from reference.derivation.small_fractions import recognised, simplest_within
+from reference.state import Array
+
+#: What is left of a fit may be so many times the noise.
+NOISES = 30
+
+#: A coefficient's uncertainty, as so many of the standard deviations that the fit gives it.
+DEVIATIONS = 10
+
+#: The largest powers of h above and below: those of a polynomial, and those of a fraction.
+POLYNOMIAL, ABOVE, BELOW = 8, 4, 4
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Where a step was taken: a, b and d, each shape (n,); every third is held back for the check."""
+
+    a: Array
+    b: Array
+    d: Array
+
+    def of(self, monomials: Sequence[Monomial]) -> Array:
+        """The values of monomials, shape (n, m)."""
+        columns = [evaluated(m, self.a, self.b, self.d) for m in monomials]
+        return np.stack(columns, axis=1) if columns else np.empty((len(self.a), 0))
+
+
+def formula_of(samples: Samples, values: Array, noise: float) -> Formula | None:
+    """The formula of one entry of a step matrix; None where no small one holds.
+
+    Args:
+        values: shape (n,).
+        noise: how far these may be off by rounding.
+    """
+    for above, below in _shapes(bool(samples.b.any()), bool(samples.d.any())):
+        if 2 * (len(above) + len(below)) > len(values):
+            continue
+        found = _fitted(samples, values, noise, above, below)
+        if found is not None:
+            return found
+    return None
+
+
+def _fitted(
+    samples: Samples, values: Array, noise: float, above: Sequence[Monomial], below: Sequence[Monomial]
+) -> Formula | None:
+    kept = np.arange(len(values)) % 3 != 2
+    matrix = np.hstack([samples.of(above), -values[:, None] * samples.of(below)])
+    size = np.abs(matrix[kept]).max(axis=0)
+    size[size == 0] = 1.0
+    u, s, vt = np.linalg.svd(matrix[kept] / size, full_matrices=False)
+    if s[-1] < 1e-13 * s[0]:
+        return None
+    solution = vt.T @ ((u.T @ values[kept]) / s)
+    left = matrix @ (solution / size) - values
+    if np.abs(left).max() > NOISES * noise:
+        return None
+    spread = DEVIATIONS * noise * np.sqrt(((vt.T / s) ** 2).sum(axis=1)) / size
+    numbers = [_number(float(c), float(t)) for c, t in zip(solution / size, spread, strict=True)]
+    formula = Formula(
+        {m: c for m, c in zip(above, numbers, strict=False) if c},
+        {ONE: Fraction(1)} | {m: c for m, c in zip(below, numbers[len(above) :], strict=True) if c},
+    )
+    if not formula.is_polynomial and not formula.exact:
+        return None  # a fraction of polynomials with numbers that are none: it may be anything
+    below_size = np.abs(1 + samples.of(below) @ (solution / size)[len(above) :]) if below else np.ones(1)
+    off = np.abs(formula.at(samples.a, samples.b, samples.d) - values)
+    return formula if bool((off <= 2 * NOISES * noise / np.minimum(below_size, 1.0)).all()) else None
+
+
+def _number(c: float, tol: float) -> Number:
+    """A coefficient as a fraction, zero included; as it is, where none is recognised."""
+    if simplest_within(c, tol) == 0:
+        return Fraction(0)
+    found = recognised(c, tol)
+    return c if found is None else found
+
+
+@cache
+def _shapes(damped: bool, dragged: bool) -> tuple[tuple[tuple[Monomial, ...], tuple[Monomial, ...]], ...]:
+    """Terms above and below to try, the fewest first; exponentials of damping and of drag come after all others."""
+    plain = [*_plain(damped, dragged)]
+    plain.sort(key=lambda shape: len(shape[0]) + len(shape[1]))
+    decays = [e for e, there in (("E", damped), ("D", dragged)) if there]
+    exponential = [
+        (tuple(m if not e else _times(m, e) for e in (None, which) for m in _monomials(n, damped, dragged)), ())
+        for n in (2, 3, 4)
+        for which in decays
+    ]
+    return (*plain, *exponential)
+
+
+def _plain(damped: bool, dragged: bool) -> Iterator[tuple[tuple[Monomial, ...], tuple[Monomial, ...]]]:
+    for n in range(POLYNOMIAL + 1):
+        for m in range(BELOW + 1) if n <= ABOVE else (0,):
+            yield _monomials(n, damped, dragged), _monomials(m, damped, dragged)[1:]
+
+
+@cache
+def _monomials(most: int, damped: bool, dragged: bool) -> tuple[Monomial, ...]:
+    """Those up to a power of h, of the variables that there are."""
+    powers = product(*(range(most // w + 1) if w and there else (0,) for w, there in _present(damped, dragged)))
+    found = [p for p in powers if weight((p[0], p[1], p[2], p[3], p[4])) <= most]
+    return tuple(sorted(((p[0], p[1], p[2], p[3], p[4]) for p in found), key=weight))
+
+
+def _present(damped: bool, dragged: bool) -> Iterator[tuple[int, bool]]:
+    return zip(WEIGHTS, (True, damped, dragged, False, False), strict=True)
+
+
+def _times(monomial: Monomial, variable: str) -> Monomial:
+    i = VARIABLES.index(variable)
+    more = [n + (j == i) for j, n in enumerate(monomial)]
+    return more[0], more[1], more[2], more[3], more[4]

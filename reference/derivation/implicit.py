@@ -1,0 +1,127 @@
+"""Tableaux of steppers that solve equations: the points they come to in the end are the stages.
+
+Where it asked last before it was done, and at what it asked for those slopes, satisfy y1 = y0 + h sum b_i f(P_i) and
+P_i = y0 + h sum a_ij f(P_j): with enough unknowns that is many equations for few coefficients, and what is left of
+them tells whether these points are the stages at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+
+from reference.derivation.formula import Number
+from reference.derivation.small_fractions import recognised
+from reference.derivation.tableau import Tableau
+from reference.forces import SpringMotion
+from reference.schemes.catalogue import Scheme
+from reference.state import Array, Slope, State
+from reference.system import MassSpringSystem
+
+#: Points nearer to one another than this part of their size are one stage, as far as its equation is solved.
+ONE_STAGE = 1e-6
+
+#: Of the points asked, so many of the last can be stages; and so many stages are tried.
+LAST, MOST_STAGES = 8, 3
+
+#: What may be left of the equations, as a part of a step's change; and how far a coefficient may be off.
+LEFT, OFF = 1e-8, 1e-8
+
+
+def tableau_by_points(
+    start: Array, end: Array, h: float, points: Sequence[Array], slopes: Sequence[Array]
+) -> Tableau | None:
+    """The tableau of the fewest stages that a step satisfies; None where it satisfies none.
+
+    Args:
+        start: y0, all unknowns in a row; end: y1.
+        points: all P that it asked at, in order; slopes: f there.
+    """
+    kept = _distinct(points)[-LAST:]
+    for stages in range(1, MOST_STAGES + 1):
+        for chosen in reversed(list(combinations(kept, stages))):
+            matrix = h * np.stack([slopes[i] for i in chosen], axis=1)
+            rows = [_coefficients(matrix, target - start) for target in (end, *(points[i] for i in chosen))]
+            if all(row is not None for row in rows):
+                b, *a = [tuple(map(_number, row)) for row in rows if row is not None]
+                c: list[Number] = [sum(row, start=Fraction(0)) for row in a]
+                return Tableau(tuple(a), b, tuple(c))
+    return None
+
+
+def _coefficients(matrix: Array, change: Array) -> Array | None:
+    found = np.linalg.lstsq(matrix, change, rcond=None)[0]
+    size = float(np.abs(matrix).max())
+    return np.asarray(found) if np.abs(matrix @ found - change).max() <= LEFT * size else None
+
+
+def _number(c: float) -> Number:
+    found = recognised(c, OFF)
+    return c if found is None else found
+
+
+def _distinct(points: Sequence[Array]) -> list[int]:
+    """The last of every group of points that are one stage, in order."""
+    kept: list[int] = []
+    size = max(float(np.abs(p).max()) for p in points) if points else 1.0
+    for i in range(len(points) - 1, -1, -1):
+        if all(np.abs(points[i] - points[j]).max() > ONE_STAGE * size for j in kept):
+            kept.append(i)
+    return kept[::-1]
+
+
+@cache
+def implicit_tableau(scheme: Scheme) -> Tableau | None:
+    """The tableau of a scheme that is given the springs and solves its equations; None where it has none."""
+    if scheme.needs != "springs" or not scheme.one_step:
+        return None
+    system = _strong_spring_net()
+    motion = _Recording(system)
+    h = 0.05
+    end = scheme.on(motion)(motion.start, h)
+    return tableau_by_points(_row(motion.start), _row(end), h, motion.points, motion.slopes)
+
+
+class _Recording(SpringMotion):
+    """Springs that keep where they were asked for accelerations."""
+
+    def __init__(self, system: MassSpringSystem) -> None:
+        super().__init__(system)
+        self.points: list[Array] = []
+        self.slopes: list[Array] = []
+
+    def acceleration(self, state: State, /, damping: bool = True) -> Array:
+        """As springs do."""
+        found = super().acceleration(state, damping)
+        self.points.append(_row(state))
+        self.slopes.append(np.concatenate([state.velocities, found], axis=None))
+        return found
+
+    def slope(self, state: State, /) -> Slope:
+        """As springs do."""
+        return Slope(1.0, state.velocities, self.acceleration(state))
+
+
+def _row(state: State) -> Array:
+    return np.concatenate([state.positions, state.velocities], axis=None)
+
+
+def _strong_spring_net() -> MassSpringSystem:
+    """Ten masses, all different, that stretch and turn their springs a good deal in a step."""
+    random = np.random.default_rng(5)
+    n = 10
+    springs = np.array([[i, j] for i in range(n) for j in (i + 1, i + 2) if j < n])
+    return MassSpringSystem(
+        positions=np.stack([np.arange(n) * 0.5, random.uniform(-0.4, 0.4, n)], axis=1),
+        velocities=random.uniform(-2, 2, (n, 2)),
+        springs=springs,
+        masses=random.uniform(0.5, 1.5, n),
+        rest_lengths=random.uniform(0.4, 0.9, len(springs)),
+        stiffness=random.uniform(50, 150, len(springs)),
+        damping=random.uniform(0.5, 2, len(springs)),
+        drag=0.4,
+    )

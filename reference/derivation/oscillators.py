@@ -1,0 +1,133 @@
+"""Damped oscillators for a stepper to step once: a mass on a spring along a line, about its rest.
+
+Displaced by x, or moving at v, a mass comes to (x1, v1) in a step of h: two such steps give the matrix that multiplies
+(x, h v). It is linear, as along a line a spring's force is, as long as no mass passes its anchor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from reference.derivation.fit import Samples
+from reference.errors import Unsupported
+from reference.outcome import Outcome
+from reference.state import Array
+from reference.stepper import Stepper
+from reference.system import MassSpringSystem
+
+#: The step [s], and how far masses are displaced [m]: powers of two, so that rounding is only the stepper's.
+DT, ASIDE = 1 / 16, 1 / 32
+
+#: How many oscillators are stepped: a third of them checks what the others are fitted by. More, where that are too few.
+FEW, MANY = 40, 160
+
+#: Rounding of a step matrix's entries, as a multiple of the relative rounding of the numbers.
+ROUNDINGS = 100
+
+
+class Run(NamedTuple):
+    """What a stepper is to run: a system, for so many steps of dt [s]."""
+
+    system: MassSpringSystem
+    dt: float
+    steps: int = 1
+
+
+#: Runs a stepper on many systems at one go.
+Runs = Callable[[Sequence[Run]], list[Outcome]]
+
+
+def runs_of(stepper: Stepper) -> Runs:
+    """The stepper's own `run_each`, where it has a way that costs less than run after run."""
+    own: Runs | None = getattr(stepper, "run_each", None)
+    return own or (lambda runs: [stepper.run(r.system, r.dt, r.steps) for r in runs])
+
+
+def samples(damped: bool, dragged: bool, count: int) -> Samples:
+    """Oscillators to step: a up to 2, b and d up to 1, multiples of 1/64."""
+    random = np.random.default_rng(7)
+    a, b, d = (random.integers(1, most, count) / 64 for most in (128, 64, 64))
+    return Samples(a, b if damped else 0 * b, d if dragged else 0 * d)
+
+
+def matrices_at(runs: Runs, at: Samples) -> Array:
+    """Step matrices, shape (n, 2, 2), in the way that the stepper can.
+
+    Raises:
+        Unsupported: where it cannot, with its reason.
+    """
+    try:
+        return side_by_side(runs, at)
+    except Unsupported:
+        return one_by_one(runs, at)
+
+
+def oscillator(a: float, b: float, d: float, x: float = 0.0, v: float = 0.0, dt: float = DT) -> MassSpringSystem:
+    """A mass of 1 kg on a spring of 1 m to a fixed mass, displaced by x [m], moving at v [m/s]."""
+    return MassSpringSystem(
+        positions=np.array([[0.0], [-1.0 - x]]),
+        velocities=np.array([[0.0], [-v]]),
+        springs=np.array([[0, 1]]),
+        masses=np.array([1.0, 1.0]),
+        rest_lengths=np.array([1.0]),
+        stiffness=np.array([a / dt**2]),
+        damping=np.array([b / dt]),
+        drag=d / dt,
+        gravity=np.zeros(1),
+        fixed=np.array([True, False]),
+    )
+
+
+def one_by_one(runs: Runs, at: Samples) -> Array:
+    """Step matrices, shape (n, 2, 2), every oscillator in a system of its own.
+
+    Raises:
+        Unsupported: where the stepper cannot step one, with its reason.
+    """
+    cases = list(zip(at.a.tolist(), at.b.tolist(), at.d.tolist(), strict=True))
+    systems = [oscillator(*case, x, v) for case in cases for x, v in ((ASIDE, 0.0), (0.0, ASIDE / DT))]
+    ends = [_end(outcome) for outcome in runs([Run(system, DT) for system in systems])]
+    moved = np.array([[-1.0 - x[1, 0], -DT * v[1, 0]] for x, v in ends]) / ASIDE
+    return moved.reshape(len(cases), 2, 2).swapaxes(1, 2)
+
+
+def side_by_side(runs: Runs, at: Samples) -> Array:
+    """The same, all oscillators in one system: drag is one number there, and masses differ instead.
+
+    Raises:
+        Unsupported: where the stepper cannot step that, with its reason.
+    """
+    n = len(at.a)
+    dragged = bool(at.d.any())
+    mass = 1 / at.d if dragged else np.ones(n)
+    system = MassSpringSystem(
+        positions=np.tile([[0.0], [-1.0]], (n, 1)),
+        springs=np.arange(2 * n).reshape(n, 2),
+        masses=np.repeat(mass, 2),
+        rest_lengths=np.array(1.0),
+        stiffness=at.a * mass / DT**2,
+        damping=at.b * mass / DT,
+        drag=1 / DT if dragged else 0.0,
+        gravity=np.zeros(1),
+        fixed=np.arange(2 * n) % 2 == 0,
+    )
+    aside = np.where(system.fixed, 0.0, -ASIDE)[:, None]
+    begun = [
+        replace(system, positions=system.positions + aside),
+        replace(system, velocities=aside / DT),
+    ]
+    ends = [_end(outcome) for outcome in runs([Run(s, DT) for s in begun])]
+    columns = [np.stack([-1.0 - x[1::2, 0], -DT * v[1::2, 0]], axis=1) / ASIDE for x, v in ends]
+    return np.stack(columns, axis=2)
+
+
+def _end(outcome: Outcome) -> tuple[Array, Array]:
+    """Where a run has come to. Raises Unsupported, with its reason, where it has not."""
+    run = outcome.trajectory
+    if run is None or len(run) < 2 or not np.isfinite(run.velocities[-1]).all():
+        raise Unsupported(outcome.reason or "it tells no velocities")
+    return run.positions[-1], run.velocities[-1]

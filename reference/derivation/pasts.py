@@ -1,0 +1,71 @@
+"""Whether a step depends on more than the state: on earlier steps, or on chance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from reference.derivation.oscillators import ASIDE, DT, Run, Runs, oscillator
+from reference.errors import Unsupported
+from reference.identification.scale import ROUNDING, Precision
+from reference.state import Array, State, Trajectory
+
+#: Steps in a row; and after which of them it is begun anew from where it came to.
+STEPS = 5
+
+#: a, b and d of the oscillator.
+WHERE = (0.3, 0.1, 0.1)
+
+#: Two steps from one state may differ by so many roundings.
+ROUNDINGS = 1000
+
+
+@dataclass(frozen=True)
+class Pasts:
+    """What was found.
+
+    Attributes:
+        one_step: whether from a state with a past it steps as from the same state without; None where it is random.
+        deterministic: whether it does the same twice.
+        apart: how far the steps with a past and without are apart, as a part of the displacement.
+    """
+
+    one_step: bool | None
+    deterministic: bool
+    apart: float
+
+
+def pasts(runs: Runs, precision: Precision, damped: bool, dragged: bool) -> Pasts:
+    """A few steps of an oscillator in a row, twice; and again one by one, begun from every state on the way.
+
+    Raises:
+        Unsupported: where it cannot, with the reason.
+    """
+    a, b, d = WHERE
+    system = oscillator(a, b if damped else 0.0, d if dragged else 0.0, ASIDE, ASIDE / DT / 2)
+    first, second = (_trajectory(outcome.trajectory, outcome.reason) for outcome in runs([Run(system, DT, STEPS)] * 2))
+    same = all(np.array_equal(one, two) for one, two in _pairs(first, second))
+    states = [State(0.0, first.positions[i], first.velocities[i]) for i in range(1, STEPS)]
+    ends = [
+        _trajectory(outcome.trajectory, outcome.reason)
+        for outcome in runs([Run(system.at(state), DT) for state in states])
+    ]
+    apart = max(
+        max(
+            float(np.abs(end.positions[1] - first.positions[i]).max()),
+            DT * float(np.abs(end.velocities[1] - first.velocities[i]).max()),
+        )
+        for i, end in enumerate(ends, start=2)
+    )
+    return Pasts(apart <= ROUNDINGS * ROUNDING[precision] if same else None, same, apart / ASIDE)
+
+
+def _trajectory(run: Trajectory | None, reason: str) -> Trajectory:
+    if run is None or not np.isfinite(run.velocities).all():
+        raise Unsupported(reason or "it tells no velocities")
+    return run
+
+
+def _pairs(one: Trajectory, two: Trajectory) -> list[tuple[Array, Array]]:
+    return [(one.positions, two.positions), (one.velocities, two.velocities)]

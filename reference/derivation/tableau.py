@@ -1,0 +1,147 @@
+"""Butcher tableaux: of update formulas that are a Runge-Kutta method's, and what they say."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from reference.derivation.formula import Number, number
+from reference.derivation.order_conditions import order_of
+from reference.derivation.updates import Coefficient, Form, Symbol, Updates
+
+#: Two numbers that are no fractions are the same within this.
+SAME = 1e-12
+
+ZERO = Fraction(0)
+
+#: Which coefficient, and what it is in either.
+Difference = tuple[str, Number, Number]
+
+
+@dataclass(frozen=True)
+class Tableau:
+    """A Runge-Kutta method: k_i = f(t + c_i h, y + h sum a_ij k_j), y + h sum b_i k_i.
+
+    Attributes:
+        a: shape (s, s).
+        b: shape (s,).
+        c: at what parts of h the method takes its slopes, as it says itself; row sums where it does not.
+    """
+
+    a: tuple[tuple[Number, ...], ...]
+    b: tuple[Number, ...]
+    c: tuple[Number, ...]
+
+    @property
+    def stages(self) -> int:
+        """How many slopes."""
+        return len(self.b)
+
+    @property
+    def explicit(self) -> bool:
+        """Whether every slope asks for earlier ones only."""
+        return not any(self.a[i][j] for i in range(self.stages) for j in range(i, self.stages))
+
+    @property
+    def order(self) -> int:
+        """Up to which order all conditions hold."""
+        return order_of(self.a, self.b)[0]
+
+    @property
+    def fails(self) -> str:
+        """The first condition that does not."""
+        return order_of(self.a, self.b)[1]
+
+    @property
+    def symplectic(self) -> bool:
+        """Whether b_i a_ij + b_j a_ji = b_i b_j (Sanz-Serna 1988)."""
+        a, b, s = self.a, self.b, range(self.stages)
+        return all(not _apart(b[i] * a[i][j] + b[j] * a[j][i], b[i] * b[j]) for i in s for j in s)
+
+    @property
+    def times_at_odds(self) -> str:
+        """Where the times it takes slopes at are not the sums of its rows; empty where they are."""
+        for i, (c, row) in enumerate(zip(self.c, self.a, strict=True)):
+            on: Number = sum(row, start=ZERO)
+            if _apart(c, on):
+                return f"slope {i + 1} is taken {number(on)} of a step on, and is told the time {number(c)} of it on"
+        return ""
+
+    def text(self) -> dict[str, list[str] | list[list[str]]]:
+        """Its numbers as they are written."""
+        return {
+            "a": [[number(c) for c in row] for row in self.a],
+            "b": [number(c) for c in self.b],
+            "c": [number(c) for c in self.c],
+        }
+
+    def same(self, other: Tableau) -> bool:
+        """Whether all coefficients are."""
+        return self.stages == other.stages and not self.differences(other)
+
+    def differences(self, other: Tableau) -> list[Difference]:
+        """Which coefficients differ from another's of as many stages: name, this one's, the other's."""
+        s = range(self.stages)
+        pairs = [(f"a{i + 1}{j + 1}", self.a[i][j], other.a[i][j]) for i in s for j in s]
+        pairs += [(f"b{i + 1}", self.b[i], other.b[i]) for i in s]
+        pairs += [(f"c{i + 1}", self.c[i], other.c[i]) for i in s]
+        return [(name, mine, its) for name, mine, its in pairs if _apart(mine, its)]
+
+    def without_unused(self) -> Tableau:
+        """The same without slopes that nothing is made of."""
+        s = range(self.stages)
+        used = [i for i in s if self.b[i] or any(self.a[j][i] for j in s)]
+        if len(used) == self.stages or not used:
+            return self
+        return Tableau(
+            tuple(tuple(self.a[i][j] for j in used) for i in used),
+            tuple(self.b[i] for i in used),
+            tuple(self.c[i] for i in used),
+        ).without_unused()
+
+
+def tableau_of(updates: Updates, timed: bool = True) -> Tableau | None:
+    """The tableau of update formulas; None where they are no Runge-Kutta method's.
+
+    Positions and velocities have to be treated alike: 1 times what they were at the start, and h times slopes.
+
+    Args:
+        timed: whether it says at what times it takes its slopes.
+    """
+    s = len(updates.points)
+    rows = [_row(x, v, s) for x, v in (*updates.points, updates.end)]
+    if any(row is None for row in rows):
+        return None
+    kept = [row for row in rows if row is not None]
+    a, b = tuple(kept[:-1]), kept[-1]
+    c = updates.parts if timed else tuple(sum(row, start=ZERO) for row in a)
+    return Tableau(a, b, tuple(c)).without_unused()
+
+
+def _row(x: Form, v: Form, stages: int) -> tuple[Number, ...] | None:
+    """The coefficients of h k_j in a point, where both its halves have the same."""
+    rows: list[tuple[Number, ...]] = []
+    for form, start, slope in ((x, "x", "p"), (v, "v", "q")):
+        allowed = {Symbol(slope, 0, j) for j in range(stages)}  # type: ignore[arg-type]
+        if form.get(Symbol(start, 0)) != Coefficient(Fraction(1), 0):  # type: ignore[arg-type]
+            return None
+        others = {symbol: c for symbol, c in form.items() if symbol != Symbol(start, 0)}  # type: ignore[arg-type]
+        if not others.keys() <= allowed or any(c.power != 1 for c in others.values()):
+            return None
+        rows.append(tuple(_number(others, Symbol(slope, 0, j)) for j in range(stages)))  # type: ignore[arg-type]
+    return rows[0] if all(not _apart(p, q) for p, q in zip(*rows, strict=True)) else None
+
+
+def _apart(one: Number, other: Number) -> bool:
+    return abs(float(one) - float(other)) > SAME
+
+
+def _number(form: Form, symbol: Symbol) -> Number:
+    return form[symbol].number if symbol in form else ZERO
+
+
+def nearest(found: Tableau, known: Sequence[tuple[str, Tableau]]) -> tuple[str, list[Difference]] | None:
+    """The known tableau of as many stages that differs in the fewest coefficients, and in which."""
+    same_size = [(name, found.differences(other)) for name, other in known if other.stages == found.stages]
+    return min(same_size, key=lambda item: len(item[1]), default=None)

@@ -1,0 +1,125 @@
+"""What was derived of a stepper, in words: for the terminal, for pages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from reference.derivation.consequences import Consequences, Windows
+    from reference.derivation.explanation import Explanation
+
+#: What the letters of a step matrix mean.
+LETTERS = "a = h^2 k/m, b = h c/m, d = h Cd/m, E = exp(-b), D = exp(-d)"
+
+#: So many intervals of stability above the first are told.
+TOLD = 3
+
+
+def matrix_lines(explanation: Explanation) -> list[str]:
+    """The step matrix, a line for each row, with what its letters mean; g = b + d, where it asks for their sum only."""
+    matrix = explanation.matrix
+    if matrix is None:
+        return []
+    of_sum = [entry.of_sum() for entry in matrix.entries] if matrix.damped and matrix.dragged else [None]
+    summed = [str(entry).replace("b", "g") for entry in of_sum if entry is not None]
+    by_sum = len(summed) == len(matrix.entries) and matrix.asks("b")
+    entries = summed if by_sum else [str(entry) for entry in matrix.entries]
+    lines = [f"x' = {_times(entries[0], 'x')} + {_times(entries[1], 'h v')}"]
+    lines.append(f"h v' = {_times(entries[2], 'x')} + {_times(entries[3], 'h v')}")
+    letters = ", ".join(part for part in LETTERS.split(", ") if matrix.asks(part[0]))
+    letters = "a = h^2 k/m, g = h (c + Cd)/m" if by_sum else letters
+    seen = [word for word, there in (("damping", matrix.damped), ("drag", matrix.dragged)) if not there]
+    without = f"; without {' and '.join(seen)}" if seen else ""
+    return [*lines, f"with {letters}{without}"]
+
+
+def _times(entry: str, of: str) -> str:
+    return of if entry == "1" else f"({entry}) {of}"
+
+
+def tableau_lines(explanation: Explanation) -> list[str]:
+    """The Butcher tableau as textbooks draw it: c and a, below them b."""
+    tableau = explanation.tableau
+    if tableau is None:
+        return []
+    text = tableau.text()
+    rows = [[c, *map(str, row)] for c, row in zip(text["c"], text["a"], strict=True)] + [["", *map(str, text["b"])]]
+    widths = [max(len(str(row[i])) for row in rows) for i in range(len(rows[0]))]
+    lines = []
+    for row in rows:
+        cells = [str(cell).rjust(width) for cell, width in zip(row, widths, strict=True)]
+        lines.append(f"{cells[0]} | {'  '.join(cells[1:])}")
+    return [*lines[:-1], "-" * len(lines[0]), lines[-1]]
+
+
+def name_line(explanation: Explanation) -> str:
+    """What it is: its name, or that it has none, and what it is then."""
+    found = explanation.identification
+    if found.identified_as == explanation.stepper:
+        ties = f"; on the string it was run on it cannot be told from {', '.join(found.ties)}" if found.ties else ""
+        return f"{explanation.stepper} is what the catalogue has by this name{ties}"
+    if found.identified_as is not None:
+        return f"{found}. {found.remark}".rstrip(". ")
+    words = f"{explanation.stepper} is not in the catalogue"
+    if explanation.tableau is not None:
+        kind = "an explicit" if explanation.tableau.explicit else "an implicit"
+        words += f": {kind} Runge-Kutta method of {explanation.tableau.stages} stages and order {explanation.order}"
+    return words + (f"; {explanation.nearest}" if explanation.nearest else "")
+
+
+def property_lines(explanation: Explanation) -> Iterator[str]:
+    """What holds of it, a sentence each without its stop."""
+    past = explanation.pasts
+    if past is not None:
+        if not past.deterministic:
+            yield "It is random: the same step twice is not the same"
+        elif past.one_step is False:
+            yield f"It remembers earlier steps: begun anew, a step is {past.apart:.2g} of the displacement off"
+        else:
+            yield "One step: it depends on positions and velocities alone"
+    if explanation.explicit is not None:
+        yield "Explicit: no equations are solved" if explanation.explicit else "Implicit: equations are solved"
+    if explanation.updates is not None:
+        reused = ", one of them that of the step before" if explanation.updates.reused else ""
+        yield f"Slopes or forces taken in a step: {explanation.updates.calls + explanation.updates.reused}{reused}"
+    yield from _order(explanation)
+    if explanation.follows is not None and explanation.of_one_step:
+        yield from _of_matrix(explanation, explanation.follows)
+
+
+def _order(explanation: Explanation) -> Iterator[str]:
+    if explanation.tableau is not None and explanation.tableau.fails:
+        yield f"Order {explanation.order}, by the conditions on its tableau: {explanation.tableau.fails}"
+    elif explanation.order is not None:
+        follows = explanation.follows
+        known = []
+        if follows is not None and explanation.of_one_step:
+            known.append(f"{follows.undamped_order} on the oscillator, {follows.order} with damping and drag")
+        if explanation.nonlinear_order is not None:
+            known.append(f"{explanation.nonlinear_order} measured on a spring that turns")
+        yield f"Order {explanation.order}: {'; '.join(known)}"
+
+
+def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:
+    yield f"Stable up to h w = {limits(follows.imaginary_axis)} without damping"
+    if follows.real_axis is not None:
+        letter = "c" if explanation.matrix is not None and explanation.matrix.damped else "Cd"
+        yield f"Stable up to h {letter}/m = {limits(follows.real_axis)} without stiffness"
+    symplectic = "symplectic" if explanation.symplectic else "not symplectic"
+    reversible = "reversible" if follows.reversible else "not reversible"
+    yield f"{symplectic.capitalize()}, and {reversible}, without damping"
+    if follows.implicit:
+        yield f"Implicit in {' and '.join(follows.implicit)}"
+    for s, period, amplitude in follows.periods:
+        yield f"At h w = {s:g}: period x {period:.5f}, amplitude x {amplitude:.4g} in a period"
+
+
+def limits(windows: Windows) -> str:
+    """Where stability ends, and where there is some again."""
+    from reference.derivation.consequences import FAR
+
+    first, *others = windows
+    words = "any length" if first[1] >= FAR else f"{first[1]:.6g}"
+    again = [f"from {low:.6g} to {high:.6g}" if high < FAR else f"from {low:.6g} on" for low, high in others[:TOLD]]
+    return words + (f", and again {', '.join(again)}" if again else "")

@@ -1,0 +1,47 @@
+"""`springlab explain`: what a stepper computes, in words, as JSON, and as a figure."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from tests.report.commands.terminal import springlab
+
+KEYS = ["stepper", "identified_as", "one_step", "explicit", "deterministic", "slope_evaluations", "tableau"]
+KEYS += ["step_matrix", "order", "symplectic", "reversible", "stability", "reason"]
+
+
+def test_the_json_has_exactly_the_promised_form() -> None:
+    """Heun, whole."""
+    said = springlab("explain", "heun", "--json")
+    assert said.code == 0
+    document = json.loads(said.out)
+    assert list(document) == KEYS
+    assert document["tableau"] == {"a": [["0", "0"], ["1", "0"]], "b": ["1/2", "1/2"], "c": ["0", "1"]}
+    assert document["step_matrix"][0] == ["1 - a/2", "1 - b/2 - d/2"]
+    assert document["stability"] == {"real_axis": 2.0, "imaginary_axis": 0.0}
+    assert (document["slope_evaluations"], document["order"], document["explicit"]) == (2, 2, True)
+
+
+def test_what_cannot_be_told_is_null_with_its_reason() -> None:
+    """A pendulum knows no line."""
+    document = json.loads(springlab("explain", "pendulum_heun", "--json").out)
+    assert document["step_matrix"] is None
+    assert document["stability"] == {"real_axis": None, "imaginary_axis": None}
+    assert "rod" in document["reason"] or "line" in document["reason"]
+
+
+def test_the_terminal_has_formulas_and_the_figure_is_written(tmp_path: Path) -> None:
+    """Kick-drift's, with a file."""
+    file = tmp_path / "region.svg"
+    said = springlab("explain", "kick_drift", "--plot", str(file))
+    assert said.code == 0
+    assert "x' = x + h v + h^2 a1" in said.out
+    assert file.read_text(encoding="utf-8").startswith("<svg")
+
+
+def test_bad_input_is_one_line() -> None:
+    """Another kind of file, another name."""
+    assert springlab("explain", "heun", "--plot", "region.doc").code == 2
+    said = springlab("explain", "huen")
+    assert (said.code, said.err.strip()) == (2, "springlab: unknown stepper 'huen': did you mean 'heun'?")
