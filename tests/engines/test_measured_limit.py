@@ -78,6 +78,22 @@ def test_beyond_a_limit_perturbations_grow() -> None:
     assert limit.grows_beyond is True
 
 
+class StillInLongSteps(KickDrift):
+    """Does not move in steps of a second or more: where it is looked at then, nothing grows."""
+
+    def step(self) -> None:
+        """Advance by dt."""
+        if self.dt < 1:
+            super().step()
+
+
+def test_growth_beyond_a_limit_is_looked_for_close_to_it() -> None:
+    """And not in steps a hundred times as long."""
+    limit = limit_of_engine(Doctored(StillInLongSteps), REST, PERTURBED, 0.01, 1e-2)
+    assert isinstance(limit, Limit)
+    assert limit.grows_beyond is True
+
+
 def along(dt: float) -> ModeRun:
     """Of x' = x + dt v', v' = v - dt (w^2 x + Cd/m v) along the spring, the eigenvector that is largest."""
     step = np.array([[1 - dt**2 * SQUARES[0], 1 - dt * DRAG], [-(dt**2) * SQUARES[0], 1 - dt * DRAG]])

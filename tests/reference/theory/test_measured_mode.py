@@ -48,6 +48,19 @@ def test_schemes_blow_up_where_predicted(scheme: Scheme, case: Mapping[str, floa
     check_measured_as_predicted(scheme, scheme, case)
 
 
+def test_a_window_of_stability_is_measured_where_it_is_predicted() -> None:
+    """One spring whose damping ratio is near 0.24: stable, unstable, and stable again between two edges.
+
+    Runs just outside them grow, and in their middle do not; each edge is bisected to 1e-5 of itself.
+    """
+    rest = spring_equilibrium(find_scene("spring").system({"damping": 0.95}))
+    scheme = find("drift_kick_exponential_damping")
+    predicted = stability_limit(scheme, rest)
+    measured = measured_mode_limit(scheme, rest, predicted, rates(rest))
+    assert len(predicted.windows) == 1
+    assert np.array(measured.windows) == pytest.approx(np.array(predicted.windows), rel=TOLERANCE)
+
+
 def test_a_scheme_that_steps_twice_too_far_is_caught() -> None:
     """Heun without its half has another limit than Heun: the check of limits fails on it."""
     with pytest.raises(AssertionError):

@@ -9,7 +9,7 @@ import pytest
 
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
-from reference.theory.equilibria import spring_equilibrium
+from reference.theory.equilibria import equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.limits import explicit_damping_limit, stability_limit
 from reference.theory.modes import string_mode
 from report.live.prediction import Predictor, predict
@@ -42,6 +42,17 @@ def test_an_engine_is_predicted_by_its_scheme() -> None:
     assert predicted.limit is not None
     assert predicted.growth > 1
     assert predict("pymunk_springs", system, 0.9 * predicted.limit).growth <= 1 + 1e-9
+
+
+def test_a_scheme_is_predicted_on_obstacles_and_an_engine_without() -> None:
+    """On a string that lies on a circle: an engine's contacts are its own, and its limit is that of its springs."""
+    system = find_scene("barrier").system({})
+    still = replace(system, velocities=np.zeros_like(system.velocities))
+    resting = stability_limit(find("kick_drift"), equilibrium_on_obstacles(still)[0]).dt
+    hanging = stability_limit(find("kick_drift"), spring_equilibrium(replace(still, obstacles=()))).dt
+    assert predict("kick_drift", system, 1e-3).limit == resting
+    assert predict("mujoco_tendons", system, 1e-3).limit == pytest.approx(hanging, rel=0.01)
+    assert resting != pytest.approx(hanging, rel=0.01)
 
 
 def test_what_is_not_known_is_said() -> None:
