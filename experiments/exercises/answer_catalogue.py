@@ -17,7 +17,7 @@ True
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from functools import cached_property, lru_cache
 from itertools import combinations
 from typing import Any
@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.answer_distance import answer_distance, scales_of
-from experiments.exercises.exercise import Answer, Exercise, Mistake, Question
+from experiments.exercises.exercise import TOLERANCE, Answer, Exercise, Mistake, Question
 
 #: How often questions are drawn, at most, until every two mistakes give different answers.
 DRAWS = 50
@@ -41,6 +41,16 @@ class AnswerCatalogue:
         self.exercise = exercise
         self.questions = list(questions)
         self._computed: dict[tuple[Any, ...], Answer] = {}
+
+    @cached_property
+    def aside(self) -> AnswerCatalogue:
+        """The questions from which only follows that a submission is one of the exercise's `told_aside`."""
+        made = self.exercise.aside(np.random.default_rng(0)) if self.exercise.aside else ()
+        return AnswerCatalogue(self.exercise, made)
+
+    def without(self, functions: Container[str]) -> AnswerCatalogue:
+        """The questions that are not about these functions."""
+        return AnswerCatalogue(self.exercise, [q for q in self.questions if q.function not in functions])
 
     @property
     def right(self) -> list[Answer]:
@@ -65,7 +75,17 @@ class AnswerCatalogue:
 
     def distances(self, given: Sequence[Answer], expected: Sequence[Answer]) -> list[float]:
         """For each question, how far two answers to it are apart."""
-        return list(map(answer_distance, given, expected, self.scales))
+        return [answer_distance(g, e, self._sizes(i, e)) for i, (g, e) in enumerate(zip(given, expected, strict=True))]
+
+    def _sizes(self, i: int, expected: Answer) -> list[float]:
+        """What differences count as fractions of: the right answer's scales, but where numbers are typed in their own.
+
+        Beside a large right number all that is much too small would be as near to it as its tolerance.
+        """
+        if self.exercise.tolerance <= TOLERANCE:
+            return self.scales[i]
+        largest = [max(float(np.abs(step[p]).max(initial=0.0)) for step in expected) for p in range(len(expected[0]))]
+        return [own or TOLERANCE * scale for own, scale in zip(largest, self.scales[i], strict=True)]
 
     def distance(self, given: Sequence[Answer], expected: Sequence[Answer]) -> float:
         """The largest of these distances."""
@@ -73,10 +93,8 @@ class AnswerCatalogue:
 
     def begins_with(self, given: Sequence[Answer], parameters: Mapping[str, Any], tolerance: float) -> bool:
         """Whether the first step of every answer is the solution's; mostly the first question says that it is not."""
-        rows = enumerate(zip(given, self.scales, strict=True))
-        return all(
-            answer_distance(a[:1], self._answer(i, parameters, 1), scales) <= tolerance for i, (a, scales) in rows
-        )
+        firsts = ((i, a[:1], self._answer(i, parameters, 1)) for i, a in enumerate(given))
+        return all(answer_distance(a, first, self._sizes(i, first)) <= tolerance for i, a, first in firsts)
 
     @cached_property
     def pairs(self) -> list[tuple[Mistake, Mistake]]:

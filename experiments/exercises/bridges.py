@@ -35,3 +35,26 @@ def some_bridge(random: np.random.Generator, panels: int, gravity: float, light:
         "pinned": int(number[0]),
         "roller": int(number[panels]),
     }
+
+
+def moved(random: np.random.Generator, bridge: dict[str, Any], turn: float) -> dict[str, Any]:
+    """The bridge elsewhere: below height 0, turned so that its supports are at two heights, its members' ends mixed.
+
+    Args:
+        turn: by how much it is turned [rad].
+    """
+    c, s = np.cos(turn), np.sin(turn)
+    joints = bridge["joints"] @ np.array([[c, s], [-s, c]]) + random.uniform(-9.0, -7.0, 2)
+    members = bridge["members"].copy()
+    swapped = random.random(len(members)) < 0.5
+    members[swapped] = members[swapped, ::-1]
+    return {**bridge, "joints": joints, "members": members}
+
+
+def turned_about(bridge: dict[str, Any], member: int, rightwards: bool) -> dict[str, Any]:
+    """The bridge with one member's ends in this order: from left to right, or from right to left."""
+    members = bridge["members"].copy()
+    a, b = members[member]
+    if (bridge["joints"][b, 0] > bridge["joints"][a, 0]) != rightwards:
+        members[member] = b, a
+    return {**bridge, "members": members}

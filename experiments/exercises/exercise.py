@@ -121,6 +121,9 @@ class Exercise:
         files: makes more files for the student to work on, by name, from the student's seed and the teacher's key.
         tolerance: up to which part of the largest number an answer is right, where students type it in.
         canonical: makes answers that mean the same the same, before they are compared.
+        aside: makes questions by which other schemes are told that answer all others rightly. From them nothing else
+            follows: a right program may answer them in several ways.
+        told_aside: those schemes.
         diagnose: what is wrong with an answer by itself, as the name, words and hint of a finding; None where it may
             be right.
     """
@@ -137,6 +140,8 @@ class Exercise:
     tolerance: float = TOLERANCE
     canonical: Callable[[Question, Any], Any] | None = None
     diagnose: Callable[[Question, Any], tuple[str, str, str] | None] | None = None
+    aside: Callable[[np.random.Generator], Sequence[Question]] | None = None
+    told_aside: Sequence[Mistake] = ()
     folder: Path = Path()
 
     @property

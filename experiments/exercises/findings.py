@@ -51,9 +51,27 @@ ERRORS = {
 }
 
 
+#: What to look at where something else is returned than was asked for, by name.
+ODD = {
+    "returns_nothing": "Is there a return on every way through the function? Does it stand where it should?",
+    "returns_a_dict": "Return the things themselves, in the order of the text, with commas between them.",
+    "returns_a_set": "Return the things themselves, in the order of the text, with commas between them.",
+    "wrong_count": "What does the text ask for?",
+    "not_numbers": "Print what you return, and its type.",
+    "ragged": "Print what you return. Has each mass as many numbers as the others?",
+}
+
+
 def missing_function(name: str) -> Finding:
     """A function that was asked for is not there."""
     return Finding("missing_function", f"There is no function {name}.", "Keep the names of the starter.")
+
+
+def not_written(functions: Sequence[str]) -> Finding:
+    """Functions that nothing was written into."""
+    names = " and ".join(functions)
+    words = f"{names} {'is' if len(functions) == 1 else 'are'} not written yet."
+    return Finding("not_written_yet", words, "The text says what to write.")
 
 
 def of_error(error: Mapping[str, Any]) -> Finding:
@@ -65,13 +83,11 @@ def of_error(error: Mapping[str, Any]) -> Finding:
     kind, words = (clean(str(error.get(name))) for name in ("type", "words"))
     line = error["line"] if isinstance(error.get("line"), int) else None
     where = f"line {line}: " if line is not None else ""
-    if kind == "ValueError" and words.startswith("it returns"):
-        name = "returns_nothing" if "nothing" in words else "returns_a_dict" if "dict" in words else "wrong_count"
-        words = f"Your function does not return what it should: {words}."
-        return Finding(name, words, "What does the text ask for?", line)
-    if kind == "ValueError" and "not made of real numbers" in words:
-        words = f"Your function does not return numbers: {words}."
-        return Finding("not_numbers", words, "Look at what you return.", line)
+    if kind == "OddAnswerError":
+        name, _, what = words.partition(": ")
+        return Finding(
+            name, f"Your function does not return what it should: {what}.", ODD.get(name, ODD["wrong_count"])
+        )
     if kind == "FileNotFoundError" and "No usable temporary directory" in words:
         kind = "PermissionError"  # no folder can be written
     name, hint = ERRORS.get(kind, ("raises_an_error", "Look at that line, and at what its names hold there."))

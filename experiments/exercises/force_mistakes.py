@@ -220,6 +220,14 @@ OF_A_STRING = (
 #: Where forces are asked for, and not a step.
 OF_FORCES = (
     mistake(
+        "nothing_computed",
+        "All your forces are zero: nothing is added to what you return.",
+        "What do you compute in your loop, and into which array do you write it?",
+        elastic=0.0,
+        weight="none",
+        drag=0.0,
+    ),
+    mistake(
         "accelerations_returned",
         "You give back accelerations: your forces are divided by the masses.",
         "In which unit is your answer, and in which is a force?",

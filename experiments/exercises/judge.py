@@ -20,6 +20,7 @@ from experiments.exercises.findings import Finding
 from experiments.exercises.first_difference import FirstDifference, Lines, first_difference
 from experiments.exercises.naming import SINGLE, identify
 from experiments.exercises.reply import Reply
+from experiments.exercises.unwritten import unwritten
 
 #: What a verdict says in a word.
 Outcome = Literal[
@@ -77,14 +78,14 @@ def judge(
         NotGradedError: where there is no answer and that is not the submission's fault.
     """
     catalogue = catalogue_of(exercise, seed, key)
-    if _text(source) == _text(exercise.starter):
-        words = "This is the starter as it was handed out."
-        finding = Finding("not_written_yet", words, "The text says what to write.")
-        return _failed(catalogue, "error", finding)
-    asked = [question.asked() for question in catalogue.questions]
+    functions = [question.function for question in catalogue.questions]
+    missing = unwritten(source, exercise.starter, functions)
+    if len(missing) == len(set(functions)):
+        return _failed(catalogue, "error", findings.not_written(missing))
+    asked = [question.asked() for question in [*catalogue.questions, *catalogue.aside.questions]]
     files = exercise.files(seed) if exercise.files else {}
     reply = sandbox.run(source, asked, limits, files)
-    verdict = verdict_on(catalogue, reply)
+    verdict = verdict_on(catalogue, reply, missing)
     if verdict.name == "not_repeatable":
         again = sandbox.run(source, asked, limits, files)
         same = len(again.answers) == len(reply.answers) and _same_replies(reply, again)
@@ -97,17 +98,19 @@ def not_asked(exercise: Exercise, seed: str, key: str | None, before: Verdict) -
     return replace(before, passed=(False,) * len(catalogue_of(exercise, seed, key).questions))
 
 
-def _text(source: str) -> list[str]:
-    """The words of a text, without the lines that say whose it is."""
-    return [word for line in source.splitlines() if not line.startswith(("SEED", "KEYED")) for word in line.split()]
-
-
 def _failed(catalogue: AnswerCatalogue, outcome: Outcome, finding: Finding, **found: Any) -> Verdict:
     return Verdict(outcome, (finding,), (False,) * len(catalogue.questions), **found)
 
 
-def verdict_on(catalogue: AnswerCatalogue, reply: Reply) -> Verdict:
-    """The verdict on what a process left, whatever that is."""
+def verdict_on(catalogue: AnswerCatalogue, reply: Reply, missing: Sequence[str] = ()) -> Verdict:
+    """The verdict on what a process left, whatever that is.
+
+    Args:
+        reply: its answers are those to the catalogue's questions, then those to what is asked aside.
+        missing: functions that are not written yet.
+    """
+    asked = len(catalogue.questions)
+    reply, aside = replace(reply, answers=reply.answers[:asked]), reply.answers[asked:]
     if reply.ended != "done":
         word: Outcome = "timed out" if reply.ended == "timed out" else "crashed"
         return _failed(catalogue, word, Finding(word.replace(" ", "_"), f"It was stopped: {reply.reason}."))
@@ -120,7 +123,26 @@ def verdict_on(catalogue: AnswerCatalogue, reply: Reply) -> Verdict:
         return _failed(catalogue, "error", error)
     if given is None:
         return _failed(catalogue, "crashed", Finding("unreadable", "What it answered is not readable."))
-    return _verdict_on_answers(catalogue, reply, given)
+    verdict = _verdict_on_answers(catalogue, reply, given, missing)
+    other = _told_aside(catalogue.aside, aside) if verdict.right else None
+    if other is None:
+        return verdict
+    found = Finding(other.name, other.words, other.hint)
+    return replace(verdict, outcome="another scheme", findings=(found,), passed=(False,) * asked)
+
+
+def _told_aside(aside: AnswerCatalogue, answers: Sequence[Mapping[str, Any]]) -> Mistake | None:
+    """The scheme that what is asked aside tells, if it is another one."""
+    try:
+        given = _comparable(aside, Reply("done", answers=answers)) if answers else None
+        fits = {m.name: m for m in aside.exercise.told_aside if given and _is_that(aside, given, m.parameters)}
+    except (TypeError, AttributeError, ValueError, IndexError, KeyError):
+        return None
+    return None if not fits or (given and _is_that(aside, given, {})) else next(iter(fits.values()))
+
+
+def _is_that(aside: AnswerCatalogue, given: Sequence[Answer], parameters: Mapping[str, Any]) -> bool:
+    return aside.distance(given, aside.answers(parameters)) <= aside.exercise.tolerance
 
 
 def _error(catalogue: AnswerCatalogue, reply: Reply) -> Finding | None:
@@ -149,7 +171,9 @@ def _comparable(catalogue: AnswerCatalogue, reply: Reply) -> list[Answer] | None
     return given
 
 
-def _verdict_on_answers(catalogue: AnswerCatalogue, reply: Reply, given: list[Answer]) -> Verdict:
+def _verdict_on_answers(
+    catalogue: AnswerCatalogue, reply: Reply, given: list[Answer], missing: Sequence[str]
+) -> Verdict:
     """The verdict on answers that can be read: their form first, then their numbers."""
     tolerance = catalogue.exercise.tolerance
     different, lines = first_difference(catalogue, given, max(tolerance, TOLERANCE))
@@ -161,9 +185,26 @@ def _verdict_on_answers(catalogue: AnswerCatalogue, reply: Reply, given: list[An
     passed = tuple(distance <= max(SINGLE, tolerance) for distance in distances)
     finding = findings.of_form(catalogue.questions, given, catalogue.right)
     finding = finding or findings.of_the_exercise(catalogue, given)
+    if missing:
+        return _verdict_on_the_rest(catalogue, given, missing, passed, found)
     if finding is not None:
         return Verdict("mistake", (finding,), passed, **found)
     return _verdict_on_numbers(catalogue, reply, given, passed, found)
+
+
+def _verdict_on_the_rest(
+    catalogue: AnswerCatalogue,
+    given: list[Answer],
+    missing: Sequence[str],
+    passed: tuple[bool, ...],
+    found: Mapping[str, Any],
+) -> Verdict:
+    """The verdict where some functions are not written yet: these are told, and the mistakes in the others."""
+    rest, unwritten_yet = catalogue.without(missing), findings.not_written(missing)
+    answers = [a for q, a in zip(catalogue.questions, given, strict=True) if q.function not in missing]
+    explained = identify(rest, answers)
+    named = [Finding(m.name, m.words, m.hint) for m in explained.mistakes] if explained else []
+    return Verdict("mistakes" if named else "mistake", (unwritten_yet, *named), passed, **found)
 
 
 def _verdict_on_numbers(

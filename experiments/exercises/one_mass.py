@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -96,4 +96,28 @@ def questions_on_one(random: np.random.Generator, hidden: bool, seed: str) -> li
         y, v = -spring["rest_length"] * (share - 0.5 * (i % 2)), v * (-1) ** i
         dt = DT * float(random.uniform(0.5, 1.0))
         questions.append(Question("step", (y, v, dt, spring), ("y", "v"), f"spring {i + 1}", 20, units=M_AND_SPEED))
-    return questions
+    return [*questions, *_far_out(random)]
+
+
+#: How long the spring is, as a share of its rest length; how stiff, as a multiple; v [m/s]; dt [s].
+FAR_OUT = {
+    "spring of four times its length": (4.0, 1.0, 3.0, DT),
+    "spring pressed to a fifth": (0.2, 1.0, -30.0, DT),
+    "stiff spring": (1.9, 200.0, -12.0, DT),
+    "spring with a long dt": (1.5, 1.0, -0.5, 0.05),
+}
+
+
+def _far_out(random: np.random.Generator) -> Iterator[Question]:
+    """One step of springs out of the ordinary, whose masses stay below the anchor."""
+    for i, (about, (share, stiffer, v, dt)) in enumerate(FAR_OUT.items()):
+        spring = {
+            "mass": float(random.uniform(0.02, 0.06)),
+            "stiffness": float(random.uniform(40.0, 80.0)) * stiffer,
+            "rest_length": float(random.uniform(0.1, 0.2)),
+            "damping": float(random.uniform(0.02, 0.05)) * (i != 2),
+            "gravity": MOON if i % 2 else 9.81,
+        }
+        near = random.uniform(0.95, 1.05, 3)
+        given = (-share * near[0] * spring["rest_length"], v * near[1], dt * near[2], spring)
+        yield Question("step", given, ("y", "v"), about, 1, units=M_AND_SPEED)

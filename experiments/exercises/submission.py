@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import ast
+import codecs
 import hashlib
-import re
-from collections.abc import Sequence
+import tokenize
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from io import BytesIO
 from pathlib import Path
 
 from experiments.exercises.exercise import Exercise, find
@@ -14,10 +18,14 @@ from reference.errors import InputError
 #: A file larger than this is not a submission [bytes].
 LARGEST = 2**20
 
-#: The lines of a starter that say whose it is.
-EXERCISE = re.compile(r"^EXERCISE *= *(\d+) *$", re.MULTILINE)
-SEED = re.compile(r"^SEED *= *[\"']([^\"'\\\n]{1,100})[\"'] *$", re.MULTILINE)
-KEYED = re.compile(r"^KEYED *= *True *$", re.MULTILINE)
+#: Encodings that begin with a byte order mark, longest mark first.
+MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+#: The names that say whose a file is.
+HEADER = ("EXERCISE", "SEED", "KEYED")
+
+#: A seed is no longer than that.
+LONGEST_SEED = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,22 +69,62 @@ def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = 
         raise InputError(f"{name}: expected a file")
     if path.stat().st_size > LARGEST:
         raise InputError(f"{name} has {path.stat().st_size} bytes: expected at most {LARGEST}")
+    source = decoded(path.read_bytes(), name)
+    says = header(source)
+    if exercise is None and says.get("EXERCISE") is None:
+        raise InputError(f"{name} does not say of which exercise it is: expected a line such as EXERCISE = 4")
+    exercise = exercise or find(str(says["EXERCISE"]))
+    seed = str(says.get("SEED") or "").strip()
+    if exercise.seeded and not (seed.isprintable() and 0 < len(seed) <= LONGEST_SEED):
+        raise InputError(f'{name} has no seed: expected the starter\'s line, such as SEED = "example"')
+    return Submission(name, source, exercise, seed if exercise.seeded else "", says.get("KEYED") is True, keyed)
+
+
+def decoded(data: bytes, name: str) -> str:
+    """A file's text, its lines ended by newlines: in UTF-8, in UTF-16 with its mark, or as its first lines say.
+
+    Raises:
+        InputError: where it is not text, or not in the encoding that it says.
+    """
+    marked = next((encoding for mark, encoding in MARKS.items() if data.startswith(mark)), None)
     try:
-        source = path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
-    except UnicodeDecodeError:
-        raise InputError(f"{name}: expected text in UTF-8") from None
+        source = data.decode(marked or tokenize.detect_encoding(BytesIO(data).readline)[0])
+    except (UnicodeDecodeError, SyntaxError, LookupError):
+        raise InputError(f"{name}: expected text in UTF-8: save it anew, with that encoding") from None
     if "\0" in source:
         raise InputError(f"{name}: expected text, it has a zero byte")
-    says = EXERCISE.search(source)
-    if exercise is None and says is None:
-        raise InputError(f"{name} does not say of which exercise it is: expected a line such as EXERCISE = 4")
-    exercise = exercise or find(says[1] if says else "")
-    seed = SEED.search(source)
-    if exercise.seeded and seed is None:
-        raise InputError(f'{name} has no seed: expected the starter\'s line, such as SEED = "example"')
-    return Submission(
-        name, source, exercise, seed[1] if exercise.seeded and seed else "", bool(KEYED.search(source)), keyed
-    )
+    return source.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def header(source: str) -> dict[str, object]:
+    r"""What the lines EXERCISE, SEED and KEYED of a file say, whatever stands around them; the last of each counts.
+
+    Where Python cannot read the file, each line is read by itself.
+
+    >>> header('import os; EXERCISE: int = 4  # the whole state')
+    {'EXERCISE': 4}
+    >>> header('def step(:\nSEED = "ada"')
+    {'SEED': 'ada'}
+    """
+    try:
+        trees = [ast.parse(source)]
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        trees = list(_lines_by_themselves(source))
+    found: dict[str, object] = {}
+    for statement in (statement for tree in trees for statement in tree.body):
+        targets = statement.targets if isinstance(statement, ast.Assign) else [getattr(statement, "target", None)]
+        value = getattr(statement, "value", None)
+        for target in targets:
+            if isinstance(target, ast.Name) and target.id in HEADER and isinstance(value, ast.Constant):
+                found[target.id] = value.value
+    return found
+
+
+def _lines_by_themselves(source: str) -> Iterator[ast.Module]:
+    for line in source.splitlines():
+        if line.startswith(HEADER):
+            with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
+                yield ast.parse(line)
 
 
 def files_of(paths: Sequence[Path]) -> list[tuple[Path, str]]:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import Any
 
-from experiments.exercises.exercise import Exercise
+import numpy as np
+
+from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.force_mistakes import OF_A_SPRING
-from experiments.exercises.one_mass import on_one_mass, questions_on_one, step_of_one
+from experiments.exercises.one_mass import EXAMPLE, on_one_mass, questions_on_one, step_of_one
 from experiments.exercises.step_mistakes import OF_A_STEP, OF_HEUN, OF_INERTIA, OTHERS
 
-#: On one mass, whose motion is linear, these are the same as Heun's step.
+#: On one mass, whose motion is linear, these are the same as Heun's step. They part where drag grows with the speed.
 SAME = ("midpoint", "ralston")
 
 
@@ -18,12 +20,26 @@ def step(y: float, v: float, dt: float, spring: Any, scheme: str = "heun", **par
     return step_of_one(y, v, dt, spring, scheme, **parameters)
 
 
+def where_drag_grows(random: np.random.Generator) -> list[Question]:
+    """One step where the damping is a number that grows with the square of the speed it is multiplied by.
+
+    A program that writes the force as in the text then computes another motion, one that is not linear, and its scheme
+    shows. One that has the damping in a matrix, or multiplies it by dt first, answers in a way of its own.
+    """
+    spring = {**EXAMPLE, "damping": {"growing": 0.4}}
+    return [
+        Question("step", (-0.2, v, 0.01, spring), ("y", "v"), "drag that grows with the speed") for v in (1.5, -2.5)
+    ]
+
+
 EXERCISE = Exercise(
     title="The same mass, by Heun",
     minutes=30,
     goals="A guess and its correction: two slopes, their average, second order.",
     solutions={"step": step},
     questions=questions_on_one,
+    aside=where_drag_grows,
+    told_aside=[other for other in OTHERS if other.name in SAME],
     mistakes=(
         *OF_HEUN,
         *on_one_mass((*OF_A_SPRING, *OF_INERTIA, *OF_A_STEP)),

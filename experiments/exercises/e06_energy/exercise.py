@@ -9,7 +9,7 @@ import numpy as np
 from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
 from experiments.exercises.force_mistakes import EXAMPLE_GRAVITY
 from experiments.exercises.links import random_string
-from experiments.exercises.on_strings import elsewhere
+from experiments.exercises.on_strings import MOON, elsewhere, wild_string
 from reference.state import Array
 
 
@@ -88,7 +88,21 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
         about = f"string of {count}"
         asked.append(Question("energy", (x, v, string), ("kinetic", "elastic", "gravitational"), about))
         asked.append(Question("power", (x, v, string), ("power",), about))
-    return asked
+    return [*asked, *_out_of_the_ordinary(random)]
+
+
+def _out_of_the_ordinary(random: np.random.Generator) -> list[Question]:
+    """One mass; energies far from rest; the power of masses above and below, left and right of what holds them."""
+    single, flung, hung = random_string(random, 1), wild_string(random, MOON), wild_string(random)
+    for _, _, string in (single, flung, hung):
+        string["damping"] = random.uniform(0.01, 0.1, len(string["masses"]))
+    slowly = random.uniform(0.3, 1.0, hung[1].shape) * np.sign(hung[1])
+    return [
+        Question("energy", single, ("kinetic", "elastic", "gravitational"), "string of 1"),
+        Question("power", single, ("power",), "string of 1"),
+        Question("energy", flung, ("kinetic", "elastic", "gravitational"), "string flung about"),
+        Question("power", (hung[0], slowly, hung[2]), ("power",), "string all over the place"),
+    ]
 
 
 EXERCISE = Exercise(

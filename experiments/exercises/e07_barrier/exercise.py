@@ -69,7 +69,7 @@ def push_out(
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
     """Masses inside and outside, on all sides, coming and going, to the left and to the right."""
     asked = []
-    for count in (1, 9, 12) if hidden else (8, 6):
+    for count in (1, 9, 12) if hidden else (8, 6, 1):
         circle = {"centre": random.uniform(-1, 1, 2), "radius": float(random.uniform(0.3, 0.6))}
         # two inside; one outside in a corner of the square about the circle, one outside of that; one farther away
         kind, quarter = np.arange(count) % 5, np.pi / 2 * random.integers(4, size=count)
@@ -85,7 +85,28 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
         asked.append(
             Question("push_out", (x, v, circle), ("x", "v"), f"{count} masses about a circle", units=("m", "m/s"))
         )
-    return asked
+    return [*asked, _of_all_kinds(random)]
+
+
+#: Of masses about a circle: how far from its centre, as a share of its radius, from next to it to far away.
+DEPTHS = np.array([1e-3, 0.04, 0.15, 0.3, 0.45, 0.55, 0.75, 0.9, 0.999, 1.001, 1.1, 1.3, 2.0, 6.0])
+
+#: How fast they come in [m/s]; how fast they slide; less than nothing is the other way.
+COMES_IN, SLIDES = np.array([1.0, -1.0, 1e-4, 20.0, 0.0]), np.array([1.0, -1.0, 20.0, -1e-4, 0.0])
+
+
+def _of_all_kinds(random: np.random.Generator) -> Question:
+    """Of every depth, every way and every speed, on all sides: more masses than are done by hand."""
+    depth, comes, slides = (part.ravel() for part in np.meshgrid(DEPTHS, COMES_IN, SLIDES, indexing="ij"))
+    angle = random.uniform(0, np.pi / 2) + np.pi / 2 * np.arange(len(depth)) + random.uniform(0, 0.3, len(depth))
+    out, near = np.stack([np.cos(angle), np.sin(angle)], axis=1), random.uniform(0.9, 1.1, (2, len(depth), 1))
+    along = np.stack([-out[:, 1], out[:, 0]], axis=1)
+    circle = {"centre": random.uniform(-1, 1, 2), "radius": float(random.uniform(1.2, 1.6))}
+    x = circle["centre"] + circle["radius"] * depth[:, None] * out
+    v = -comes[:, None] * near[0] * out + slides[:, None] * near[1] * along
+    order = random.permutation(len(depth))
+    about = f"{len(depth)} masses of all kinds about a circle"
+    return Question("push_out", (x[order], v[order], circle), ("x", "v"), about, units=("m", "m/s"))
 
 
 EXERCISE = Exercise(

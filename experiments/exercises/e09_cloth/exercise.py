@@ -71,6 +71,8 @@ def counted(question: Question, pairs: Any) -> Any:
     """
     if pairs.size == 0:
         pairs = np.zeros((0, 2), dtype=int)
+    if pairs.ndim == 2 and pairs.shape[0] == 2 != pairs.shape[1]:
+        pairs = pairs.T  # all first masses, then all second ones: the same pairs
     if pairs.ndim != 2 or pairs.shape[1] != 2 or pairs.dtype.kind not in "iuf":
         return pairs
     n = question.arguments[0] * question.arguments[1]
@@ -82,8 +84,9 @@ def counted(question: Question, pairs: Any) -> Any:
 
 
 def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Question]:
-    """Cloths of different numbers of rows and columns."""
-    sizes = ((2, 2), (3, 6), (7, 4), (1, 4)) if hidden else ((4, 5), (6, 3))
+    """Cloths of different numbers of rows and columns: wide, tall and square, large ones, threads, a single mass."""
+    sizes: tuple[tuple[int, int], ...] = ((2, 2), (3, 6), (7, 4), (1, 4)) if hidden else ((4, 5), (6, 3))
+    sizes += ((9, 11), (12, 8), (5, 5), (2, 4), (4, 2), (1, 5), (6, 1), (1, 1))
     return [Question("springs", s, ("springs",), f"cloth of {s[0]} x {s[1]}", item="between mass") for s in sizes]
 
 

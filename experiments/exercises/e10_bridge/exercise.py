@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.bridges import some_bridge
+from experiments.exercises.bridges import moved, some_bridge, turned_about
 from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
 from experiments.exercises.force_mistakes import EXAMPLE_GRAVITY
 from experiments.exercises.links import namespace
@@ -115,10 +115,16 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
         bridge = some_bridge(random, panels, gravity, light)
         while _slants(bridge) != (i == 0):
             bridge = some_bridge(random, panels, gravity, light)
-        about = f"bridge of {len(bridge['members'])} members"
-        asked.append(Question("heaviest", (bridge,), ("member", "force"), about))
-        asked.append(Question("largest_dt", (bridge,), ("dt",), about))
-    return asked
+        asked.append((bridge, f"bridge of {len(bridge['members'])} members"))
+    for turn in (0.12, -0.15):
+        bridge = moved(random, some_bridge(random, 3, MOON, 0), turn)
+        member = heaviest(namespace(bridge))[0]
+        asked.append((turned_about(bridge, member, rightwards=turn > 0), "bridge that leans, below height 0"))
+    questions = []
+    for bridge, about in asked:
+        questions.append(Question("heaviest", (bridge,), ("member", "force"), about))
+        questions.append(Question("largest_dt", (bridge,), ("dt",), about))
+    return questions
 
 
 EXERCISE = Exercise(

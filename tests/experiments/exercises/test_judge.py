@@ -72,7 +72,7 @@ def judged(monkeypatch: pytest.MonkeyPatch, exercise: str, change: Callable[[lis
 
 
 def test_a_question_passes_to_single_precision(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of four answers one is exact, one off by half of what single precision may lose, one by 1e-3, one is NaN.
+    """Of eight answers five are exact, one off by half of what single precision may lose, one by 1e-3, one is NaN.
 
     The tolerance of the exercise, 1e-9, is for names; a question passes to SINGLE.
     """
@@ -83,8 +83,8 @@ def test_a_question_passes_to_single_precision(monkeypatch: pytest.MonkeyPatch) 
         given[3][0][0] = np.array(np.nan)
 
     verdict = judged(monkeypatch, "6", change)
-    assert verdict.passed == (True, True, False, False)
-    assert Grade(verdict, None, 0.0).score == 50.0
+    assert verdict.passed == (True, True, False, False, True, True, True, True)
+    assert Grade(verdict, None, 0.0).score == 75.0
 
 
 def test_what_is_right_to_single_precision_is_said_to_be(here: None) -> None:

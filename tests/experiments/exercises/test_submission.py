@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import doctest
 from itertools import combinations
 from pathlib import Path
 
 import pytest
 
-from experiments.exercises import submission
+from experiments.exercises import submission, unwritten
 from experiments.exercises.exercise import find
 from experiments.exercises.submission import Submission, files_of, read
 from reference.errors import InputError
@@ -32,6 +33,25 @@ def test_a_file_is_the_same_whatever_the_editor(tmp_path: Path, prefix: bytes, e
 
 
 @pytest.mark.parametrize(
+    "text",
+    [
+        "EXERCISE = 5  # mine\nSEED = 'ada'  # me",
+        "EXERCISE: int = 5; SEED: str = 'ada'",
+        'import numpy as np; EXERCISE = 5;\nSEED = "ada";',
+        "EXERCISE = '5'\nSEED = (\n    'ada'\n)",
+        "x = EXERCISE = 'largest_step'\nSEED = 'bob'\nSEED = 'ada'",
+        "EXERCISE = 5\nSEED = 'ada'\ndef kick_drift(:\n",
+    ],
+)
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-16", "cp1252"])
+def test_whatever_stands_around_the_lines_that_say_whose_it_is(tmp_path: Path, text: str, encoding: str) -> None:
+    """Comments, types, brackets, more on the line, an error elsewhere; in any encoding that the file itself tells."""
+    told = f"# coding: {encoding}\n" if encoding == "cp1252" else ""
+    found = read(written(tmp_path, f"{told}{text}\n# \u00e4".encode(encoding)), "own.py")
+    assert (found.exercise.number, found.seed) == (5, "ada")
+
+
+@pytest.mark.parametrize(
     ("data", "told"),
     [
         (b"EXERCISE = 1\n\xff\xfe", "UTF-8"),
@@ -49,6 +69,13 @@ def test_what_is_not_a_submission_is_refused_by_name(
     monkeypatch.setattr(submission, "LARGEST", 200)
     with pytest.raises(InputError, match=rf"^own\.py.*{told}"):
         read(written(tmp_path, data), "own.py")
+
+
+def test_the_worked_examples_are_true() -> None:
+    """What the docstrings show is what comes out."""
+    for module in (submission, unwritten):
+        tried = doctest.testmod(module)
+        assert (tried.attempted > 0, tried.failed) == (True, 0)
 
 
 def test_folders_and_links_are_not_submissions(tmp_path: Path) -> None:

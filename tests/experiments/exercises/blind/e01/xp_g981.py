@@ -1,0 +1,12 @@
+EXERCISE = 1
+
+
+def step(y, v, dt, spring):
+    m, k, c = spring.mass, spring.stiffness, spring.damping
+    L0, g = spring.rest_length, 9.81
+    stretch = -y - L0
+    F = k * stretch - c * v - m * g
+    a = F / m
+    y_new = y + dt * v
+    v_new = v + dt * a
+    return y_new, v_new
