@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from reference.nonlinear import NonlinearSprings
 from reference.obstacles import Box, Circle, Cylinder, Plane, Sphere
 from reference.scenes import find
 from reference.state import Array
@@ -18,11 +19,21 @@ AWAY = (0.6, 1.0, 0.0)
 FLOOR, BAR = Plane((0.0, -3.0), (0.0, 1.0)), Cylinder(AWAY, (0.0, 0.0, 1.0), 0.3)
 DISC, BALL, BLOCK = Circle(AWAY[:2], 0.3), Sphere(AWAY, 0.3), Box(AWAY[:2], (0.3, 0.2))
 
+#: What springs have besides: in a string whose masses are thrown apart and together all of it comes to bear.
+LAWS = {
+    "tension_only": NonlinearSprings(tension_only=np.array(True)),
+    "compression_only": NonlinearSprings(compression_only=np.array(True)),
+    "hardening": NonlinearSprings(hardening=np.array(1e6)),
+    "largest_force": NonlinearSprings(largest_force=np.array(2.0)),
+    "breaking": NonlinearSprings(breaking_force=np.array(3.0)),
+}
+
 
 def for_each_capability() -> Mapping[str, MassSpringSystem]:
     """By each name of engines.engine.CAPABILITIES, a system that asks for it, and for little else."""
     string = find("string").system
     plain, bent = string({}), np.linspace(-0.3, 0.3, 5)
+    thrown = 0.5 * np.random.default_rng(0).normal(size=plain.positions.shape) * ~plain.fixed[:, None]
     off_the_plane = np.outer(0.125 * np.arange(11), [0.6, 0.0, 0.8])
     triangles = MassSpringSystem(
         positions=0.125 * np.array([[0, 0], [1, 0], [0.5, -(3**0.5) / 2], [1.5, -(3**0.5) / 2]]),
@@ -47,6 +58,7 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
         "drag": string({"drag": 0.02}),
         "tilted gravity": replace(plain, gravity=np.array([3.0, -9.0])),
         "no fixed mass": replace(triangles, fixed=np.zeros(4, dtype=bool)),
+        **{name: replace(plain, velocities=thrown, nonlinear=law) for name, law in LAWS.items()},
         **{obstacle.kind: replace(plain, obstacles=(obstacle,)) for obstacle in (DISC, FLOOR, BLOCK)},
         **{obstacle.kind: replace(in_space, obstacles=(obstacle,)) for obstacle in (BALL, BAR)},
     }

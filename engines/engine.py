@@ -13,12 +13,14 @@ from functools import cache
 from importlib import metadata
 from typing import Literal, Protocol
 
+import numpy as np
+
 import engines
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
 from reference.registry import Registry
 from reference.state import Array
-from reference.system import MassSpringSystem, Value
+from reference.system import BREAK, MassSpringSystem, Value
 
 #: What masses may not enter, by its kind. An engine that takes one holds masses out of it in its own way, without
 #: friction: where nothing touches it, it steps as the engine does without.
@@ -28,6 +30,15 @@ OBSTACLES = {
     "cylinder": "a cylinder that masses may not enter",
     "plane": "a plane that masses may not enter",
     "box": "a box that masses may not enter",
+}
+
+#: Springs that are not linear. Of those that break the lab sees after every step which do, and tells the engine.
+LAWS = {
+    "tension_only": "springs that only pull",
+    "compression_only": "springs that only push",
+    "hardening": "springs that harden",
+    "largest_force": "springs with a largest force",
+    "breaking": "springs that break",
 }
 
 #: What a system may ask of an engine, and how the lack of it is said.
@@ -45,6 +56,7 @@ CAPABILITIES = {
     "drag": "drag on the masses",
     "tilted gravity": "gravity along any axis but the vertical",
     "no fixed mass": "a system with no fixed mass",
+    **LAWS,
     **OBSTACLES,
 }
 
@@ -122,6 +134,7 @@ ASKED_BY: Mapping[str, tuple[str, ...]] = {
     "damping": ("dampings", "damping"),
     "drag": ("drag",),
     "gravity": ("tilted gravity",),
+    "break": ("breaking",),
 }
 
 
@@ -152,6 +165,11 @@ _NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
     "drag": lambda system: system.drag > 0,
     "tilted gravity": lambda system: system.gravity[: system.vertical_axis].any() or system.gravity[2:].any(),
     "no fixed mass": lambda system: not system.fixed.any(),
+    "tension_only": lambda system: system.nonlinear and system.nonlinear.tension_only.any(),
+    "compression_only": lambda system: system.nonlinear and system.nonlinear.compression_only.any(),
+    "hardening": lambda system: system.nonlinear and system.nonlinear.hardening.any(),
+    "largest_force": lambda system: system.nonlinear and (system.nonlinear.largest_force < np.inf).any(),
+    "breaking": lambda system: system.nonlinear and system.nonlinear.breaks,
 }
 
 
@@ -170,7 +188,8 @@ def changed(engine: Engine, system: MassSpringSystem, parameter: str, value: Val
     """
     other = system.with_parameter(parameter, value)
     for demand in ASKED_BY[parameter]:
-        if demand not in engine.capabilities and _needed(demand, other) and not _needed(demand, system):
+        asked = parameter == BREAK or (_needed(demand, other) and not _needed(demand, system))
+        if demand not in engine.capabilities and asked:
             raise Unsupported(f"{engine.name} cannot do {CAPABILITIES[demand]}, asked for by a change of {parameter}")
     return other
 

@@ -15,7 +15,8 @@ import numpy as np
 
 from reference.errors import SolverError
 from reference.jit import compiled
-from reference.spring_law import force_by_rate, force_by_stretch, spring_force
+from reference.nonlinear_law import damping_at, secant_stiffness, stretches, tangent_stiffness
+from reference.spring_law import force_by_rate, spring_force
 from reference.state import Array, State
 from reference.system import BoolArray, IntArray, MassSpringSystem
 
@@ -71,19 +72,27 @@ def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Block
     u = separation / length[:, None]
     rate = np.einsum("si,si->s", u, w)
     stretch = length - system.rest_lengths
-    force = spring_force(system.stiffness, stretch, system.damping, rate)
-    by_rate = force_by_rate(system.damping)
+    damping = damping_at(system, stretch)
+    force = spring_force(secant_stiffness(system, stretch), stretch, damping, rate)
+    by_rate = force_by_rate(damping)
     along = _outer(u, u)
     across = np.eye(system.dimension) - along
     turning = _outer(u, w - rate[:, None] * u)
     by_velocity = by_rate[:, None, None] * along
     by_position = (
-        force_by_stretch(system.stiffness, stretch)[:, None, None] * along
+        tangent_stiffness(system, stretch)[:, None, None] * along
         + (force / length)[:, None, None] * across
         + (by_rate / length)[:, None, None] * turning
     )
     nothing = np.zeros(len(system.masses))
     return Blocks(by_position, nothing), Blocks(by_velocity, nothing + system.drag)
+
+
+def damping_of(system: MassSpringSystem, state: State) -> Array:
+    """The damping that springs have at a state [N s/m], shape (s,): what is slack has none."""
+    if system.nonlinear is None:
+        return system.damping
+    return damping_at(system, stretches(system, state.positions))
 
 
 def damping_blocks(system: MassSpringSystem, state: State, coefficients: Array) -> Blocks:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.spring_law import elastic_energy
+from reference.nonlinear_law import energy_of_springs
 from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 
@@ -19,7 +19,7 @@ def energy_parts(system: MassSpringSystem, state: State) -> dict[str, float]:
     a, b = system.springs.T
     stretch = np.linalg.norm(state.positions[b] - state.positions[a], axis=1) - system.rest_lengths
     kinetic = 0.5 * system.masses @ (state.velocities**2).sum(axis=1)
-    elastic = elastic_energy(system.stiffness, stretch).sum()
+    elastic = energy_of_springs(system, stretch).sum()
     weight = system.masses @ (state.positions @ system.gravity)
     return {
         "kinetic": float(kinetic),
@@ -35,7 +35,7 @@ def energies(system: MassSpringSystem, trajectory: Trajectory) -> Array:
     x = trajectory.positions
     stretch = np.linalg.norm(x[:, b] - x[:, a], axis=2) - system.rest_lengths
     kinetic = 0.5 * (trajectory.velocities**2).sum(axis=2) @ system.masses
-    elastic = elastic_energy(system.stiffness, stretch).sum(axis=1)
+    elastic = energy_of_springs(system, stretch).sum(axis=1)
     return np.asarray(kinetic + elastic - (x @ system.gravity) @ system.masses)
 
 

@@ -54,10 +54,12 @@ class RopeMotion:
             some compliance is defined.
 
     Raises:
-        InputError: for a system with obstacles.
+        InputError: for a system with obstacles, or springs that are not linear.
     """
 
     def __init__(self, system: MassSpringSystem) -> None:
+        if system.nonlinear is not None:
+            raise InputError(f"no rope: rods have no {', '.join(system.nonlinear.asked)}")
         if system.obstacles:
             raise InputError("no rope: expected no obstacles, which would push its masses off their rods")
         self.system = system

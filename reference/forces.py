@@ -3,7 +3,8 @@
 A spring pulls the two masses it joins together with the force that the law of a spring gives (`spring_law`), and a mass
 feels its springs, its weight m g, and the drag -Cd v. Every spring is computed once; then each mass sums the forces of
 its own springs in their order. A mass alone (`acceleration_of`) is given exactly the bits it has within the whole. A
-spring of no length, which has no direction, gives forces that are not numbers, and so a run that diverges.
+spring of no length, which has no direction, gives forces that are not numbers, and so a run that diverges. A spring
+that is not linear (`nonlinear_law`) has at every state the stiffness and damping that make its force there.
 
 The functions at the top are compiled (`jit`): they are loops over numbers.
 """
@@ -14,6 +15,7 @@ import numpy as np
 
 from reference.assembly import Blocks, spring_blocks
 from reference.jit import array, compiled
+from reference.nonlinear_law import damping_at, secant_stiffness, stretches
 from reference.spring_law import spring_force
 from reference.state import Array, Slope, State, Trajectory
 from reference.system import BoolArray, IntArray, MassSpringSystem
@@ -138,7 +140,6 @@ class SpringMotion:
         self.system = system
         self.start = system.start
         self._masses_and_weight = (system.masses, system.drag, system.gravity, system.fixed, *springs_of_masses(system))
-        self._springs = (system.springs, system.rest_lengths, system.stiffness)
         self._none = np.zeros(len(system.springs))
         self._forces = np.empty((len(system.springs), system.dimension))
 
@@ -149,16 +150,25 @@ class SpringMotion:
             damping: False leaves out the damping of the springs, for schemes that treat it apart. Drag stays in.
         """
         out = np.empty_like(state.positions)
-        springs = (*self._springs, self.system.damping if damping else self._none)
+        springs = self._springs_at(state, damping)
         _all_accelerations(*_rows(state), *springs, *self._masses_and_weight, self._forces, out)
         return out
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Acceleration of mass i alone [m/s^2], shape (d,): all the lecture's per-link function sees."""
         out = np.empty_like(state.positions)
-        springs = (*self._springs, self.system.damping)
+        springs = self._springs_at(state)
         _one_acceleration(i, *_rows(state), *springs, *self._masses_and_weight, self._forces, out)
         return out[i]
+
+    def _springs_at(self, state: State, damping: bool = True) -> tuple[IntArray, Array, Array, Array]:
+        """What springs join, their rest lengths, and the stiffness and damping they have at a state."""
+        system = self.system
+        stiffness, damped = system.stiffness, system.damping
+        if system.nonlinear:
+            stretch = stretches(system, state.positions)
+            stiffness, damped = secant_stiffness(system, stretch), damping_at(system, stretch)
+        return system.springs, system.rest_lengths, stiffness, damped if damping else self._none
 
     def slope(self, state: State) -> Slope:
         """The rate of change of the whole state: velocities and accelerations."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reference.state import Array
-from reference.system import IntArray
+from reference.system import BoolArray, IntArray
 
 
 def lengths(vectors: Array) -> Array:
@@ -30,3 +30,17 @@ def spring_lengths(positions: Array, springs: IntArray) -> Array:
     for along in others:
         squares += along * along
     return np.asarray(np.sqrt(squares))
+
+
+def rates_of(positions: Array, velocities: Array, springs: IntArray, wanted: BoolArray) -> Array:
+    """How fast springs get longer [m/s], with masses (..., n, d): shape (..., s); zero of those that are not wanted.
+
+    An engine that tells no velocities has forces all the same where a spring is not damped.
+    """
+    if not wanted.any():
+        return np.zeros(len(springs))
+    along = zip(between(positions, springs), between(velocities, springs), strict=True)
+    length = spring_lengths(positions, springs)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        rate = np.where(length > 0, sum(x * v for x, v in along) / length, 0.0)
+    return np.where(wanted, rate, 0.0)

@@ -11,9 +11,9 @@ import numpy as np
 
 from reference.changes import Change
 from reference.lengths import lengths, spring_lengths
-from reference.spring_law import elastic_energy
+from reference.nonlinear_law import energy_of_springs
 from reference.state import Array, Trajectory
-from reference.system import FIELDS, BoolArray, MassSpringSystem
+from reference.system import BREAK, FIELDS, BoolArray, MassSpringSystem
 
 #: Every run ends as one of these.
 Ending = Literal["done", "diverged", "crashed", "timed out", "unsupported"]
@@ -64,7 +64,7 @@ def blow_up(
         lost = ~np.isfinite(values).all(axis=1)
         if lost.any():
             return f"the {name} of mass {np.argmax(lost)} is not a number at t = {time}"
-    stretch = _stretch_ratios(system, trajectory.frames([0, frame]))[1]
+    stretch = _stretch_ratios(system, trajectory.frames([0, frame]), changes)[1]
     if (stretch > ratio).any():
         return f"spring {np.argmax(stretch)} is over {ratio:g} times its length at t = {time}"
     distance = _distance_ratios(system, trajectory.frames([0, frame]), changes)[1]
@@ -83,7 +83,7 @@ def first_blown_up_frame(
             length = spring_lengths(part.positions, system.springs)
         told = [
             ~(np.isfinite(part.positions) & np.isfinite(part.velocities)).all(axis=(1, 2)),
-            (length > ratio * _natural_lengths(system, part)).any(axis=1),
+            (length > ratio * _natural_lengths(system, part, changes)).any(axis=1),
             (_distance_ratios(system, part, changes) > ratio).any(axis=1),
             _energy_ratios(system, part, length, changes) > ratio**2,
         ]
@@ -114,16 +114,29 @@ def _first(told: BoolArray) -> int:
     return int(np.argmax(told)) if told.any() else len(told)
 
 
-def _stretch_ratios(system: MassSpringSystem, trajectory: Trajectory) -> Array:
+def _stretch_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change] = ()) -> Array:
     """Stretch ratio: length over natural length, of every spring in every frame, shape (m, s)."""
     with np.errstate(over="ignore", invalid="ignore"):
         length = spring_lengths(trajectory.positions, system.springs)
-        return np.asarray(length / _natural_lengths(system, trajectory))
+        return np.asarray(length / _natural_lengths(system, trajectory, changes))
 
 
-def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory) -> Array:
-    """Of every spring the longer of its rest length and its length at the start [m], shape (s,)."""
-    return np.maximum(system.rest_lengths, spring_lengths(trajectory.positions[0], system.springs))
+def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change] = ()) -> Array:
+    """Of every spring the longer of its rest length and its length at the start [m], shape (s,).
+
+    Infinite of those that may be of any length: they only push, or break.
+    """
+    natural = np.maximum(system.rest_lengths, spring_lengths(trajectory.positions[0], system.springs))
+    if system.nonlinear is not None:
+        natural = np.where(system.nonlinear.may_open, np.inf, natural)
+    return np.where(_may_break(system, changes), np.inf, natural)
+
+
+def _may_break(system: MassSpringSystem, changes: Sequence[Change]) -> BoolArray:
+    """Which springs can break on the way, or are to, shape (s,)."""
+    named = [np.atleast_1d(change.value) for change in changes if change.parameter == BREAK]
+    may = np.isin(np.arange(len(system.springs)), np.concatenate(named) if named else [])
+    return np.asarray(may if system.nonlinear is None else may | system.nonlinear.may_break)
 
 
 def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change]) -> Array:
@@ -134,7 +147,8 @@ def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: 
     """
     t = trajectory.times
     fastest = np.linalg.norm(trajectory.velocities[0], axis=1).max(initial=0.0)
-    reach = system.size + _natural_lengths(system, trajectory).sum() or 1.0
+    natural = _natural_lengths(system, trajectory, changes)
+    reach = system.size + natural[np.isfinite(natural)].sum() or 1.0
     allowed = reach + fastest * t + np.linalg.norm(_most(system, "gravity", changes)) * t**2 / 2
     with np.errstate(over="ignore", invalid="ignore"):
         return np.asarray(lengths(trajectory.positions - trajectory.positions[0]) / allowed[:, None])
@@ -153,11 +167,15 @@ def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Arr
     mass, stiffness = _most(system, "mass", changes), _most(system, "stiffness", changes)
     gravity = np.linalg.norm(_most(system, "gravity", changes))
     v = trajectory.velocities
+    stiffest = system.with_parameter("stiffness", stiffness.tolist()) if changes and len(stiffness) else system
+    natural = _natural_lengths(system, trajectory, changes)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        elastic = elastic_energy(stiffness, length - system.rest_lengths).sum(axis=1)
-        energy = 0.5 * np.einsum("mnd,mnd,n->m", v, v, mass) + elastic
-        given = 0.5 * mass @ (v[0] ** 2).sum(axis=1) + elastic[0]
-        given += elastic_energy(stiffness, _natural_lengths(system, trajectory)).sum()
+        elastic = energy_of_springs(stiffest, length - system.rest_lengths)
+        # of what breaks only what it had at the start: it may be of any length afterwards
+        kept = elastic[:, ~_may_break(system, changes)].sum(axis=1)
+        energy = 0.5 * np.einsum("mnd,mnd,n->m", v, v, mass) + kept
+        given = 0.5 * mass @ (v[0] ** 2).sum(axis=1) + elastic[0].sum()
+        given += energy_of_springs(stiffest, np.where(np.isfinite(natural), natural, system.rest_lengths)).sum()
         given = given + gravity * lengths(x - y) @ mass
         return np.where(given > 0, energy / given, 0.0)
 

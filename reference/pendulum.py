@@ -89,6 +89,8 @@ def why_no_pendulum(system: MassSpringSystem) -> str | None:
         return "along a line rods leave nothing that could move, expected a string in 2D"
     if system.dimension != 2 or not system.is_string:
         return "expected a string in 2D, fixed at its first mass only"
+    if system.nonlinear is not None:
+        return f"expected linear springs: rods have no {', '.join(system.nonlinear.asked)}"
     if system.obstacles:
         return "expected no obstacles: a pendulum that meets one is something else"
     separation = np.diff(system.positions, axis=0)

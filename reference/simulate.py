@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from reference.breaking import after_breaking
 from reference.changes import Change, applied, changes_by_step, whole_steps
 from reference.compiled.in_place import step_of
 from reference.forces import SpringMotion
@@ -54,6 +55,10 @@ def simulate(
                 step = step_of(scheme, motion)
             state = projected(system, step(state, dt), (i + 1) * dt)
             states.append(state)
+            if system.nonlinear is not None and (left := after_breaking(system, state)) is not system:
+                system = left
+                motion = equations(system)
+                step = step_of(scheme, motion)
             if not (np.isfinite(state.positions).all() and np.isfinite(state.velocities).all()):
                 break
         return motion.trajectory(states)

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from reference.checked_numbers import LARGEST, SMALLEST, check_sizes, finite, in_range, refuse, refuse_below, shaped
 from reference.errors import InputError, unknown_name
+from reference.nonlinear import NonlinearSprings
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.state import Array, State
 
@@ -34,6 +35,9 @@ PARAMETERS = {
 
 #: What can happen to masses while the system moves, and whether they are fixed then.
 HELD = {"hold": True, "release": False}
+
+#: And to springs: from then on they are gone.
+BREAK = "break"
 
 #: Those of them that are fields by another name.
 FIELDS = {"mass": "masses", "rest_length": "rest_lengths"}
@@ -61,6 +65,7 @@ class MassSpringSystem:
         velocities: [m/s], shape (n, d); zero unless given.
         fixed: which masses never move, shape (n,).
         obstacles: what free masses may not enter; they are projected out at the end of every step, in this order.
+        nonlinear: what springs have besides stiffness and damping; None where all are linear.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.
@@ -77,6 +82,7 @@ class MassSpringSystem:
     velocities: Array = field(default_factory=lambda: np.zeros(1))
     fixed: BoolArray = field(default_factory=lambda: np.zeros(1, dtype=bool))
     obstacles: tuple[Obstacle, ...] = ()
+    nonlinear: NonlinearSprings | None = None
 
     def __post_init__(self) -> None:
         positions = finite("positions", self.positions, "m")
@@ -108,6 +114,8 @@ class MassSpringSystem:
             raise InputError(f"velocities[{i}] = {self.velocities[i].tolist()}: expected zero, mass {i} is fixed")
         obstacles = checked_obstacles(self.obstacles, self.positions, self.fixed, self.size)
         object.__setattr__(self, "obstacles", obstacles)
+        if self.nonlinear is not None:
+            object.__setattr__(self, "nonlinear", _checked_law(self.nonlinear, s))
 
     @property
     def dimension(self) -> int:
@@ -146,6 +154,12 @@ class MassSpringSystem:
         return np.asarray(np.abs(lengths - self.rest_lengths) > 1e-12 * lengths + rounding)
 
     @property
+    def slackens(self) -> BoolArray:
+        """Which springs carry nothing when they are short, or long, shape (s,)."""
+        law = self.nonlinear
+        return np.zeros(len(self.springs), dtype=bool) if law is None else law.tension_only | law.compression_only
+
+    @property
     def start(self) -> State:
         """The state at time zero."""
         return State(0.0, self.positions, self.velocities)
@@ -157,7 +171,8 @@ class MassSpringSystem:
     def with_parameter(self, name: str, value: Value) -> MassSpringSystem:
         """The same system with one of PARAMETERS set: one number for all, or one for each mass, spring or axis.
 
-        Or with masses held or released: `hold` and `release` take the number of a mass, or several.
+        Or with masses held or released, or springs broken: `hold` and `release` take the number of a mass, or several,
+        `break` that of springs.
 
         Nothing else is looked at again: a parameter may change at every step of a run.
 
@@ -166,8 +181,10 @@ class MassSpringSystem:
         """
         if name in HELD:
             return self._with_held(name, value)
+        if name == BREAK:
+            return self._broken(value)
         if name not in PARAMETERS:
-            raise unknown_name("parameter", name, [*PARAMETERS, *HELD])
+            raise unknown_name("parameter", name, [*PARAMETERS, *HELD, BREAK])
         changed = copy(self)
         object.__setattr__(changed, FIELDS.get(name, name), self._checked_parameter(name, value))
         return changed
@@ -180,6 +197,20 @@ class MassSpringSystem:
         fixed.flags.writeable = False
         changed = copy(self)
         object.__setattr__(changed, "fixed", fixed)
+        return changed
+
+    def _broken(self, value: Value) -> MassSpringSystem:
+        """Springs that break have neither stiffness nor damping from then on, and are linear."""
+        broken = finite(BREAK, value, "springs' numbers").reshape(-1)
+        refuse(BREAK, broken, ~np.isin(broken, range(len(self.springs))), f"a spring from 0 to {len(self.springs) - 1}")
+        which, changed = broken.astype(int), copy(self)
+        for name in ("stiffness", "damping"):
+            array = getattr(self, name).copy()
+            array[which] = 0.0
+            array.flags.writeable = False
+            object.__setattr__(changed, name, array)
+        if self.nonlinear is not None:
+            object.__setattr__(changed, "nonlinear", self.nonlinear.without(which))
         return changed
 
     def _checked_parameter(self, name: str, value: Value) -> Array | float:
@@ -222,16 +253,25 @@ class MassSpringSystem:
     def with_springs_reversed(self) -> MassSpringSystem:
         """The same system with its springs listed from the last to the first."""
         backwards = {name: getattr(self, name)[::-1] for name in ("springs", "rest_lengths", "stiffness", "damping")}
-        return replace(self, **backwards)
+        law = self.nonlinear
+        return replace(self, **backwards, nonlinear=law and law.of(slice(None, None, -1)))
 
     def with_ends_swapped(self) -> MassSpringSystem:
         """The same system with each spring named from its other end."""
         return replace(self, springs=self.springs[:, ::-1])
 
+    def of_spring(self, j: int) -> MassSpringSystem:
+        """The same masses with one of the springs, as it is."""
+        one = {name: getattr(self, name)[j : j + 1] for name in ("springs", "rest_lengths", "stiffness", "damping")}
+        return replace(self, **one, nonlinear=self.nonlinear and self.nonlinear.of(slice(j, j + 1)))
+
     def to_dict(self) -> dict[str, Any]:
         """Plain lists and numbers, the fields by name: what a digest or a JSON file is made of."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         values["obstacles"] = [obstacle.to_dict() for obstacle in self.obstacles]
+        values["nonlinear"] = self.nonlinear.to_dict() if self.nonlinear else None
+        if self.nonlinear is None:
+            del values["nonlinear"]
         return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
 
 
@@ -250,6 +290,12 @@ def check_parameter(name: str, value: float) -> None:
         raise InputError(f"{name} = {value:g}: expected a number {'>' if name in ABOVE_ZERO else '>='} 0{unit}")
     if name in ABOVE_ZERO and value < SMALLEST:
         raise InputError(f"{name} = {value:g}: expected a number of at least {SMALLEST:g}{unit}")
+
+
+def _checked_law(law: NonlinearSprings, count: int) -> NonlinearSprings | None:
+    if not isinstance(law, NonlinearSprings):
+        raise InputError(f"nonlinear = {law!r}: expected NonlinearSprings, or None where all springs are linear")
+    return law.checked(count)
 
 
 def _downwards(gravity: Array, dimension: int) -> Array:

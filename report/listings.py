@@ -16,6 +16,13 @@ def scene_rows() -> Shown:
     return Shown("scenes", ["scene", "slides", "what", "parameters"], rows)
 
 
+def spring_rows() -> Shown:
+    """What springs of any scene may have besides stiffness and damping."""
+    from reference.nonlinear import KINDS
+
+    return Shown("springs", ["parameter", "what"], [[name, words] for name, words in KINDS.items()])
+
+
 def stepper_rows() -> Shown:
     """All steppers that are not engines."""
     from experiments.runs.steppers import all_steppers

@@ -14,6 +14,9 @@ if TYPE_CHECKING:  # these import NumPy and Numba: a command's help does without
     from reference.identification import Identification
     from reference.scenes import Setup
 
+#: So many springs that broke are named.
+FEW_BREAKS = 3
+
 
 @dataclass(frozen=True)
 class Shown:
@@ -111,6 +114,13 @@ def _largest(found: Largest | None, what: str, unit: str) -> str | None:
     return f"{found.value:.4g} {unit}, {what} {found.which}, t = {found.time:.4g} s"
 
 
+def _breaks(breaks: Sequence[Largest]) -> str:
+    """The first few, in the order they broke."""
+    told = [f"{b.which} at t = {b.time:.4g} s, with {b.value:.4g} N" for b in breaks[:FEW_BREAKS]]
+    more = [f"and {len(breaks) - FEW_BREAKS} more"] if len(breaks) > FEW_BREAKS else []
+    return "; ".join([*told, *more]) or "none"
+
+
 def _vector(values: Any) -> str:
     return ", ".join(f"{value:.4g}" for value in values.tolist())
 
@@ -123,6 +133,7 @@ SUMMARY: dict[str, Callable[[Any], Any]] = {
     "largest stretch": _of_motion(lambda m: _largest(m.stretched, "spring", "m")),
     "largest tension": _of_motion(lambda m: None if m.forces is None else _largest(m.tension, "spring", "N")),
     "largest compression": _of_motion(lambda m: None if m.forces is None else _largest(m.compression, "spring", "N")),
+    "springs that broke": _of_motion(lambda m: _breaks(m.breaks)),
     "energy at the start [J]": _of_motion(lambda m: f"{m.energy_at_start['total']:.6g}"),
     "energy at the end [J]": _of_motion(lambda m: f"{m.energy['total']:.6g}"),
     "of it kinetic, elastic, gravitational [J]": _of_motion(

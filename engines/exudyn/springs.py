@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from engines.engine import CAPABILITIES, OBSTACLES, changed, refuse_beyond
+from reference.nonlinear_law import damping_at, secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -130,6 +131,7 @@ class Items:
         self._mbs = mbs
         self._free = np.flatnonzero(~system.fixed)
         self._bodies, self._weights, self._drags = [], [], []
+        self._by_law = system.nonlinear is not None  # and also once all springs that were not linear are broken
         item = importlib.import_module("exudyn.itemInterface")
         flat = system.dimension == 2
         node_type, body_type = (item.NodePoint2D, item.MassPoint2D) if flat else (item.NodePoint, item.MassPoint)
@@ -163,6 +165,24 @@ class Items:
             mbs.SetObjectParameter(spring, "referenceLength", float(system.rest_lengths[j]))
             mbs.SetObjectParameter(spring, "stiffness", float(system.stiffness[j]))
             mbs.SetObjectParameter(spring, "damping", float(system.damping[j]))
+            if self._by_law:
+                mbs.SetObjectParameter(spring, "springForceUserFunction", partial(_force, system.of_spring(j)))
+
+
+def _force(
+    alone: MassSpringSystem,
+    mbs: Any,
+    time: float,
+    item: int,
+    stretch: float,
+    rate: float,
+    stiffness: float,
+    damping: float,
+    force: float,
+) -> float:
+    """What Exudyn asks for of a spring that is not linear: the force with which it pulls its masses together [N]."""
+    at = np.array([stretch])
+    return float((secant_stiffness(alone, at) * at + damping_at(alone, at) * rate).item())
 
 
 def _settings(exudyn: ModuleType, solver: Solver, dt: float) -> Any:

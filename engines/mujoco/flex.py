@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, Unsupported, changed
+from engines.engine import CAPABILITIES, LAWS, Unsupported, changed, refuse_beyond
 from engines.mujoco.common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco.obstacles import add_obstacles, off
 from engines.mujoco.sliding_masses import SlidingMasses, three
@@ -41,7 +41,7 @@ class MujocoFlex:
     name: str
     integrator: Integrator
     package: str = "mujoco"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(LAWS)
     semantics: str = (
         "stiffness is k [N/m] and damping c [N s/m] of the edges of a flex, explicit; drag is Cd [N s/m] as damping of "
         "every slide joint, explicit"
@@ -58,7 +58,12 @@ class MujocoFlex:
         return dict.fromkeys(("plain", "damping", "drag"), SCHEMES[self.integrator])
 
     def start(self, system: MassSpringSystem, dt: float) -> FlexSimulation:
-        """The system as bodies and flexes. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
+        """The system as bodies and flexes.
+
+        Raises:
+            Unsupported: beyond the capabilities; where MuJoCo refuses it, or a mass is below 1e-14 kg.
+        """
+        refuse_beyond(self, system)
         mujoco = mujoco_module()
         groups = groups_of(system, system.stiffness, system.damping)
         model = compiled(mujoco, system, groups, '<edge stiffness="1"/>', dt=dt)

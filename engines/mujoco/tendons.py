@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, Unsupported, changed
+from engines.engine import CAPABILITIES, Unsupported, changed, refuse_beyond
 from engines.mujoco.common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco.obstacles import add_obstacles, off
 from engines.mujoco.sliding_masses import SlidingMasses, three
@@ -30,6 +30,9 @@ SCHEMES: Mapping[Integrator, Mapping[str, str]] = {
 
 #: The most nested masses for interactive use: a step of them takes 0.02 s of a processor.
 NESTED_UP_TO = 100
+
+#: [m]. Tendons that only push have no force up to this length.
+LONGEST = 1e10
 
 #: [m]. The edge of the cube that gives a mass its moments of inertia. Nothing rotates: it only sets the Stokes drag.
 CUBE = 1.0
@@ -55,7 +58,7 @@ class MujocoTendons:
     integrator: Integrator
     eulerdamp: bool = False
     package: str = "mujoco"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {"largest_force"}
 
     @property
     def semantics(self) -> str:
@@ -94,7 +97,13 @@ class MujocoTendons:
         return {**schemes, "drag": "kick_drift_implicit_drag"} if self.eulerdamp else schemes
 
     def start(self, system: MassSpringSystem, dt: float) -> TendonSimulation:
-        """The system as bodies and tendons. Raises Unsupported where MuJoCo refuses it, or a mass is below 1e-14 kg."""
+        """The system as bodies and tendons.
+
+        Raises:
+            Unsupported: beyond the capabilities; where MuJoCo refuses it, a mass is below 1e-14 kg, or springs that
+                are damped go slack, as MuJoCo damps tendons that are slack, too.
+        """
+        refuse_beyond(self, system)
         mujoco = mujoco_module()
         try:
             model = _spec(mujoco, system, self.nested, dt).compile()
@@ -126,12 +135,28 @@ class TendonSimulation(SlidingMasses):
         model.tendon_stiffness[:] = system.stiffness
         model.tendon_damping[:] = system.damping
         model.tendon_lengthspring[:] = system.rest_lengths[:, None]  # no slack: from the rest length to the rest length
+        _write_law(model, system)
         model.opt.gravity[:] = three(system.gravity)
         if self._nested:
             model.opt.viscosity = system.drag / (3 * np.pi * CUBE)
         else:
             model.dof_damping[:] = system.drag
         update_constants(mujoco, model)
+
+
+def _write_law(model: Any, system: MassSpringSystem) -> None:
+    """Springs that go slack are without force from one length to another; k3 is the second number after k."""
+    law = system.nonlinear
+    if hasattr(model, "tendon_stiffnesspoly"):
+        model.tendon_stiffnesspoly[:, 1] = 0.0 if law is None else law.hardening
+    if law is None:
+        return
+    if (system.slackens & (system.damping > 0)).any():
+        raise Unsupported("MuJoCo damps tendons that are slack, too: expected none that go slack with damping")
+    model.tendon_lengthspring[law.tension_only, 0] = 0.0
+    model.tendon_lengthspring[law.compression_only, 1] = LONGEST
+    if law.hardening.any() and not hasattr(model, "tendon_stiffnesspoly"):
+        raise Unsupported("this MuJoCo has linear tendons only: hardening needs 3.6 or later")
 
 
 def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float) -> Any:

@@ -12,11 +12,12 @@ import numpy as np
 from engines.engine import Engine, Precision, precision, version
 from engines.line import started
 from engines.process.supervisor import supervisor
+from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step
 from reference.errors import InputError, Unsupported
 from reference.outcome import Outcome, outcome_of
 from reference.state import State, Trajectory
-from reference.system import HELD, MassSpringSystem
+from reference.system import BREAK, HELD, MassSpringSystem
 
 #: A run may take this long [s] before it counts as hung.
 TIME_LIMIT = 60.0
@@ -137,6 +138,10 @@ def run_engine(
                     simulation.change(change.parameter, change.value)
             simulation.step()
             states.append(State((step + 1) * dt, *simulation.state()))
+            broken = breaking(system, states[-1])
+            if len(broken):
+                system = system.with_parameter(BREAK, broken.tolist())
+                simulation.change(BREAK, broken.tolist())
             if not np.isfinite(states[-1].positions).all():
                 break
     except (Unsupported, InputError) as error:

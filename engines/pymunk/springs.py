@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import changed, refuse_beyond
+from engines.engine import LAWS, Unsupported, changed, refuse_beyond
 from engines.pymunk.obstacles import add_obstacles
+from reference.nonlinear_law import secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -40,6 +41,7 @@ class PymunkSprings:
     capabilities: frozenset[str] = frozenset(
         {"1d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
         | {"drag", "tilted gravity", "no fixed mass", "circle", "plane", "box"}
+        | set(LAWS)
     )
 
     @property
@@ -66,8 +68,14 @@ class PymunkSprings:
         )
 
     def start(self, system: MassSpringSystem, dt: float) -> PymunkSimulation:
-        """The system as bodies and springs in a new space. Raises Unsupported beyond the capabilities."""
+        """The system as bodies and springs in a new space.
+
+        Raises:
+            Unsupported: beyond the capabilities; for damped springs that go slack, as Pymunk damps those, too.
+        """
         refuse_beyond(self, system)
+        if (system.slackens & (system.damping > 0)).any():
+            raise Unsupported("Pymunk damps springs that are slack, too: expected none that go slack with damping")
         return PymunkSimulation(self, system, dt)
 
 
@@ -79,6 +87,7 @@ class PymunkSimulation:
         from pymunk import batch
 
         self._engine, self._system, self._dt = engine, system, dt
+        self._by_law = system.nonlinear is not None  # and also once all springs that were not linear are broken
         self._space = pymunk.Space()
         self._space.iterations = engine.rounds
         bodies = [_body(pymunk, system, i) for i in range(len(system.masses))]
@@ -132,6 +141,8 @@ class PymunkSimulation:
             spring.rest_length = float(system.rest_lengths[j])
             spring.stiffness = float(system.stiffness[j])
             spring.damping = float(damping[j])
+            if self._by_law:
+                spring.force_func = partial(_force, system.of_spring(j))
 
     def _damping(self) -> Array:
         system = self._system
@@ -148,6 +159,12 @@ class PymunkSimulation:
         self._batch.get_space_bodies(self._space, self._batch.BodyFields.BODY_ID, self._buffer)
         identities = np.frombuffer(self._buffer.int_buf(), np.uintp).tolist()
         return [identities.index(body.id) for body in bodies]
+
+
+def _force(alone: MassSpringSystem, spring: Any, length: float) -> float:
+    """What Pymunk asks for of a spring that is not linear: the force with which it pushes its masses apart [N]."""
+    stretch = np.array([length - spring.rest_length])
+    return -float((secant_stiffness(alone, stretch) * stretch).item())
 
 
 def _body(pymunk: Any, system: MassSpringSystem, i: int) -> Any:

@@ -56,7 +56,7 @@ def write_springs(file: Path, setup: Setup, motion: Motion, frames: Sequence[int
     """A row for every spring at every time: time [s], spring, force [N], tension positive, stretch [m]."""
     times = motion.trajectory.times[list(frames)]
     with _table(file, ["time", "spring", "force", "stretch"]) as write:
-        for part in spring_frames(setup, motion.trajectory, frames):
+        for part in spring_frames(motion.setup, motion.trajectory, frames):
             for i, (forces, stretches) in enumerate(zip(part.force.tolist(), part.stretch.tolist(), strict=True)):
                 time = float(times[part.frames.start + i])
                 known = forces if motion.forces is not None else [""] * len(forces)
@@ -74,7 +74,7 @@ def _table(file: Path, columns: Sequence[str]) -> Iterator[Any]:
 def write_arrays(file: Path, setup: Setup, motion: Motion, frames: Sequence[int]) -> None:
     """A NumPy file with the arrays of NPZ_KEYS."""
     trajectory = motion.trajectory.frames(list(frames))
-    springs = list(spring_frames(setup, motion.trajectory, frames))
+    springs = list(spring_frames(motion.setup, motion.trajectory, frames))
     arrays: dict[str, Any] = {
         "time_s": trajectory.times,
         "positions_m": trajectory.positions,
@@ -86,7 +86,7 @@ def write_arrays(file: Path, setup: Setup, motion: Motion, frames: Sequence[int]
     }
     if motion.forces is not None:
         arrays["spring_forces_n"] = np.concatenate([part.force for part in springs])
-    for name, values in energies(setup, motion.trajectory, frames).items():
+    for name, values in energies(motion.setup, motion.trajectory, frames).items():
         arrays[f"energy_{name}_j"] = values
     with file.open("wb") as open_file:
         np.savez(open_file, **arrays)
@@ -102,7 +102,7 @@ def write_time_series(file: Path, setup: Setup, motion: Motion, frames: Sequence
     folder = file.with_suffix("")
     folder.mkdir(parents=True, exist_ok=True)
     parts = []
-    for part in spring_frames(setup, motion.trajectory, frames):
+    for part in spring_frames(motion.setup, motion.trajectory, frames):
         for i, frame in zip(part.frames, frames[part.frames.start : part.frames.stop], strict=True):
             data: dict[str, Any] = {"stretch": [part.stretch[i - part.frames.start]]}
             if motion.forces is not None:

@@ -11,9 +11,8 @@ import numpy as np
 from experiments.runs.comparison import finite
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
-from reference.lengths import spring_lengths
+from reference.breaking import tensions
 from reference.scenes import Setup
-from reference.spring_law import spring_force
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper
 from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
@@ -114,8 +113,7 @@ def modes_of(setup: Setup, lowest: int | None = None) -> Modes:
     assert rest.linear is not None
     count = len(rest.linear.mass)
     kept = lowest if lowest is not None else None if count <= ALL_UP_TO else LOWEST
-    stretch = spring_lengths(rest.state.positions, system.springs) - system.rest_lengths
-    forces = spring_force(system.stiffness, stretch, system.damping, np.zeros_like(stretch))
+    forces = tensions(system, rest.state.positions, np.zeros_like(rest.state.positions))
     return Modes(setup, rest, about, natural_modes(rest.linear, kept), forces, count)
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +15,8 @@ from experiments.runs.progress import Progress
 from experiments.runs.room import check_room
 from experiments.runs.side_by_side import side_by_side
 from experiments.simulation.spring_state import spring_frames
+from reference.breaking import breaks_of, tensions
+from reference.changes import Change
 from reference.conserved import energy_parts, momentum
 from reference.outcome import Outcome, first_blown_up_frame
 from reference.scenes import Setup
@@ -53,6 +55,8 @@ class Motion:
         momentum: at the end [kg m/s], shape (d,).
         sag: how far a mass came below where it started, at most.
         stretched, tension, compression: the largest of the whole run; None where no spring ever was.
+        setup: what was run, with the springs that broke on the way among its changes.
+        breaks: which did, each with the time of the step at whose end it did, and the tension it had then [N].
     """
 
     trajectory: Trajectory
@@ -66,6 +70,8 @@ class Motion:
     stretched: Largest | None
     tension: Largest | None
     compression: Largest | None
+    setup: Setup
+    breaks: tuple[Largest, ...]
 
 
 @dataclass(frozen=True)
@@ -109,6 +115,7 @@ class Run:
             "momentum_kg_m_s": _plain(motion.momentum),
             **{f"largest_{name}_m": found.value if found else 0.0 for name, found in largest.items()},
             **{f"largest_{name}_n": found.value if found else None for name, found in forces.items()},
+            "breaks": [{"spring": b.which, "time_s": b.time, "tension_n": finite(b.value)} for b in motion.breaks],
         }
 
 
@@ -126,6 +133,7 @@ OF_MOTION = (
     "largest_stretch_m",
     "largest_tension_n",
     "largest_compression_n",
+    "breaks",
 )
 
 
@@ -175,10 +183,12 @@ def _run(setup: Setup, stepper: Stepper, outcome: Outcome) -> Run:
     blown_up = first_blown_up_frame(setup.system, whole, changes=setup.changes) if outcome.reason else len(whole)
     sane = whole.frames(slice(max(1, blown_up)))
     at = float(whole.times[blown_up]) if blown_up < len(whole) else None
-    return Run(stepper, outcome, _motion(setup, sane, on_rods(stepper)), at)
+    broken = breaks_of(setup.system, sane, setup.dt, setup.changes)
+    broke = replace(setup, changes=(*setup.changes, *broken))
+    return Run(stepper, outcome, _motion(broke, sane, on_rods(stepper), broken), at)
 
 
-def _motion(setup: Setup, motion: Trajectory, rods: bool) -> Motion:
+def _motion(setup: Setup, motion: Trajectory, rods: bool, broken: Sequence[Change]) -> Motion:
     first, last = (setup.systems_at([step])[0] for step in (0, len(motion) - 1))
     end = motion.states()[-1]
     tension, compression, stretched = None, None, None
@@ -201,7 +211,19 @@ def _motion(setup: Setup, motion: Trajectory, rods: bool) -> Motion:
         stretched,
         None if rods else tension,
         None if rods else compression,
+        setup,
+        tuple(_breaks(setup, motion, broken)),
     )
+
+
+def _breaks(setup: Setup, motion: Trajectory, broken: Sequence[Change]) -> Iterator[Largest]:
+    """The springs that broke, with what they carried at the end of that step."""
+    for change in broken:
+        step = change.step(setup.dt)
+        (system,) = setup.systems_at([step])
+        forces = tensions(system, motion.positions[step], motion.velocities[step])
+        for spring in np.atleast_1d(change.value).astype(int).tolist():
+            yield Largest(float(forces[spring]), spring, float(motion.times[step]))
 
 
 def _larger(so_far: Largest | None, values: Array, times: Array) -> Largest | None:

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reference.breaking import tensions
 from reference.conserved import energy_parts
-from reference.lengths import between, spring_lengths
+from reference.nonlinear_law import stretches
 from reference.scenes import Setup
-from reference.spring_law import spring_force
 from reference.state import Array, State, Trajectory
-from reference.system import MassSpringSystem
+from reference.system import BREAK, MassSpringSystem
 
 #: How many springs in frames are computed at once.
 AT_ONCE = 1_000_000
@@ -24,7 +24,7 @@ class SpringFrames:
 
     Attributes:
         frames: which frames of the trajectory.
-        stretch: length less rest length [m], shape (m, s).
+        stretch: length less rest length [m], shape (m, s); not a number once a spring is broken.
         force: with which each pulls its masses together [N], its damper's part included; below zero it pushes.
     """
 
@@ -51,21 +51,21 @@ def spring_frames(setup: Setup, motion: Trajectory, frames: Sequence[int] | None
         else:
             each = [_springs(system, part.frames([i])) for i, system in enumerate(systems[begin : begin + len(which)])]
             stretch, force = (np.concatenate(rows) for rows in zip(*each, strict=True))
+        _forget_broken(setup, which, stretch)
         yield SpringFrames(range(begin, begin + len(which)), stretch, force)
+
+
+def _forget_broken(setup: Setup, steps: Sequence[int], stretch: Array) -> None:
+    """A spring that is broken has no stretch: what its ends do is no longer its own."""
+    for change in setup.changes:
+        if change.parameter == BREAK:
+            since = np.flatnonzero(np.asarray(steps) > change.step(setup.dt))
+            stretch[np.ix_(since, np.atleast_1d(change.value).astype(int))] = np.nan
 
 
 def _springs(system: MassSpringSystem, part: Trajectory) -> tuple[Array, Array]:
     """Stretches and forces in frames with one and the same system, both (m, s)."""
-    length = spring_lengths(part.positions, system.springs)
-    stretch = length - system.rest_lengths
-    rate = np.zeros(1)
-    if system.damping.any():
-        along = zip(between(part.positions, system.springs), between(part.velocities, system.springs), strict=True)
-        with np.errstate(invalid="ignore", divide="ignore"):
-            rate = np.where(length > 0, sum(x * v for x, v in along) / length, 0.0)
-        # an engine that tells no velocities has forces all the same where a spring is not damped
-        rate = np.where(system.damping > 0, rate, 0.0)
-    return stretch, spring_force(system.stiffness, stretch, system.damping, rate)
+    return stretches(system, part.positions), tensions(system, part.positions, part.velocities)
 
 
 def energies(setup: Setup, motion: Trajectory, frames: Sequence[int]) -> dict[str, Array]:

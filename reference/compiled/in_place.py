@@ -79,7 +79,8 @@ def step_of(scheme: Scheme, motion: Equations) -> Step:
     as_written = scheme.on(motion)
     if scheme.needs != "accelerations of one mass" or not isinstance(motion, SpringMotion):
         return as_written
-    loops = _trusted(scheme) if len(motion.system.masses) >= COMPILED_FROM else None
+    compiled = len(motion.system.masses) >= COMPILED_FROM and motion.system.nonlinear is None
+    loops = _trusted(scheme) if compiled else None
     return as_written if loops is None else _step_by(loops, motion.system)
 
 

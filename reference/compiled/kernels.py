@@ -17,6 +17,7 @@ from reference.compiled.loops import Loops
 from reference.compiled.mesh_loops import MeshLoops, lists_of, numbering
 from reference.compiled.run_loops import RunLoops
 from reference.compiled.tracing import numbers_of, trace, trace_obstacles
+from reference.errors import Unsupported
 from reference.forces import springs_of_masses
 from reference.jit import module
 from reference.schemes.catalogue import Scheme
@@ -90,7 +91,9 @@ class Kernel:
 
 
 def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, threads: bool = False) -> Loops:
-    """The loops of a scheme on a system. Raises Unsupported for a scheme that cannot be written as such loops."""
+    """The loops of a scheme on a system. Raises Unsupported for a scheme or springs not to be written as such loops."""
+    if system.nonlinear is not None:
+        raise Unsupported(f"no compiled loops of springs with {', '.join(system.nonlinear.asked)}: they run as written")
     program = trace(scheme)
     n, springs = len(system.masses), system.springs
     string = len(springs) == n - 1 and bool((springs == np.arange(n - 1)[:, None] + [0, 1]).all())

@@ -42,6 +42,10 @@ the start.
     drag = 0.0                  # N s/m, on every mass; 0 where left out
     gravity = [0.0, 0.0, -9.81] # m/s^2; one number: downwards, along the second axis; 9.81 where left out
     fixed = [0, 7]              # masses that never move; none where left out
+
+[system] and [mesh] may say of springs, one number for all or one for each, what is not linear about them: hardening,
+largest_force, breaking_force, breaking_stretch; and tension_only or compression_only, which is true of all or of those
+whose numbers are given (`reference.nonlinear`). A named scene has them among its [parameters].
 """
 
 from __future__ import annotations
@@ -60,7 +64,9 @@ from reference.drives import Ramp, Sine
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
 from reference.files.regular_file import check_file
-from reference.obstacles import KINDS, Obstacle, obstacle_of
+from reference.nonlinear import KINDS, ONE_SIDED, NonlinearSprings
+from reference.obstacles import KINDS as OBSTACLES
+from reference.obstacles import Obstacle, obstacle_of
 from reference.scenes import Setup, find
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law, read_record
 from reference.system import MassSpringSystem
@@ -76,7 +82,29 @@ Vectors = list[float | list[float]]
 T = TypeVar("T")
 
 
-class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
+class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
+    """What the tables [system] and [mesh] may say of springs that are not linear."""
+
+    tension_only: bool | list[int] = False
+    compression_only: bool | list[int] = False
+    hardening: Numbers = 0.0
+    largest_force: Numbers = float("inf")
+    breaking_force: Numbers = float("inf")
+    breaking_stretch: Numbers = float("inf")
+
+    def nonlinear(self, count: int) -> NonlinearSprings:
+        """The same of so many springs. Raises InputError for the number of a spring that there is none of."""
+        given: dict[str, Any] = {name: getattr(self, name) for name in KINDS}
+        for name in ONE_SIDED:
+            named = given[name]
+            for place, j in enumerate(named if isinstance(named, list) else []):
+                if not 0 <= j < count:
+                    raise InputError(f"{name}[{place}] = {j}: expected a spring from 0 to {count - 1}")
+            given[name] = np.isin(np.arange(count), named) if isinstance(named, list) else np.array(named)
+        return NonlinearSprings(**given)
+
+
+class SystemTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
     """The table [system]."""
 
     positions: Vectors
@@ -96,7 +124,8 @@ class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
         for place, i in enumerate(self.fixed):
             if not 0 <= i < n:
                 raise InputError(f"fixed[{place}] = {i}: expected a mass from 0 to {n - 1}")
-        values: dict[str, Any] = {name: getattr(self, name) for name in self.__struct_fields__}
+        values: dict[str, Any] = {name: getattr(self, name) for name in self.__struct_fields__ if name not in KINDS}
+        values["nonlinear"] = self.nonlinear(len(self.springs))
         values["fixed"] = np.isin(np.arange(n), self.fixed)
         values["positions"] = _rows(self.positions)
         values["velocities"] = 0.0 if self.velocities is None else _rows(self.velocities)
@@ -109,7 +138,7 @@ class SystemTable(msgspec.Struct, forbid_unknown_fields=True):
         return MassSpringSystem(**values)
 
 
-class MeshTable(msgspec.Struct, forbid_unknown_fields=True):
+class MeshTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
     """The table [mesh]."""
 
     file: str
@@ -131,7 +160,8 @@ class MeshTable(msgspec.Struct, forbid_unknown_fields=True):
         if (self.masses is None) == (self.total_mass is None):
             raise InputError("mesh: expected either masses or total_mass")
         mesh = read_mesh(folder / self.file)
-        shared = {name: getattr(self, name) for name in ("stiffness", "damping", "drag", "gravity", "fixed")}
+        names = ("stiffness", "damping", "drag", "gravity", "fixed", *KINDS)
+        shared: dict[str, Any] = {name: getattr(self, name) for name in names}
         with np.errstate(over="ignore"):
             positions = self.scale * mesh.positions
         return SystemTable(
@@ -265,7 +295,7 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driv
         raise InputError('expected either scene = "..." or a table [system] or a table [mesh]')
     words = find(content.scene).choices if content.scene is not None else ()
     for name, value in content.parameters.items():
-        if name in words:
+        if name in words or (name in ONE_SIDED and isinstance(value, bool)):
             continue
         numbers = value if isinstance(value, list) else [value]
         if any(isinstance(number, bool) or not isinstance(number, int | float) for number in numbers):
@@ -304,7 +334,7 @@ def _rows(vectors: Vectors) -> list[list[float]]:
 
 def _obstacle(i: int, table: dict[str, Any]) -> Obstacle:
     if "kind" not in table:
-        raise InputError(f"obstacles[{i}].kind is missing: expected one of {', '.join(KINDS)}")
+        raise InputError(f"obstacles[{i}].kind is missing: expected one of {', '.join(OBSTACLES)}")
     return _within(f"obstacles[{i}]", lambda: obstacle_of(**table))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
@@ -17,6 +17,7 @@ import numpy as np
 from reference.changes import Change, Driven, changes_by_step, whole_steps
 from reference.checked_numbers import check_sizes
 from reference.errors import InputError, unknown_name
+from reference.nonlinear import KINDS, with_kinds
 from reference.registry import Registry
 from reference.scenes.parameters import PerItem, chosen, converted
 from reference.system import ABOVE_ZERO, MassSpringSystem
@@ -77,15 +78,20 @@ class Scene:
     def driven(self, settings: Mapping[str, Any]) -> Driven:
         """The system, and what drives it, if anything does, with some parameters set.
 
-        They are given as words, numbers, lists of numbers, or text of either.
+        They are given as words, numbers, lists of numbers, or text of either. Every scene has besides its own those of
+        `nonlinear.KINDS`, one number for all springs or one for each.
 
         Raises:
             InputError: for an unknown parameter or a value of the wrong type or range, or beyond what floats hold.
         """
         values: dict[str, Any] = {}
+        kinds: dict[str, Any] = {}
         for name, value in settings.items():
+            if name in KINDS and name not in self.parameters:
+                kinds[name] = converted(name, int(value) if isinstance(value, bool) else value, 0.0, True)
+                continue
             if name not in self.parameters:
-                raise unknown_name(f"parameter of scene {self.name!r}", name, self.parameters)
+                raise unknown_name(f"parameter of scene {self.name!r}", name, [*self.parameters, *KINDS])
             if name in self.choices:
                 values[name] = chosen(name, value, self.choices[name])
                 continue
@@ -98,7 +104,11 @@ class Scene:
         except (OverflowError, ZeroDivisionError):
             given = ", ".join(f"{name} = {value:g}" for name, value in values.items() if isinstance(value, int | float))
             raise InputError(f"{given}: expected numbers that are not too large or too small for {self.name}") from None
-        return built if isinstance(built, Driven) else Driven(built)
+        driven = built if isinstance(built, Driven) else Driven(built)
+        if not kinds:
+            return driven
+        system = replace(driven.system, nonlinear=with_kinds(driven.system.nonlinear, kinds))
+        return replace(driven, system=system)
 
 
 @dataclass(frozen=True)

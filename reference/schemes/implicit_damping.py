@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.assembly import Blocks, assemble, damping_blocks, solve_velocities
+from reference.assembly import Blocks, assemble, damping_blocks, damping_of, solve_velocities
 from reference.jit import compiled
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import scheme
@@ -28,7 +28,7 @@ ROUNDS = 10
 def kick_drift_implicit_damping(motion: MotionOfSprings, state: State, dt: float) -> State:
     """Kick-drift with the damping of the springs implicit (Baraff and Witkin, SIGGRAPH 1998, for damping alone)."""
     kicked = state.kick(dt * motion.acceleration(state, damping=False))
-    return slowed(motion, kicked, dt * motion.system.damping).drift(dt)
+    return slowed(motion, kicked, dt * damping_of(motion.system, motion.placed(kicked))).drift(dt)
 
 
 @scheme(order=1, kind="engine_scheme", implicit=True, linear=False)
@@ -48,9 +48,9 @@ def kick_drift_implicit_damping_and_drag(motion: MotionOfSprings, state: State, 
     (M + dt C) (v1 - v0) = dt f(x0, v0) with C the whole damping matrix: MuJoCo's `implicit` integrator.
     """
     system = motion.system
-    blocks = damping_blocks(system, motion.placed(state), dt * system.damping) + Blocks.of_masses(
-        system, dt * system.drag
-    )
+    blocks = damping_blocks(
+        system, motion.placed(state), dt * damping_of(system, motion.placed(state))
+    ) + Blocks.of_masses(system, dt * system.drag)
     return state.kick(dt * solve_velocities(system, blocks, motion.acceleration(state))).drift(dt)
 
 
@@ -66,7 +66,7 @@ def kick_drift_truncated_damping(motion: MotionOfSprings, state: State, dt: floa
         return kicked.drift(dt)
     free = ~system.fixed
     mass = np.repeat(system.masses[free], system.dimension)
-    damping = assemble(system, -dt * damping_blocks(system, state, system.damping))
+    damping = assemble(system, -dt * damping_blocks(system, state, damping_of(system, state)))
     diagonal = mass + damping.diagonal()
     change = np.zeros_like(kicked.velocities)
     change[free] = conjugate_residual(
@@ -82,7 +82,7 @@ def drift_kick_implicit_damping(motion: MotionOfSprings, state: State, dt: float
     """Drift-kick with the damping of the springs implicit."""
     drifted = state.drift(dt)
     kicked = drifted.kick(dt * motion.acceleration(drifted, damping=False))
-    return slowed(motion, kicked, dt * motion.system.damping)
+    return slowed(motion, kicked, dt * damping_of(motion.system, motion.placed(kicked)))
 
 
 @scheme(order=1, kind="engine_scheme", iterated=True)
@@ -101,7 +101,7 @@ def drift_kick_sequential_damping(motion: MotionOfSprings, state: State, dt: flo
         return kicked
     directions = spring_directions(system, motion.placed(kicked))
     mass = effective_masses(system)
-    part = -np.expm1(-dt * system.damping / mass)
+    part = -np.expm1(-dt * damping_of(system, motion.placed(kicked)) / mass)
     inverse = np.where(system.fixed, 0.0, 1 / system.masses)
     velocities = kicked.velocities.reshape(*system.positions.shape, -1).copy()
     damp_in_order(velocities, system.springs, directions, inverse, mass, part, rounds)
@@ -117,8 +117,8 @@ def drift_kick_exponential_damping(motion: MotionOfSprings, state: State, dt: fl
     """
     drifted = state.drift(dt)
     kicked = drifted.kick(dt * motion.acceleration(drifted, damping=False))
-    mass = effective_masses(motion.system)
-    return slowed(motion, kicked, mass * np.expm1(dt * motion.system.damping / mass))
+    mass, damping = effective_masses(motion.system), damping_of(motion.system, motion.placed(kicked))
+    return slowed(motion, kicked, mass * np.expm1(dt * damping / mass))
 
 
 def sequential_impulses(

@@ -12,6 +12,7 @@ from reference.distance_constraints import RopeMotion
 from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.motion import Equations, EquationsOf
+from reference.nonlinear_law import tangent_system
 from reference.pendulum import PendulumMotion
 from reference.state import State
 from reference.system import BoolArray, MassSpringSystem
@@ -57,7 +58,10 @@ class Equilibrium:
 
 
 def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
-    """Where a mesh of springs comes to rest, on obstacles if it has any. Raises SolverError if it never does."""
+    """Where a mesh of springs comes to rest, on obstacles if it has any. Raises SolverError if it never does.
+
+    Of springs that are not linear it has the linear ones that do the same there (`nonlinear_law.tangent_system`).
+    """
     contacts = None
     if system.obstacles:
         state, touching = rest_on_obstacles(system)
@@ -65,7 +69,7 @@ def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
     else:
         state = equilibrium(system)
     scale = float(system.rest_lengths.min(initial=system.size or 1.0))
-    return Equilibrium(SpringMotion(system), state, ~system.fixed, scale, contacts)
+    return Equilibrium(SpringMotion(tangent_system(system, state)), state, ~system.fixed, scale, contacts)
 
 
 def equilibrium_on_obstacles(system: MassSpringSystem) -> tuple[Equilibrium, str]:

@@ -26,7 +26,7 @@ def equilibrium(system: MassSpringSystem) -> State:
         )
     # along a line a string may stand, too: there is no side to fall to
     hangs = system.is_string and system.dimension > 1 and system.stiffness.all() and system.gravity.any()
-    return hanging_string(system) if hangs else least_energy(system)
+    return hanging_string(system) if hangs and system.nonlinear is None else least_energy(system)
 
 
 def hanging_string(system: MassSpringSystem) -> State:
@@ -38,9 +38,10 @@ def hanging_string(system: MassSpringSystem) -> State:
     Raises:
         InputError: unless the system is a string with stiffness everywhere.
     """
-    if not system.is_string or not system.stiffness.all():
+    if not system.is_string or not system.stiffness.all() or system.nonlinear is not None:
         raise InputError(
-            "system is no string: expected springs from each mass to the next, the first fixed, all with stiffness > 0"
+            "system is no string: expected springs from each mass to the next, the first fixed, all with stiffness > 0 "
+            "and linear"
         )
     g = float(np.linalg.norm(system.gravity))
     downwards = -np.eye(system.dimension)[min(1, system.dimension - 1)]

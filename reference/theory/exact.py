@@ -5,17 +5,19 @@ Where there is a formula it is used; else SciPy's Dormand-Prince method of order
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
+from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step
 from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf, Motion
 from reference.state import Array, State, Trajectory
-from reference.system import MassSpringSystem
+from reference.system import BREAK, IntArray, MassSpringSystem
 
 TOLERANCE = 1e-12
 
@@ -75,7 +77,8 @@ def exact(
 ) -> Trajectory:
     """The true trajectory at the times 0, dt, 2 dt, ..., to about 1e-11 of its size while it is not chaotic.
 
-    A parameter that changes does so at the start of the step it acts on, as it does for every stepper.
+    A parameter that changes does so at the start of the step it acts on, as it does for every stepper, and a spring
+    breaks at the end of a step (`breaking`): the solver stops there and starts anew.
 
     Args:
         equations: what to make of the system; `pendulum.PendulumMotion` hangs rods in place of the springs.
@@ -87,22 +90,37 @@ def exact(
     if system.obstacles:
         raise SolverError(WHY_NOT_EXACT)
     pending = changes_by_step(changes, dt)
-    starts = sorted({0, *(i for i in pending if i < steps)})
+    stops = sorted({i for i in pending if i < steps} | {steps})
     motion = equations(system)
     states = [motion.start]
-    for begin, end in zip(starts, [*starts[1:], steps], strict=True):
+    while (begin := len(states) - 1) < steps:
         state = states[-1]
         for change in pending.get(begin, ()):
             system, state = applied(change, system, state)
             motion = equations(system)
+        end = next(stop for stop in stops if stop > begin)
         times = np.array([dt * i for i in range(begin, end + 1)])
-        solved, made = _solve(motion, state, times, system.size or system.scale, most_steps)
+        breaks = partial(breaking, system) if system.nonlinear is not None and system.nonlinear.breaks else None
+        solved, made = _solve(motion, state, times, system.size or system.scale, most_steps, breaks)
         states, most_steps = [*states, *solved], most_steps - made
+        if breaks is not None and len(broken := breaks(states[-1])):
+            system = system.with_parameter(BREAK, broken.tolist())
+            motion = equations(system)
     return motion.trajectory(states)
 
 
-def _solve(motion: Motion, state: State, times: Array, size: float, most_steps: int) -> tuple[list[State], int]:
+def _solve(
+    motion: Motion,
+    state: State,
+    times: Array,
+    size: float,
+    most_steps: int,
+    breaks: Callable[[State], IntArray] | None = None,
+) -> tuple[list[State], int]:
     """The states at times[1:], from the one at times[0], by DOP853 (Hairer, Norsett and Wanner I, II.5).
+
+    Args:
+        breaks: which springs break at a state; the first where some do is the last.
 
     Returns:
         The states, and how many steps the solver made besides one for each.
@@ -138,4 +156,6 @@ def _solve(motion: Motion, state: State, times: Array, size: float, most_steps: 
         if solver.status == "failed":
             raise SolverError(f"no exact solution: {message}")
         states.append(State(time, *solver.y.reshape(2, *shape)))
+        if breaks is not None and len(breaks(states[-1])):
+            break
     return states, max(solver.nfev // STAGES - len(states), 0)

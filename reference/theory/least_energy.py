@@ -19,7 +19,7 @@ import numpy as np
 from reference.assembly import Blocks, assemble, spring_blocks
 from reference.errors import SolverError
 from reference.forces import SpringMotion
-from reference.spring_law import elastic_energy
+from reference.nonlinear_law import energy_of_springs, secant_stiffness
 from reference.state import Array, State
 from reference.system import MassSpringSystem
 from reference.theory.inertia import negative_eigenvalues
@@ -53,7 +53,15 @@ def least_energy(system: MassSpringSystem) -> State:
         SolverError: if it is not reached, and what could be done.
     """
     descent = Descent(system, loads(system, parts_of(system)))
-    return descent.at(descent.off_ridges(system.positions[~system.fixed].ravel()))
+    try:
+        with np.errstate(over="ignore", invalid="ignore"):
+            return descent.at(descent.off_ridges(system.positions[~system.fixed].ravel()))
+    except (SolverError, np.linalg.LinAlgError, ValueError) as error:
+        if system.nonlinear is None:
+            raise
+        kinds = ", ".join(system.nonlinear.asked)
+        why = f"springs with {kinds} may carry less than what hangs on them"
+        raise SolverError(f"{error if isinstance(error, SolverError) else 'no equilibrium'}; {why}") from None
 
 
 def force_tolerance(system: MassSpringSystem, weight: float) -> float:
@@ -106,7 +114,7 @@ class Descent:
         x = self.at(q).positions
         a, b = self.system.springs.T
         stretch = np.linalg.norm(x[b] - x[a], axis=1) - self.system.rest_lengths
-        return float(elastic_energy(self.system.stiffness, stretch).sum() - self._loads @ q)
+        return float(energy_of_springs(self.system, stretch).sum() - self._loads @ q)
 
     def off_ridges(self, q: Array) -> Array:
         """Coordinates where forces balance and every push comes back, downhill from those given.
@@ -203,7 +211,8 @@ def _without_compression(system: MassSpringSystem, state: State, springs: Array)
     length = np.linalg.norm(separation, axis=1)
     u = separation / length[:, None]
     across = np.eye(system.dimension) - u[:, :, None] * u[:, None, :]
-    pushing = np.minimum(system.stiffness * (1 - system.rest_lengths / length), 0.0)
+    secant = secant_stiffness(system, length - system.rest_lengths)
+    pushing = np.minimum(secant * (1 - system.rest_lengths / length), 0.0)
     return np.asarray(springs - pushing[:, None, None] * across)
 
 

@@ -33,7 +33,8 @@ settings_option = click.option(
     multiple=True,
     metavar="KEY=VALUE",
     callback=lambda context, option, words: parse_settings(words),
-    help="Set a parameter of the scene.",
+    help="Set a parameter of the scene, or of its springs what is not linear about them: tension_only=1, "
+    "compression_only=1, hardening, largest_force, breaking_force, breaking_stretch.",
 )
 changes_option = click.option(
     "--change",
@@ -42,7 +43,7 @@ changes_option = click.option(
     metavar="T:KEY=VALUE",
     callback=lambda context, option, words: parse_changes(words),
     help="Change a parameter at a time [s], on the fly; one number, or one for each, as 1,-9.81. Or hold or release "
-    "masses, as 0.2:release=0.",
+    "masses, as 0.2:release=0, or break springs, as 0.3:break=4.",
 )
 ramps_option = click.option(
     "--ramp",

@@ -113,7 +113,7 @@ def _energy(simulation: Simulation, runs: Sequence[Run]) -> Picture:
     for panel, run in zip(panels[0], runs, strict=True):
         assert run.motion is not None
         chosen = _times(run)
-        found, ends = energies(simulation.setup, run.motion.trajectory, chosen), []
+        found, ends = energies(run.motion.setup, run.motion.trajectory, chosen), []
         times = run.motion.trajectory.times[chosen]
         for i, name in enumerate(ENERGIES):
             _line(panel, times, found[name], i, len(ENERGIES))
@@ -134,7 +134,7 @@ def _forces(simulation: Simulation, runs: Sequence[Run]) -> Picture:
     for panel, run in zip(panels[0], known, strict=True):
         assert run.motion is not None
         steps = _times(run)
-        force = np.concatenate([p.force for p in spring_frames(simulation.setup, run.motion.trajectory, steps)])
+        force = np.concatenate([p.force for p in spring_frames(run.motion.setup, run.motion.trajectory, steps)])
         times, ends = run.motion.trajectory.times[steps], []
         for i, spring in enumerate(chosen):
             _line(panel, times, force[:, spring], i, len(chosen))

@@ -91,8 +91,12 @@ def stepping(name: str, system: MassSpringSystem, state: State, dt: float) -> St
 
     Raises:
         InputError: for an unknown name.
-        Stopped: where an engine cannot take the system.
+        Stopped: where an engine cannot take the system; for springs that break.
     """
+    if system.nonlinear is not None and system.nonlinear.breaks:
+        raise Stopped(
+            "unsupported: springs that break are drawn here as if they did not; `springlab simulate` tells them"
+        )
     if name in registry():
         return EngineStepping(find(name), system, state, dt)
     return SchemeStepping(catalogue.find(checked_name(name)), system, state, dt)

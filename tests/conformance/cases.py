@@ -100,6 +100,13 @@ _CHANGES = [
         200,
         [Change(0.05, "gravity", 1.62), Change(0.08, "gravity", [3.0]), Change(0.1, "mass", 0.03)],
     ),
+    Case(
+        "springs broken",
+        find("string").system({}),
+        DT,
+        200,
+        [Change(0.05, "break", 4), Change(0.1, "break", (7, 9))],
+    ),
     *(_at_every_step(name) for name in EACH),
     *(_driven(scene) for scene in ("crossing", "earthquake")),
 ]

@@ -19,6 +19,7 @@ from pathlib import Path
 from engines.engine import ASKED_BY, CAPABILITIES, Engine, demands, find, registry, version
 from reference.errors import InputError
 from reference.outcome import Outcome
+from reference.system import BREAK
 from tests.conformance.case import Case
 from tests.conformance.cases import GROUPS
 from tests.conformance.runs import outcomes
@@ -55,7 +56,8 @@ def lacking(engine: Engine, case: Case) -> set[str]:
     system, asked = case.system, set(demands(case.system))
     for change in case.changes:
         system = system.with_parameter(change.parameter, change.value)
-        asked |= set(ASKED_BY[change.parameter]).intersection(demands(system))
+        always = {"breaking"} if change.parameter == BREAK else set()
+        asked |= always | set(ASKED_BY[change.parameter]).intersection(demands(system))
     return asked - engine.capabilities
 
 

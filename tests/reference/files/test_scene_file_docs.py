@@ -15,7 +15,7 @@ from reference.scenes import Setup
 
 DOCS = Path(__file__).parents[3] / "report" / "docs" / "scene-files.md"
 TEXT = DOCS.read_text(encoding="utf-8")
-NAMED, WRITTEN_OUT, ON_A_LINE, OF_A_MESH, BESIDES = re.findall(r"```toml\n(.*?)```", TEXT, flags=re.S)
+NAMED, WRITTEN_OUT, NONLINEAR, ON_A_LINE, OF_A_MESH, BESIDES = re.findall(r"```toml\n(.*?)```", TEXT, flags=re.S)
 
 #: Three by three vertices.
 BLANKET = "".join(f"v {i % 3} {i // 3} 0\n" for i in range(9)) + "".join(
@@ -31,7 +31,9 @@ def loaded(folder: Path, text: str) -> Setup:
 
 
 @pytest.mark.parametrize(
-    "form", [NAMED, WRITTEN_OUT, ON_A_LINE, OF_A_MESH], ids=["named", "written out", "on a line", "of a mesh"]
+    "form",
+    [NAMED, WRITTEN_OUT, NONLINEAR, ON_A_LINE, OF_A_MESH],
+    ids=["named", "written out", "not linear", "on a line", "of a mesh"],
 )
 def test_every_form_is_read(tmp_path: Path, form: str) -> None:
     """As it stands there."""

@@ -11,6 +11,7 @@ import pytest
 from engines.engine import installed_version, recorded_settings, registry, version
 from experiments.experiment import NAMES
 from experiments.runs.steppers import all_steppers
+from reference.nonlinear import KINDS
 from reference.scenes import scenes
 from reference.stepper import catalogued
 from tests.report.commands.terminal import springlab
@@ -39,10 +40,11 @@ def test_the_json_lists_everything_there_is() -> None:
     said = springlab("list", "--json")
     assert said.code == 0
     document = json.loads(said.out)
-    assert list(document) == ["scenes", "schemes", "engines", "experiments"]
+    assert list(document) == ["scenes", "springs", "schemes", "engines", "experiments"]
     assert [row["scene"] for row in document["scenes"]] == list(scenes())
     others = [stepper.name for stepper in all_steppers().values() if stepper.kind != "engine"]
     assert [row["stepper"] for row in document["schemes"]] == others
+    assert [row["parameter"] for row in document["springs"]] == list(KINDS)
     assert [row["engine"] for row in document["engines"]] == list(registry())
     assert [row["experiment"] for row in document["experiments"]] == list(NAMES)
     assert all(value for rows in document.values() for row in rows for value in row.values())
