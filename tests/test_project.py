@@ -24,6 +24,7 @@ ROOT = Path(__file__).parents[1]
 BARE_REFERENCE = (
     "axes",
     "bisection",
+    "breaking",
     "cache",
     "changes",
     "checked_numbers",
@@ -33,6 +34,8 @@ BARE_REFERENCE = (
     "limit",
     "line",
     "measured_stability",
+    "nonlinear",
+    "nonlinear_law",
     *(f"obstacles.{name}" for name in ("kinds", "obstacle", "validation")),
     "obstacles",
     "outcome",
