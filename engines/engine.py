@@ -87,7 +87,8 @@ class Engine(Protocol):
     One whose steps cost much more than masses and springs may have `interactive_up_to` besides, the largest system for
     interactive use, in masses: that many it steps some hundred times within half a minute. `compare` leaves it out
     beyond, unless it is asked for by name. One that computes in single precision has `precision` "single" (see
-    `precision`).
+    `precision`). One whose package does not come along everywhere has `where_it_comes`, which says where, and how to
+    have it elsewhere.
     """
 
     @property
@@ -197,6 +198,12 @@ def changed(engine: Engine, system: MassSpringSystem, parameter: str, value: Val
 def version(engine: Engine) -> str | None:
     """The installed version of the engine's package, or None where it is not installed."""
     return installed_version(engine.package)
+
+
+def absence(engine: Engine) -> str:
+    """Why an engine whose package is not there is not: with its `where_it_comes`, if it says that."""
+    where = getattr(engine, "where_it_comes", "")
+    return f"{engine.package} is not installed" + (f"; {where}" if where else "")
 
 
 def precision(engine: Engine) -> Precision:

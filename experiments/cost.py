@@ -15,6 +15,7 @@ from time import perf_counter
 
 import numpy as np
 
+from engines.engine import absence
 from engines.process.isolation import EngineStepper, isolated
 from experiments.benchmark.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from experiments.experiment import Experiment, Result, Table
@@ -151,7 +152,7 @@ def engine(stepper: EngineStepper) -> Cost:
     scheme = claimed(stepper.engine)
     cost = partial(Cost, stepper, "engine", None if scheme is None else scheme.name)
     if stepper.version is None:
-        return cost([], Speeds([]), f"unsupported, {stepper.engine.package} is not installed")
+        return cost([], Speeds([]), f"unsupported, {absence(stepper.engine)}")
     runs = [(dt, _steps(dt)) for dt in DTS]
     strings = [string(n) for n in MASSES]
     answer = isolated(engine_cost, stepper.engine, string(), runs, strings, DT, time_limit=stepper.time_limit)

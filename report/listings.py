@@ -38,12 +38,12 @@ def stepper_rows() -> Shown:
 
 def engine_rows() -> Shown:
     """Each with its version, the schemes it claims to step by, and what is recorded with its results."""
-    from engines.engine import precision, registry, version
+    from engines.engine import absence, precision, registry, version
 
     rows = [
         [
             engine.name,
-            version(engine) or f"not available: {engine.package} is not installed",
+            version(engine) or f"not available: {absence(engine)}",
             ", ".join(dict.fromkeys(engine.identified_as.values())),
             engine.semantics,
             dict(engine.settings),

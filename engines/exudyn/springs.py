@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from types import ModuleType
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -33,6 +33,8 @@ class ExudynSprings:
                         taken at w, not at v'. Where forces depend on velocities, a step is therefore no function of
                         positions and velocities alone: no scheme, so damping and drag are left out.
     """
+
+    where_it_comes: ClassVar[str] = "expected the extra springlab[exudyn]"
 
     name: str
     solver: Solver

@@ -9,7 +9,7 @@ from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
-from engines.engine import Engine, Precision, precision, version
+from engines.engine import Engine, Precision, absence, precision, version
 from engines.line import started
 from engines.process.supervisor import supervisor
 from reference.breaking import breaking
@@ -98,7 +98,7 @@ class EngineStepper:
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """See reference.stepper.Stepper."""
         if self.version is None:
-            return Outcome("unsupported", f"{self.engine.package} is not installed")
+            return Outcome("unsupported", absence(self.engine))
         return self.isolate(run_engine, self.engine, system, dt, steps, tuple(changes), time_limit=self.time_limit)
 
     def run_each(self, runs: Sequence[tuple[MassSpringSystem, float, int]]) -> list[Outcome]:

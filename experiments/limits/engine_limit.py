@@ -13,6 +13,7 @@ from math import floor, log, log1p, sqrt
 
 import numpy as np
 
+from engines.engine import absence
 from engines.engine import precision as precision_of
 from engines.measured_limit import MODE_STEPS, ModeRun, growths_along_modes, limit_of_engine
 from engines.process.isolation import EngineStepper
@@ -64,7 +65,7 @@ def measure_engine(
         scheme, predicted: what the engine was identified as, None where it was not; and its limit.
     """
     if stepper.version is None:
-        return Outcome("unsupported", f"{stepper.engine.package} is not installed")
+        return Outcome("unsupported", absence(stepper.engine))
     own_rest = rest_of_engine(stepper.engine, predictions.system, predictions.rest)
     if isinstance(own_rest, Outcome):
         return own_rest

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from engines.engine import registry
+from engines.engine import absence, registry
 from engines.process.isolation import EngineStepper
 from experiments.runs.runner import answer
 from reference.errors import InputError, unknown_name
@@ -48,6 +48,6 @@ def find_steppers(names: Iterable[str]) -> list[Stepper]:
     for name in names:
         stepper = known.get(name) or _scheme_named(name, known)
         if isinstance(stepper, EngineStepper) and stepper.version is None:
-            raise InputError(f"stepper {name!r} is not installed: expected the package {stepper.engine.package}")
+            raise InputError(f"stepper {name!r} cannot run: {absence(stepper.engine)}")
         found.append(stepper)
     return found

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from engines.crash_cases import crash_cases
-from engines.engine import CAPABILITIES, Engine, installed_version, recorded_settings, registry
+from engines.engine import CAPABILITIES, Engine, absence, installed_version, recorded_settings, registry
 from experiments.engine_versions.baseline import read
 
 #: The cases that engines are identified in, as people say them.
@@ -41,12 +41,14 @@ class Package:
 
     Attributes:
         version: None where it is not installed.
+        absence: why it is not; empty where it is.
         crashes: what was done to it, and how that ended.
         no_crashes: why there are none.
     """
 
     name: str
     version: str | None
+    absence: str
     cards: Sequence[EngineCard]
     crashes: Sequence[tuple[str, str]]
     no_crashes: str
@@ -63,8 +65,10 @@ def packages(identified: Mapping[str, str]) -> list[Package]:
     for name, some in groupby(engines, key=lambda engine: engine.package):
         version = installed_version(name)
         crashes, why_none = _crashes(name, version)
-        cards = [_card(engine, identified.get(engine.name, "")) for engine in some]
-        found.append(Package(name, version, cards, crashes, why_none))
+        settings = list(some)
+        cards = [_card(engine, identified.get(engine.name, "")) for engine in settings]
+        why = "" if version else absence(settings[0])
+        found.append(Package(name, version, why, cards, crashes, why_none))
     return found
 
 

@@ -8,7 +8,7 @@ from importlib import metadata
 
 import pytest
 
-from engines.engine import installed_version, recorded_settings, registry, version
+from engines.engine import absence, find, installed_version, recorded_settings, registry, version
 from experiments.experiment import NAMES
 from experiments.runs.steppers import all_steppers
 from reference.nonlinear import KINDS
@@ -81,7 +81,7 @@ def test_a_missing_engine_is_listed_with_why(missing: str) -> None:
     """Where its version would stand."""
     rows = {row["engine"]: row for row in json.loads(springlab("list", "--json").out)["engines"]}
     for name, engine in registry().items():
-        says = f"not available: {missing} is not installed"
+        says = f"not available: {absence(engine)}"
         assert (rows[name]["version"] == says) == (engine.package == missing)
 
 
@@ -91,7 +91,7 @@ def test_a_missing_engine_that_is_asked_for_is_bad_input(missing: str) -> None:
     for words in (("compare", "--stepper", name), ("identify", name)):
         said = springlab(*words)
         assert (said.code, said.out) == (2, "")
-        assert said.err == f"springlab: stepper {name!r} is not installed: expected the package {missing}\n"
+        assert said.err == f"springlab: stepper {name!r} cannot run: {absence(find(name))}\n"
 
 
 def test_a_missing_engine_is_a_row_of_the_default_comparison(missing: str) -> None:
@@ -103,4 +103,4 @@ def test_a_missing_engine_is_a_row_of_the_default_comparison(missing: str) -> No
         gone = engine is not None and (engine.package == missing or version(engine) is None)
         assert (run["outcome"] == "unsupported") == gone, run
         if engine is not None and gone:
-            assert (run["version"], run["reason"]) == (None, f"{engine.package} is not installed")
+            assert (run["version"], run["reason"]) == (None, absence(engine))
