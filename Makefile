@@ -27,7 +27,7 @@ report: $(READY)  ## Run the lab's main job: every experiment, on one page in re
 test: $(READY)  ## Run all tests, with formatting and types
 	$(BIN)/python -m pytest --numprocesses auto --dist loadfile
 
-docs: $(READY)  ## Write the documentation as a site, docs/index.html in results
+docs: $(READY)  ## Write the documentation as a site, results/docs/index.html
 	$(BIN)/python -m report.site
 
 soak: $(READY)  ## What `make test` does in small, in full: thousands of runs and kills, all kept versions of the engines

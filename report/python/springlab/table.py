@@ -75,7 +75,7 @@ class Table:
         return "\n".join([*([self.title] if self.title else []), *lines, *self.notes])
 
     def _repr_html_(self) -> str:
-        head = "".join(f'<th scope="col">{escape(column)}</th>' for column in self.columns)
+        head = "".join(f'<th scope="col">{escape(name)}</th>' if name else "<td></td>" for name in self.columns)
         body = "".join(
             "<tr>" + "".join(f"<td>{escape(plain(value))}</td>" for value in row) + "</tr>" for row in self.rows
         )

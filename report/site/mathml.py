@@ -1,0 +1,57 @@
+"""Equations as MathML, which browsers set by themselves: no script, no font, and a screen reader reads them."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from report.site.linear_form import Equations, Polynomial, Sum
+
+#: Digits below and above the line: where there is no font for mathematics, browsers set indices badly.
+LOWERED = "\u2080\u2081\u2082\u2083\u2084\u2085\u2086\u2087\u2088\u2089"
+RAISED = ("", "", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\u2078", "\u2079")
+
+
+def of_equations(equations: Equations) -> str:
+    """Each stage's acceleration and the new state, one below the other."""
+    lines = []
+    for i, (x, v) in enumerate(equations.stages):
+        lines.append(f"{_indexed('a', i)}<mo>=</mo><mi>a</mi>{_pair(_sum(x), _sum(v))}")
+    lines += [f"{_new(name)}<mo>=</mo>{_sum(what)}" for name, what in zip("xv", equations.end, strict=True)]
+    rows = "".join(f'<mtr><mtd style="text-align:left">{line}</mtd></mtr>' for line in lines)
+    return f'<math display="block"><mtable displaystyle="true">{rows}</mtable></math>'
+
+
+def _pair(one: str, other: str) -> str:
+    return f'<mrow><mo stretchy="false">(</mo>{one}<mo separator="true">,</mo>{other}<mo stretchy="false">)</mo></mrow>'
+
+
+def _sum(what: Sum) -> str:
+    """X + h v + h^2/2 a0: positions first, then velocities, then accelerations in their order."""
+    terms = [term for name in sorted(what, key=lambda name: "xva".index(name[0])) for term in _terms(name, what[name])]
+    text = "".join(
+        (f"<mo>{'-' if factor < 0 else '+'}</mo>" if i or factor < 0 else "") + term
+        for i, (factor, term) in enumerate(terms)
+    )
+    return f"<mrow>{text or '<mn>0</mn>'}</mrow>"
+
+
+def _terms(name: str, coefficient: Polynomial) -> list[tuple[Fraction, str]]:
+    symbol = _indexed(name[0], int(name[1:])) if name[1:] else f"<mi>{name}</mi>"
+    return [(factor, _factor(abs(factor), power) + symbol) for power, factor in sorted(coefficient.items())]
+
+
+def _factor(factor: Fraction, power: int) -> str:
+    """A fraction times a power of h; nothing for 1."""
+    h = "" if power == 0 else f"<mi>h{RAISED[power]}</mi>"
+    over = f"<mn>{factor.numerator}</mn>" if factor.numerator != 1 or not h else ""
+    if factor.denominator != 1:
+        return f"<mfrac><mrow>{over}{h}</mrow><mn>{factor.denominator}</mn></mfrac>"
+    return (over if factor != 1 else "") + h
+
+
+def _indexed(name: str, index: int) -> str:
+    return f"<mi>{name}{''.join(LOWERED[int(digit)] for digit in str(index))}</mi>"
+
+
+def _new(name: str) -> str:
+    return f"<mi>{name}\N{PRIME}</mi>"

@@ -1,0 +1,119 @@
+"""The equations on the site are what schemes compute: they are evaluated, and compared with the schemes' own steps."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import pytest
+
+from reference.compiled.expressions import Expression
+from reference.compiled.tracing import Program, trace, why_not_compiled
+from reference.forces import SpringMotion
+from reference.motion import Motion
+from reference.scenes import find as find_scene
+from reference.schemes.catalogue import Scheme, find, schemes
+from reference.state import State
+from report.site.generated import schemes_page
+from report.site.linear_form import Equations, NotLinear, Sum, equations
+from report.site.mathml import of_equations
+
+TRACED = [name for name, scheme in schemes().items() if why_not_compiled(scheme) is None]
+
+#: Step [s], and up to which part of itself a sum may differ in another order of its terms.
+H, ROUNDING = 0.01, 1e-12
+
+
+def value(what: Sum, numbers: dict[str, Any]) -> Any:
+    """A sum for some numbers."""
+    return sum(
+        float(factor) * H**power * numbers[name]
+        for name, coefficient in what.items()
+        for power, factor in coefficient.items()
+    )
+
+
+def stepped(written: Equations, motion: Any, state: State) -> tuple[Any, Any]:
+    """The new state by the equations alone."""
+    numbers: dict[str, Any] = {"x": state.positions, "v": state.velocities}
+    for i, (x, v) in enumerate(written.stages):
+        numbers[f"a{i}"] = motion.acceleration(State(0.0, value(x, numbers), value(v, numbers)))
+    return value(written.end[0], numbers), value(written.end[1], numbers)
+
+
+def check(written: Equations, scheme: Scheme) -> None:
+    """The equations and the scheme's own step come to the same on a damped string in motion."""
+    system = find_scene("string").system({"masses": 4, "damping": 0.3, "drag": 0.1})
+    motion = SpringMotion(system)
+    random = np.random.default_rng(5)
+    moving = ~system.fixed[:, None]
+    start = State(
+        0.0, system.positions + 0.05 * moving * random.normal(size=(5, 2)), moving * random.normal(size=(5, 2))
+    )
+    end = scheme.on(motion)(start, H)
+    x, v = stepped(written, motion, start)
+    assert x == pytest.approx(end.positions, rel=ROUNDING, abs=ROUNDING)
+    assert v == pytest.approx(end.velocities, rel=ROUNDING, abs=ROUNDING)
+
+
+@pytest.mark.parametrize("name", TRACED)
+def test_the_equations_step_as_the_scheme_does(name: str) -> None:
+    """Every scheme that can be traced; the tolerance is rounding, of sums in another order."""
+    check(equations(trace(find(name))), find(name))
+
+
+def test_a_wrong_coefficient_is_caught() -> None:
+    """Shown to fail: Heun's equations are not kick-drift's, and one with a third in place of a half is neither."""
+    heun = equations(trace(find("heun")))
+    with pytest.raises(AssertionError):
+        check(heun, find("kick_drift"))
+    third = {**heun.end[1], "a0": {1: Fraction(1, 3)}}
+    with pytest.raises(AssertionError):
+        check(Equations(heun.stages, (heun.end[0], third)), find("heun"))
+
+
+def test_heun_is_written_as_in_a_textbook() -> None:
+    """X' = x + h v + h^2/2 a0, v' = v + h/2 a0 + h/2 a1, the second slope at x + h v, v + h a0."""
+    one, half = Fraction(1), Fraction(1, 2)
+    heun = equations(trace(find("heun")))
+    assert heun.stages[1] == ({"x": {0: one}, "v": {1: one}}, {"v": {0: one}, "a0": {1: one}})
+    assert heun.end == (
+        {"x": {0: one}, "v": {1: one}, "a0": {2: half}},
+        {"v": {0: one}, "a0": {1: half}, "a1": {1: half}},
+    )
+
+
+def test_what_is_no_sum_is_not_written_as_one() -> None:
+    """A square of positions; a coefficient that is no power of dt."""
+    x, v = Expression("x"), Expression("v")
+    with pytest.raises(NotLinear):
+        equations(Program(((x, v),), (Expression("{} * {}", (x, x)), v)))
+    with pytest.raises(NotLinear):
+        equations(Program(((x, v),), (Expression("{} * {}", (Expression("c0"), x)), v), (("exp", np.exp),)))
+
+
+def test_a_parameter_is_a_fraction_in_the_equations() -> None:
+    """A scheme of two stages, the second slope two thirds of a step on."""
+
+    def ralston(motion: Motion, state: State, dt: float) -> State:
+        """Ralston."""
+        here = motion.slope(state)
+        there = motion.slope(state + 2 / 3 * dt * here)
+        return state + dt * (0.25 * here + 0.75 * there)
+
+    scheme = Scheme(ralston, 2)
+    written = equations(trace(scheme))
+    assert written.stages[1][0]["v"] == {1: Fraction(2, 3)}
+    check(written, scheme)
+
+
+def test_the_page_has_every_scheme_with_its_equations_or_its_function() -> None:
+    """Those that cannot be traced stand as they are written."""
+    page = schemes_page()
+    sections = {part.partition("\n")[0].strip(): part for part in page.split("\n### ")[1:]}
+    assert sections.keys() == schemes().keys()
+    for name, text in sections.items():
+        assert ("<math" in text) == (name in TRACED)
+        assert f"def {name}(" in text
+    assert of_equations(equations(trace(find("rk4")))) in sections["rk4"]
