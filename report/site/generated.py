@@ -9,6 +9,7 @@ from textwrap import dedent
 from reference.compiled.tracing import trace
 from reference.errors import Unsupported
 from reference.schemes.catalogue import Scheme, schemes
+from report.commands import main
 from report.site.linear_form import NotLinear, equations
 from report.site.mathml import of_equations
 
@@ -61,7 +62,7 @@ COMMANDS_PAGE = """\
 Bad input is one line that names what was wrong and what was expected, and exit code 2. Programs ask for `--json`.
 
 ```{eval-rst}
-.. click:: report.commands.main:springlab
+.. click:: {main}:springlab
    :prog: springlab
    :nested: full
 ```
@@ -96,6 +97,11 @@ def _section(scheme: Scheme) -> str:
     return "\n".join(words)
 
 
+def commands_page() -> str:
+    """All commands with their options, from click."""
+    return COMMANDS_PAGE.replace("{main}", main.__name__)
+
+
 def api_page() -> str:
     """The public module, from its docstrings."""
     import springlab
@@ -111,4 +117,4 @@ def api_page() -> str:
 
 
 #: What these pages are called.
-PAGES: dict[str, Callable[[], str]] = {"schemes": schemes_page, "api": api_page, "commands": lambda: COMMANDS_PAGE}
+PAGES: dict[str, Callable[[], str]] = {"schemes": schemes_page, "api": api_page, "commands": commands_page}
