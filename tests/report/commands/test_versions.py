@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from experiments.engine_versions import baseline
+from experiments.engine_versions import versions as engine_versions
+from report.commands.main import springlab
 from report.commands.versions import _show
 from tests.experiments.engine_versions.spring_versions import LIMIT, MEASURED, subject
 
@@ -33,3 +36,17 @@ def test_in_words_it_prints_the_findings_and_the_files(tmp_path: Path, capsys: p
     assert len(files) >= 3
     for file in files:
         assert Path(file).stat().st_size > 0
+
+
+@pytest.mark.parametrize("update", [False, True])
+def test_the_baseline_is_written_where_that_is_asked_for(
+    update: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """And only there: with --update-baseline, one file for each engine that was measured."""
+    written: list[object] = []
+    monkeypatch.setattr(engine_versions, "find_subject", lambda name: subject())
+    monkeypatch.setattr(engine_versions, "measure_versions", lambda *asked, **how: MEASURED)
+    monkeypatch.setattr(baseline, "write", lambda found: written.append(found) or tmp_path)
+    words = ["versions", "spring", "1.9.0", "1.10.0", "--out", str(tmp_path)]
+    assert springlab.main([*words, *["--update-baseline"] * update], standalone_mode=False) == 0
+    assert written == [MEASURED] * update
