@@ -64,10 +64,12 @@ class InPlaceLoops:
     Attributes:
         text: of a module with the function `step`.
         coefficients: how its arguments c0, c1, ... are made of dt.
+        texts: the same, as texts.
     """
 
     text: str
     coefficients: tuple[Callable[[float], Any], ...]
+    texts: tuple[str, ...] = ()
 
 
 def step_of(scheme: Scheme, motion: Equations) -> Step:
@@ -241,7 +243,7 @@ def trace_in_place(scheme: Scheme) -> InPlaceLoops:
     functions = [text_of(f) for f in (spring_force, force_of_spring, acceleration_of_mass, one_acceleration)]
     head = "@njit(cache=True, nogil=True, error_model='numpy')\ndef step(" + ", ".join(["x", "v", *numbers, *_GIVEN])
     text = "\n\n\n".join([HEADER, *functions, "\n    ".join([f"{head}):", *body])])
-    return InPlaceLoops(text + "\n", tuple(known.values()))
+    return InPlaceLoops(text + "\n", tuple(known.values()), tuple(known))
 
 
 def _body(lines: list[str]) -> list[str]:

@@ -25,6 +25,7 @@ COMMANDS = {
     "explain": "Derive what a stepper computes, from the outside.",
     "stability": "Predict and measure the largest stable dt; map growth.",
     "live": "Open a page where scenes run and everything can be changed.",
+    "page": "Write the lab as one file that runs in a browser, with nothing installed.",
     "sweep": "Run steppers over a grid of parameters; nothing is lost.",
     "results": "Show or export what is in the store.",
     "versions": "Say what versions of an engine do, and what each changed.",

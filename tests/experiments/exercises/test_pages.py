@@ -10,7 +10,7 @@ import pytest
 
 from experiments.exercises.exercise import exercises
 from experiments.exercises.page import page
-from tests.report.browser import VIEWS, Shown, chromium
+from tests.report.chromium import VIEWS, Shown, chromium
 
 
 def test_the_texts_have_no_violation_and_ask_for_nothing(tmp_path: Path, request: pytest.FixtureRequest) -> None:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.report.browser import chromium
+from tests.report.chromium import chromium
 
 ROOT = Path(__file__).parents[3]
 

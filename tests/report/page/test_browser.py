@@ -14,7 +14,7 @@ from report.figures import animate, draw
 from report.page.page import page
 from report.page.section import Section
 from report.page.sections import embedded
-from tests.report.browser import VIEWS, Shown, chromium
+from tests.report.chromium import VIEWS, Shown, chromium
 from tests.report.page.canned import RESULTS
 
 

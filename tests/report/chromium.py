@@ -57,8 +57,8 @@ class Shown:
 
     @property
     def requests(self) -> list[str]:
-        """Addresses it asked for, but its own."""
-        return [url for url in self._asked if url != self._address and not url.startswith("data:")]
+        """Addresses it asked for, but its own, and what it holds itself."""
+        return [url for url in self._asked if url != self._address and not url.startswith(("data:", "blob:"))]
 
     def violations(self) -> list[str]:
         """What axe-core has to say against the page, each with the place, all that is folded opened."""

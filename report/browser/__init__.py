@@ -1,0 +1,11 @@
+"""The lab in a browser: one file that runs the lab's own definitions, with nothing installed.
+
+javascript  Python's text of loops over numbers as JavaScript
+programs    schemes, the spring's law and obstacles, each from its one definition
+equations   what a scheme computes, written as equations
+system_data systems and scenes as the page reads them
+recordings  engines' runs, quantised, that the page lays over its own
+lab_page    all of it, with the page's own scripts, in one file
+
+The page's own scripts and words stand in report/templates/browser.
+"""

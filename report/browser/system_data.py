@@ -1,0 +1,153 @@
+"""Systems and scenes as the page reads them: plain numbers, where they come to rest, and what it refuses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from reference.changes import Change
+from reference.compiled.tracing import numbers_of
+from reference.errors import SolverError, Unsupported
+from reference.scenes import Setup
+from reference.state import Array
+from reference.system import HELD, PARAMETERS, MassSpringSystem
+
+if TYPE_CHECKING:  # this imports SciPy
+    from reference.theory.contacts import Contacts
+
+#: Systems of more masses are refused: a browser would not step them in time.
+MOST_MASSES = 2_500
+
+#: And more changes than a page carries along.
+MOST_CHANGES = 50
+
+#: What of a system the page knows. Whatever else a system comes to have is refused until the page has it too.
+KNOWN = frozenset(
+    {
+        *("positions", "springs", "masses", "rest_lengths", "stiffness", "damping", "drag", "gravity"),
+        *("velocities", "fixed", "obstacles"),
+    }
+)
+
+
+def system_data(system: MassSpringSystem) -> dict[str, Any]:
+    """A system as JSON's numbers: arrays row by row; one number where all are the same.
+
+    Raises:
+        Unsupported: with the reason, for what the page cannot do.
+    """
+    refuse_beyond(system)
+    n, d = system.positions.shape
+    return {
+        "n": n,
+        "s": len(system.springs),
+        "d": d,
+        "positions": system.positions.ravel().tolist(),
+        "velocities": _compact(system.velocities),
+        "springs": system.springs.ravel().tolist(),
+        "masses": _compact(system.masses),
+        "rest_lengths": _compact(system.rest_lengths),
+        "stiffness": _compact(system.stiffness),
+        "damping": _compact(system.damping),
+        "drag": system.drag,
+        "gravity": system.gravity.tolist(),
+        "fixed": np.flatnonzero(system.fixed).tolist(),
+        "obstacles": [{"kind": f"{o.kind}{o.dimension}", "values": numbers_of([o])} for o in system.obstacles],
+    }
+
+
+def refuse_beyond(system: MassSpringSystem) -> None:
+    """Refuse what the page cannot do. Raises Unsupported, with the way out."""
+    if len(system.masses) > MOST_MASSES:
+        raise Unsupported(f"{len(system.masses)} masses: the page takes at most {MOST_MASSES:,}")
+    for field in fields(system):
+        if field.name not in KNOWN and _is_set(system, field.name):
+            raise Unsupported(f"{field.name.replace('_', ' ')}: the page does not know it yet; `springlab live` does")
+
+
+def _is_set(system: MassSpringSystem, name: str) -> bool:
+    """Whether a field has another value than it has where it is left out."""
+    plain = MassSpringSystem(
+        positions=np.array([[0.0], [1.0]]),
+        springs=np.array([[0, 1]]),
+        masses=np.ones(1),
+        rest_lengths=np.ones(1),
+        stiffness=np.ones(1),
+    )
+    value, default = getattr(system, name), getattr(plain, name)
+    if isinstance(value, np.ndarray):
+        return bool((value != np.asarray(default).ravel()[0]).any()) if np.size(default) else value.size > 0
+    return bool(value != default)
+
+
+def scene_data(setup: Setup, summary: str = "", slides: str = "", command: str = "") -> dict[str, Any]:
+    """A scene with its dt, duration and changes, where it comes to rest, and the command line's words for it.
+
+    Raises:
+        Unsupported: with the reason, for what the page cannot do.
+    """
+    rest = rest_data(setup.system)
+    return {
+        "name": setup.name,
+        "summary": summary,
+        "slides": slides,
+        "command": command or setup.name,
+        "dt": setup.dt,
+        "duration": setup.duration,
+        "changes": changes_data(setup.changes),
+        "system": system_data(setup.system),
+        **rest,
+    }
+
+
+def changes_data(changes: Sequence[Change]) -> list[Mapping[str, Any]]:
+    """Changes on the fly. Raises Unsupported where something changes at every step, or as the page does not know."""
+    if len(changes) > MOST_CHANGES:
+        raise Unsupported(
+            f"{len(changes)} changes: the page takes no load and no ground that moves; `springlab live` does"
+        )
+    for change in changes:
+        if change.parameter not in (*PARAMETERS, *HELD):
+            raise Unsupported(f"changes of {change.parameter}: the page does not know them; `springlab live` does")
+    return [{"time": change.time, "parameter": change.parameter, "value": _plain(change.value)} for change in changes]
+
+
+def _plain(value: Any) -> Any:
+    return list(value) if isinstance(value, Sequence) else float(value)
+
+
+def rest_data(system: MassSpringSystem) -> dict[str, Any]:
+    """Where it comes to rest, from which the page goes on when parameters change; `rest` is empty where nowhere."""
+    from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
+
+    still = replace(system, velocities=np.zeros_like(system.velocities))
+    found: Equilibrium | None = None
+    about = ""
+    with suppress(SolverError):
+        if still.obstacles:
+            found, about = equilibrium_on_obstacles(still)
+        else:
+            found = spring_equilibrium(still)
+    if found is None:
+        return {"rest": [], "contacts": [], "about": about}
+    contacts = [] if found.contacts is None else contact_data(found.contacts, system)
+    return {"rest": found.state.positions.ravel().tolist(), "contacts": contacts, "about": about}
+
+
+def contact_data(contacts: Contacts, system: MassSpringSystem) -> list[Mapping[str, Any]]:
+    """Which masses press on obstacles, each with the way out, and whether the surface curves there."""
+    rows = zip(contacts.masses.tolist(), contacts.normals.tolist(), contacts.obstacles.tolist(), strict=True)
+    curved = [hasattr(obstacle, "radius") for obstacle in system.obstacles]
+    return [{"mass": mass, "normal": normal, "curved": curved[of]} for mass, normal, of in rows]
+
+
+def _compact(values: Array) -> Any:
+    """One number where all are the same, the sign of zero too."""
+    flat = values.ravel()
+    if len(flat) and (flat == flat[0]).all() and (np.signbit(flat) == np.signbit(flat[0])).all():
+        return float(flat[0])
+    return flat.tolist()

@@ -1,0 +1,107 @@
+// A system's numbers in two memories, F of doubles and I of whole numbers; `at` says where each array begins.
+
+// How many arrays of vectors the schemes may keep beside the state.
+const ROOMS = 8;
+
+// One number for all, or one for each: as the file has them, and as arrays.
+const spread = (value, count) => Array.isArray(value) ? value : new Array(count).fill(value);
+
+// The parameters, with the arrays they stand in and how many numbers each has.
+const PARAMETERS = {
+  mass: at => [at.masses, at.n], rest_length: at => [at.rest_lengths, at.s], stiffness: at => [at.stiffness, at.s],
+  damping: at => [at.damping, at.s], drag: at => [at.drag, 1], gravity: at => [at.gravity, at.d],
+};
+
+function memoryOf(system) {
+  const {n, s, d} = system, at = {n, s, d};
+  let doubles = 0, whole = 0;
+  const room = (name, count) => { at[name] = doubles; doubles += count; };
+  const list = (name, count) => { at[name] = whole; whole += count; };
+  for (const name of ["x", "v", "weight", "out"]) room(name, n * d);
+  for (const name of ["masses", "divisor"]) room(name, n);
+  for (const name of ["rest_lengths", "stiffness", "damping"]) room(name, s);
+  room("sign", 2 * s); room("forces", s * d); room("gravity", d); room("drag", 1); room("room", ROOMS * n * d);
+  list("springs", 2 * s); list("first", n + 1); list("spring", 2 * s); list("fixed", n);
+  const F = new Float64Array(doubles), I = new Int32Array(whole), memory = {F, I, at};
+  F.set(spread(system.positions, n * d), at.x); F.set(spread(system.velocities, n * d), at.v);
+  F.set(spread(system.masses, n), at.masses);
+  for (const name of ["rest_lengths", "stiffness", "damping"]) F.set(spread(system[name], s), at[name]);
+  F.set(system.gravity, at.gravity); F[at.drag] = system.drag;
+  I.set(system.springs, at.springs);
+  for (const i of system.fixed) I[at.fixed + i] = 1;
+  springsOfMasses(memory);
+  derive(memory);
+  return memory;
+}
+
+// Which springs each mass feels, in the springs' order; the sign is + where it is the spring's first mass.
+function springsOfMasses({F, I, at}) {
+  const {n, s} = at, next = new Int32Array(n);
+  for (let e = 0; e < 2 * s; e++) next[I[at.springs + e]]++;
+  let sum = 0;
+  for (let i = 0; i < n; i++) { I[at.first + i] = sum; sum += next[i]; next[i] = I[at.first + i]; }
+  I[at.first + n] = sum;
+  for (let e = 0; e < 2 * s; e++) {
+    const entry = next[I[at.springs + e]]++;
+    I[at.spring + entry] = e >> 1; F[at.sign + entry] = e % 2 ? -1 : 1;
+  }
+}
+
+// What loops read in place of parameters: weights, and infinity to divide by where a mass is fixed.
+function derive({F, I, at}) {
+  for (let i = 0; i < at.n; i++) {
+    F[at.divisor + i] = I[at.fixed + i] ? Infinity : F[at.masses + i];
+    for (let axis = 0; axis < at.d; axis++) {
+      F[at.weight + at.d * i + axis] = F[at.masses + i] * F[at.gravity + axis];
+    }
+  }
+}
+
+// One of PARAMETERS, one number for all or one for each; a single number of gravity is downwards.
+function setParameter(memory, name, value) {
+  const {F, at} = memory, [begin, count] = PARAMETERS[name](at);
+  if (name === "gravity" && !Array.isArray(value)) {
+    F.fill(0, begin, begin + count);
+    F[begin + Math.min(1, at.d - 1)] = -value;
+  } else if (Array.isArray(value)) F.set(value, begin);
+  else F.fill(value, begin, begin + count);
+  derive(memory);
+}
+
+// Masses held where they are, or let go from rest.
+function hold(memory, masses, held) {
+  const {F, I, at} = memory;
+  for (const i of masses) {
+    I[at.fixed + i] = held ? 1 : 0;
+    if (held) F.fill(0, at.v + at.d * i, at.v + at.d * (i + 1));
+  }
+  derive(memory);
+}
+
+// Kinetic, elastic and potential energy [J], the last by gravity from the origin.
+function energies({F, I, at}) {
+  const {n, s, d} = at;
+  let kinetic = 0, elastic = 0, potential = 0;
+  for (let i = 0; i < n; i++) {
+    if (I[at.fixed + i]) continue;
+    for (let axis = 0; axis < d; axis++) {
+      const v = F[at.v + d * i + axis];
+      kinetic += 0.5 * F[at.masses + i] * v * v;
+      potential -= F[at.weight + d * i + axis] * F[at.x + d * i + axis];
+    }
+  }
+  for (let j = 0; j < s; j++) elastic += law.elastic_energy(F[at.stiffness + j], stretchOf({F, I, at}, j));
+  return {kinetic, elastic, potential, total: kinetic + elastic + potential};
+}
+
+function lengthOf({F, I, at}, j, x = at.x) {
+  const a = I[at.springs + 2 * j], b = I[at.springs + 2 * j + 1];
+  let squares = 0;
+  for (let axis = 0; axis < at.d; axis++) {
+    const along = F[x + at.d * b + axis] - F[x + at.d * a + axis];
+    squares += along * along;
+  }
+  return Math.sqrt(squares);
+}
+
+const stretchOf = (memory, j) => lengthOf(memory, j) - memory.F[memory.at.rest_lengths + j];

@@ -1,0 +1,376 @@
+// The page: its controls, its words, and what is drawn sixty times a second.
+
+const $ = id => document.getElementById(id);
+let language = "en";
+const say = (key, words = {}) => (WORDS[language][key] ?? WORDS.en[key] ?? key).replace(/\{(\w+)\}/g, (_, name) => words[name] ?? "");
+const number = (value, digits = 4) => value === undefined || value === null || Number.isNaN(value) ? "" : String(+value.toPrecision(digits));
+const element = (name, settings = {}, ...inside) => {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(settings)) if (key in made && key !== "list") made[key] = value; else made.setAttribute(key, value);
+  made.append(...inside);
+  return made;
+};
+
+// Parameters as sliders have them: from, to; in powers of ten where the range is wide.
+const RANGES = {mass: [1e-4, 1e4], rest_length: [1e-3, 10], stiffness: [1e-1, 1e9], damping: [1e-5, 1e6], drag: [1e-5, 1e3], gravity: [0, 30]};
+const SPEEDS = [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 2, 4];
+
+function translate() {
+  document.documentElement.lang = language;
+  document.title = say("title");
+  for (const one of document.querySelectorAll("[data-t]")) one.textContent = say(one.dataset.t);
+  for (const one of document.querySelectorAll("[data-label]")) one.setAttribute("aria-label", say(one.dataset.label));
+  $("language").replaceChildren(...Object.keys(WORDS).map(key => element("option", {value: key, selected: key === language}, WORDS[key].language)));
+  $("speed").replaceChildren(...SPEEDS.map(value => element("option", {value, selected: value === lab.speed}, `${value} × ${say("real_time")}`)));
+  $("lesson").replaceChildren(...[0, 1, 2, 3, 4, 5, 6].map(k => element("option", {value: k, selected: k === lab.lesson}, k ? `${k} ${say(`lesson_${k}_title`)}` : say("no_lesson"))));
+  showAll();
+}
+
+function showAll() { showScene(); showLanes(); showLimits(); showParameters(); showLesson(); showEquations(); showState(); }
+
+function showScene() {
+  $("scene").replaceChildren(...DATA.scenes.map(scene => element("option", {value: scene.name, selected: scene === lab.scene}, scene.title || scene.name)));
+  const slides = lab.scene.slides ? ` (${say("slides", {slides: lab.scene.slides})})` : "";
+  $("summary").textContent = lab.scene.summary + slides;
+}
+
+function swatch(k) {
+  const shapes = [`<circle cx="10" cy="10" r="6"/>`, `<rect x="4" y="4" width="12" height="12"/>`, `<path d="M10 3 17 16H3Z"/>`, `<path d="M10 2 18 10 10 18 2 10Z"/>`];
+  return `<svg viewBox="0 0 20 20" aria-hidden="true" fill="${colourOf(k)}">${shapes[k]}</svg>`;
+}
+
+const nameOf = lane => lane.recording ? say("recorded", {name: lane.recording.stepper}) : lane.scheme;
+
+function showLanes() {
+  const names = [...Object.keys(schemes), ...(lab.scene.recordings || []).map(one => `recorded:${one.name}`)];
+  const shown = name => name.startsWith("recorded:") ? say("recorded", {name: recordingNamed(name).stepper}) : name;
+  $("lanes").replaceChildren(...lab.lanes.map((lane, k) => {
+    const select = element("select", {id: `lane-${k}`, "aria-label": say("lane", {k: k + 1}), onchange: () => setLanes(lab.lanes.map((one, q) => q === k ? select.value : one.scheme))},
+      ...names.map(name => element("option", {value: name, selected: name === lane.scheme}, shown(name))));
+    const item = element("li", {});
+    item.insertAdjacentHTML("beforeend", swatch(k));
+    item.append(select);
+    if (lab.lanes.length > 1) item.append(element("button", {type: "button", "aria-label": say("remove_lane", {k: k + 1}), onclick: () => setLanes(lab.lanes.filter((_, q) => q !== k).map(one => one.scheme))}, "×"));
+    return item;
+  }));
+  $("add").disabled = lab.lanes.length >= 4;
+  $("beside").checked = lab.beside;
+}
+
+// Other lanes: from the start again with what is set.
+function setLanes(names) {
+  lab.changes = lab.changes.map(change => change);
+  lab.playing = false;
+  startLanes(names);
+  showAll();
+}
+
+function limitsCame() { showLimits(); showBanner(); drawGrowth(); showNumbers(); }
+
+function showLimits() {
+  if (document.activeElement !== $("dt")) $("dt").value = number(1e3 * lab.dt, 6);
+  $("dt-slider").value = sliderOf(lab.dt, [1e-5, 1]);
+  $("dt-slider").setAttribute("aria-valuetext", `${number(1e3 * lab.dt)} ms`);
+  const items = lab.lanes.map((lane, k) => {
+    const item = element("li", {});
+    item.insertAdjacentHTML("beforeend", swatch(k).replace("<svg", `<svg width="14" height="14"`));
+    item.append(element("span", {}, limitSaid(lane)));
+    const {limit} = lab.limits[lane.scheme] || {};
+    if (!lane.recording && limit > 0 && limit < Infinity) {
+      const buttons = element("span", {className: "row"});
+      item.append(buttons);
+      for (const [part, key] of [[0.98, "to_limit"], [1.02, "beyond_limit"]]) {
+        buttons.append(element("button", {type: "button", "aria-label": say(key, {k: k + 1}), title: say(key, {k: k + 1}), onclick: () => { change("dt", limit * part); showAll(); }}, `× ${part}`));
+      }
+    }
+    return item;
+  });
+  if (lab.scene.about) items.push(element("li", {}, element("span", {className: "about small"}, say("about_rest", {about: lab.scene.about}))));
+  $("limits").replaceChildren(...items);
+}
+
+function limitSaid(lane) {
+  const name = lane.recording ? nameOf(lane) : lane.scheme;
+  if (lane.recording) return say("recorded_note", {name, dt: number(1e3 * lane.recording.dt), quantum: number(lane.recording.quantum, 2)});
+  const told = lab.limits[lane.scheme];
+  if (!lab.scene.rest.length) return say("limit_unknown", {name, why: say("no_rest")});
+  if (!told) return `${name}: ${say("computing")}`;
+  if (told.limit === null) return say("limit_unknown", {name, why: say(told.reason === "too large" ? "too_large" : "no_rest")});
+  if (told.limit === 0) return say("limit_never", {name});
+  if (told.limit === Infinity) return say("limit_always", {name});
+  return say(told.about ? "limit_about" : "limit_of", {name, limit: number(1e3 * told.limit, 6), part: number(lab.dt / told.limit, 4)});
+}
+
+// Sliders of wide ranges go by powers; 0 is the lower end of those that can be zero.
+const sliderOf = (value, [low, high]) => low > 0 ? Math.round(1000 * (Math.log(Math.max(value, low) / low) / Math.log(high / low))) : Math.round(1000 * (value - low) / (high - low));
+const ofSlider = (place, [low, high]) => +(low > 0 ? low * (high / low) ** (place / 1000) : low + (high - low) * place / 1000).toPrecision(4);
+
+function showParameters() {
+  const {F, at} = lab.lanes[0].world.memory;
+  const box = $("parameters");
+  for (const name of Object.keys(PARAMETERS)) {
+    const [begin, count] = PARAMETERS[name](at), values = F.subarray(begin, begin + count);
+    const same = name === "gravity" ? -values[Math.min(1, at.d - 1)] : values[0], all = name === "gravity" || values.every(value => value === values[0]);
+    let row = document.getElementById(`row-${name}`);
+    if (!row) {
+      const zero = !["mass", "rest_length"].includes(name), range = RANGES[name];
+      const slider = element("input", {type: "range", min: zero && range[0] > 0 ? -1 : 0, max: 1000, id: `slider-${name}`, oninput: () => { set(+slider.value < 0 ? 0 : ofSlider(+slider.value, range)); }});
+      const typed = element("input", {id: `typed-${name}`, className: "typed", inputMode: "decimal", autocomplete: "off", onchange: () => {
+        const value = Number(typed.value.replace(",", "."));
+        if (typed.value.trim() !== "" && Number.isFinite(value) && Math.abs(value) <= 1e12 && (name === "gravity" || value > 0 || (zero && value === 0))) set(value); else showParameters();
+      }});
+      const set = value => { change(name, value); showParameters(); showState(); };
+      row = element("div", {className: "parameter", id: `row-${name}`}, element("label", {htmlFor: `typed-${name}`, id: `label-${name}`}), slider, typed);
+      box.append(row);
+    }
+    $(`label-${name}`).textContent = say(name);
+    const slider = $(`slider-${name}`), typed = $(`typed-${name}`);
+    slider.setAttribute("aria-label", say(name));
+    slider.value = all ? (same === 0 && RANGES[name][0] > 0 ? -1 : sliderOf(same, RANGES[name])) : 500;
+    slider.setAttribute("aria-valuetext", all ? number(same) : say("as_scene"));
+    if (document.activeElement !== typed) { typed.value = all ? number(same, 6) : ""; typed.placeholder = all ? "" : "…"; typed.title = all ? "" : say("as_scene"); }
+  }
+}
+
+function showLesson() {
+  const box = $("lesson-box"), lesson = LESSONS[lab.lesson - 1];
+  box.hidden = !lesson;
+  if (!lesson) return;
+  $("lesson-title").textContent = `${lab.lesson}. ${say(`lesson_${lab.lesson}_title`)} (${say("slides", {slides: lesson.slides})})`;
+  $("lesson-text").textContent = say(`lesson_${lab.lesson}_text`);
+  $("lesson-task").textContent = say(`lesson_${lab.lesson}_task`);
+  $("lesson-answer").hidden = !lesson.answer;
+  checkLesson();
+}
+
+const doneLessons = new Set();
+function checkLesson() {
+  if (!lab.lesson) return;
+  const typed = $("answer").value;
+  if (lessonDone(typed)) doneLessons.add(lab.lesson);
+  const lesson = LESSONS[lab.lesson - 1], done = doneLessons.has(lab.lesson);
+  const text = done ? say("done") : lesson.answer && !typed ? "" : say("not_yet");
+  if ($("lesson-state").textContent !== text) $("lesson-state").textContent = text;
+}
+
+function openLesson(k) {
+  lab.lesson = k;
+  doneLessons.delete(k);
+  Object.assign(lessonState, {saidLimit: false, hungAt: null});
+  $("answer").value = "";
+  if (k) openState(readState(LESSONS[k - 1].state));
+  lab.lesson = k;
+  translate();
+}
+
+function showEquations() {
+  const names = [...new Set(lab.lanes.filter(lane => !lane.recording).map(lane => lane.scheme))];
+  $("equations").replaceChildren(...names.flatMap(name => {
+    const {summary, equations} = schemes[name];
+    return [element("p", {className: "small"}, `${name}: ${summary}`), element("pre", {tabIndex: 0}, equations.length ? equations.join("\n") : `${name} ${say("no_equations")}`)];
+  }));
+}
+
+// What was said last: who blew up and why, with the way back; a screen reader hears it once.
+let bannerKey = "";
+function showBanner() {
+  const blown = lab.lanes.findIndex(lane => lane.world.blownUp && !lane.recording), key = blown < 0 ? "" : `${blown} ${lab.lanes[blown].world.steps} ${language} ${Boolean(lab.mode)}`;
+  if (key === bannerKey) return;
+  bannerKey = key;
+  if (blown < 0) return $("said").replaceChildren();
+  const lane = lab.lanes[blown], {what, which} = lane.world.blownUp;
+  const text = `${say(`blew_${what}`, {name: lane.scheme, time: number(timeOf(lane.world)), which})} ${whyBlown(lane)}`;
+  const {limit} = lab.limits[lane.scheme] || {};
+  const limits = lab.lanes.map(one => (lab.limits[one.scheme] || {}).limit).filter(value => value > 0 && value < Infinity);
+  const buttons = [element("button", {type: "button", onclick: goBack}, say("go_back"))];
+  if (limit > 0 && limit < Infinity && limit < lab.dt) {
+    const shorter = +(0.9 * Math.min(...limits)).toPrecision(2);
+    buttons.push(element("button", {type: "button", onclick: () => { lab.dt = shorter; reset(); showAll(); }}, say("shorter", {dt: number(1e3 * shorter)})));
+  }
+  $("said").replaceChildren(element("div", {className: "banner"}, element("p", {}, text), element("div", {className: "row"}, ...buttons)));
+}
+
+function whyBlown(lane) {
+  const told = lab.limits[lane.scheme], mode = lab.mode;
+  if (!told || !mode || told.limit === null) return "";
+  const scheme = schemes[lane.scheme], growth = scheme.linear ? number(growthOfMode(scheme, lane.world.dt, mode.w2, mode.g), 3) : "?";
+  const omega = number(Math.sqrt(mode.w2), 4);
+  if (told.limit === 0) return say("why_never", {omega, growth});
+  if (lane.world.dt <= told.limit) return say("why_below");
+  return say("why_beyond", {product: number(lane.world.dt * Math.sqrt(mode.w2), 4), most: number(told.limit * Math.sqrt(mode.w2), 4), omega, growth, springs: mode.springs.join(", ")});
+}
+
+function goBack() {
+  let k = lab.past.findIndex(frame => frame.worlds.some(world => world.blownUp));
+  k = Math.max(0, (k < 0 ? lab.past.length : k) - 12);
+  lab.playing = false;
+  rewind(k);
+  showAll();
+}
+
+function showState() {
+  $("play").textContent = say(lab.playing ? "pause" : "play");
+  const {steps} = lab.lanes[0].world;
+  const words = [say("status", {scene: lab.scene.title || lab.scene.name, time: number(laneTime(), 5) || "0", steps, paused: lab.playing ? "" : say("paused")})];
+  if (lab.playing && lab.reached < 0.9) words.push(say("slow", {part: number(lab.reached, 2)}));
+  if (lab.short) words.push(say("link_short"));
+  $("status").textContent = words.join(" ");
+  $("past").max = lab.past.length - 1;
+  if (document.activeElement !== $("past") || lab.playing) $("past").value = lab.past.length - 1;
+  $("past").setAttribute("aria-valuetext", `${number(laneTime())} s`);
+  $("command").textContent = commandText();
+  $("shared").textContent = leftOut();
+  showBanner();
+  showNumbers();
+  checkLesson();
+}
+
+function showNumbers() {
+  const last = lab.series[lab.series.length - 1];
+  if (!last) return;
+  const first = lab.series[0];
+  const head = element("tr", {}, ...[say("scheme"), say("time") + " [s]", say("energy_plot"), say("apart_plot")].map(text => element("th", {scope: "col"}, text)));
+  $("numbers").replaceChildren(element("thead", {}, head), element("tbody", {}, ...lab.lanes.map((lane, k) => element("tr", {}, element("th", {scope: "row"}, nameOf(lane)),
+    ...[number(timeOf(lane.world)), number(last.energy[k] - first.energy[k]), k ? number(last.apart[k]) : ""].map(text => element("td", {className: "number"}, text))))));
+}
+
+// --- what people do ---
+
+function setPlaying(wanted) {
+  lab.playing = wanted && !lab.lanes.every(lane => lane.world.blownUp || lane.recording);
+  lab.debt = 0;
+  showState();
+}
+
+function stepOnce() { lab.playing = false; oneStep(); lookAtLanes(); showState(); }
+function stepBack() { if (lab.past.length > 1) { lab.playing = false; rewind(lab.past.length - 2); showAll(); } }
+
+function togglePin(mass) {
+  const {I, at} = lab.lanes[0].world.memory, held = I[at.fixed + mass];
+  change(held ? "release" : "hold", [mass]);
+  $("shared").textContent = say(held ? "released" : "held", {which: mass});
+}
+
+function setDt(ms) {
+  const value = Number(String(ms).replace(",", ".")) / 1e3;
+  if (Number.isFinite(value) && value > 1e-9 && value <= 10) change("dt", value);
+  showAll();
+}
+
+function listen() {
+  $("play").onclick = () => setPlaying(!lab.playing);
+  $("step").onclick = stepOnce;
+  $("back").onclick = stepBack;
+  $("reset").onclick = () => { reset(); showAll(); };
+  $("speed").onchange = event => { lab.speed = +event.target.value; };
+  $("past").oninput = event => { lab.playing = false; showPast(+event.target.value); };
+  $("past").onchange = event => { rewind(+event.target.value); showAll(); };
+  $("scene").onchange = event => { lab.changes = []; lab.playing = false; openScene(event.target.value, {lanes: lab.lanes.map(lane => lane.scheme)}); showAll(); };
+  $("add").onclick = () => setLanes([...lab.lanes.map(lane => lane.scheme), Object.keys(schemes).find(name => !lab.lanes.some(lane => lane.scheme === name)) || "rk4"]);
+  $("beside").onchange = event => { lab.beside = event.target.checked; };
+  $("dt").onchange = event => setDt(event.target.value);
+  $("dt-slider").oninput = event => setDt(1e3 * ofSlider(+event.target.value, [1e-5, 1]));
+  $("language").onchange = event => { language = event.target.value; bannerKey = ""; translate(); };
+  $("lesson").onchange = event => openLesson(+event.target.value);
+  $("lesson-start").onclick = () => openLesson(lab.lesson);
+  $("answer").oninput = checkLesson;
+  const copy = text => navigator.clipboard.writeText(text).then(() => { $("shared").textContent = `${say("copied")} ${leftOut()}`; }, () => { $("command").textContent = text; });
+  $("copy-link").onclick = () => { history.replaceState(null, "", "#" + stateText()); copy(linkText()); };
+  $("copy-command").onclick = () => copy(commandText());
+  $("copy-embed").onclick = () => copy(embedText());
+  $("table").onclick = () => download("springlab.csv", asFile(tableText(), "text/csv"));
+  $("places").onclick = () => download("springlab-positions.csv", asFile(placesText(), "text/csv"));
+  $("picture").onclick = () => { draw(); download("springlab.png", canvas.toDataURL("image/png")); };
+  addEventListener("hashchange", () => openHash());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", translate);
+  listenToStage();
+}
+
+// A frame of the past, looked at while the slider moves; the run goes on from it once it is let go.
+function showPast(k) {
+  const frame = lab.past[k];
+  if (frame) lab.lanes.forEach(({world: {memory: {F, at}}}, which) => F.set(frame.states[which], at.x));
+}
+
+function listenToStage() {
+  let turning = null;
+  const place = event => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
+  canvas.onpointerdown = event => {
+    const [x, y] = place(event), found = massAt(x, y);
+    canvas.setPointerCapture(event.pointerId);
+    if (found && event.shiftKey) return togglePin(found.mass);
+    if (found) { lab.grabbed = {...found, place: placeUnder(x, y, found)}; view.selected = found.mass; holdGrabbed(); }
+    else turning = [x, y, view.yaw, view.pitch];
+  };
+  canvas.onpointermove = event => {
+    const [x, y] = place(event);
+    if (lab.grabbed) { lab.grabbed.place = placeUnder(x, y, lab.grabbed); holdGrabbed(); }
+    else if (turning) { view.yaw = turning[2] + (x - turning[0]) / 150; view.pitch = Math.max(-1.4, Math.min(1.4, turning[3] + (y - turning[1]) / 150)); }
+  };
+  canvas.onpointerup = canvas.onpointercancel = () => { if (lab.grabbed) { lab.grabbed = null; showState(); } turning = null; };
+  canvas.addEventListener("wheel", event => { if (event.ctrlKey) { event.preventDefault(); view.zoom *= Math.exp(-event.deltaY / 300); } }, {passive: false});
+  canvas.onkeydown = event => { if (onKey(event.key, event.shiftKey)) event.preventDefault(); };
+}
+
+// The keyboard on the stage: all that a pointer does.
+function onKey(key, shift) {
+  const {n, d} = lab.scene.system, move = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[key];
+  if (key === " ") setPlaying(!lab.playing);
+  else if (key === ".") stepOnce();
+  else if (key === ",") stepBack();
+  else if (key === "r" || key === "R") { reset(); showAll(); }
+  else if (key === "+" || key === "=") view.zoom *= 1.2;
+  else if (key === "-") view.zoom /= 1.2;
+  else if ("nNbB".includes(key)) {
+    const way = "nN".includes(key) ? 1 : n - 1;
+    view.selected = view.selected === null ? (way === 1 ? 0 : n - 1) : (view.selected + way) % n;
+    $("shared").textContent = say("chosen", {which: view.selected});
+  } else if ((key === "p" || key === "P") && view.selected !== null) togglePin(view.selected);
+  else if (move && view.selected !== null && !shift) nudge(move);
+  else if (move && d === 3) { view.yaw += 0.1 * move[0]; view.pitch = Math.max(-1.4, Math.min(1.4, view.pitch - 0.1 * move[1])); }
+  else return false;
+  return true;
+}
+
+// The chosen mass a little aside, at rest.
+function nudge([right, up]) {
+  const {memory: {F, at}} = lab.lanes[0].world, found = {mass: view.selected, box: 0};
+  const [left, top, width, height] = view.boxes[0], [x, y] = seen(F.subarray(at.x + at.d * found.mass, at.x + at.d * (found.mass + 1)), at.d);
+  const px = left + width / 2 + view.scale * x + 12 * right, py = top + height / 2 - view.scale * y - 12 * up;
+  lab.grabbed = {...found, place: placeUnder(px, py, found)};
+  holdGrabbed();
+  lab.grabbed = null;
+  showState();
+}
+
+// --- sixty times a second ---
+
+let before = 0, told = 0;
+const cost = {frames: 0, stepping: 0, drawing: 0};
+function frame(now) {
+  const seconds = Math.min((now - before) / 1e3, 0.05);
+  before = now;
+  const begin = performance.now();
+  if (lab.playing) {
+    stepLanes(seconds * lab.speed);
+    if (lab.lanes.every(lane => lane.world.blownUp || lane.recording)) { lab.playing = false; showState(); }
+  }
+  const stepped = performance.now();
+  draw();
+  if (now - told > (lab.playing ? 120 : 400)) { drawPlots(); if (lab.playing) showState(); told = now; }
+  cost.frames++; cost.stepping += stepped - begin; cost.drawing += performance.now() - stepped;
+  requestAnimationFrame(frame);
+}
+
+function openHash() {
+  const text = location.hash.slice(1), state = readState(text);
+  if (state.lang in WORDS) language = state.lang;
+  if (!text.includes("s=") && state.lesson) return openLesson(state.lesson);
+  lab.lesson = state.lesson;
+  openState(text.includes("s=") ? state : readState(DATA.first));
+  translate();
+}
+
+openHash();
+listen();
+requestAnimationFrame(frame);

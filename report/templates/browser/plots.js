@@ -1,0 +1,72 @@
+// The plots: energy, how far lanes are apart, and the growth that theory predicts at every dt.
+
+function plot(id, {lines, low, high, from, to, logarithmic, marks = [], unit, axis}) {
+  const of = document.getElementById(id), [width, height] = sizeCanvas(of), on = of.getContext("2d");
+  on.clearRect(0, 0, width, height);
+  const left = 52, right = width - 10, bottom = height - 22, top = 8;
+  const scale = value => logarithmic ? Math.log10(Math.max(value, 1e-300)) : value;
+  const x = value => left + (right - left) * (value - from) / (to - from || 1);
+  const y = value => bottom - (bottom - top) * (scale(value) - scale(low)) / (scale(high) - scale(low) || 1);
+  on.strokeStyle = on.fillStyle = soft(); on.lineWidth = 1; on.font = "12px system-ui, sans-serif";
+  on.beginPath(); on.moveTo(left, top); on.lineTo(left, bottom); on.lineTo(right, bottom); on.stroke();
+  on.textAlign = "right"; on.textBaseline = "middle";
+  for (const value of [low, high]) on.fillText(value === 0 ? "0" : shortNumber(value), left - 4, Math.min(Math.max(y(value), 8), bottom - 4));
+  on.textAlign = "left"; on.textBaseline = "alphabetic"; on.fillText(shortNumber(from), left, height - 6);
+  on.textAlign = "right"; on.fillText(`${shortNumber(to)} ${axis}`, right, height - 6);
+  on.textAlign = "left"; on.textBaseline = "top"; on.fillText(unit, left + 4, top);
+  on.save(); on.beginPath(); on.rect(left, top - 2, right - left, bottom - top + 4); on.clip();
+  for (const {at, k, label} of marks) {
+    on.strokeStyle = k === undefined ? ink() : colourOf(k); on.setLineDash(k === undefined ? [] : [5, 3]); on.lineWidth = 1.5;
+    on.beginPath(); on.moveTo(x(at), top); on.lineTo(x(at), bottom); on.stroke(); on.setLineDash([]);
+    if (label) { on.fillStyle = ink(); on.textBaseline = "bottom"; on.fillText(label, Math.min(x(at) + 3, right - 28), bottom - 2); }
+  }
+  lines.forEach(({points, k}) => {
+    on.strokeStyle = on.fillStyle = colourOf(k); on.lineWidth = 1.8; on.beginPath();
+    let begun = false;
+    points.forEach(([at, value]) => {
+      if (!Number.isFinite(value)) return;
+      on[begun ? "lineTo" : "moveTo"](x(at), Math.max(-50, Math.min(height + 50, y(value)))); begun = true;
+    });
+    on.stroke();
+    const last = points.filter(([, value]) => Number.isFinite(value)).pop();
+    if (last && y(last[1]) >= top && y(last[1]) <= bottom) drawMarker(on, k, x(last[0]), y(last[1]), 3.5);
+  });
+  on.restore();
+}
+
+const shortNumber = value => {
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  return size >= 1e4 || size < 1e-3 ? value.toExponential(0).replace("e+", "e") : String(+value.toPrecision(3));
+};
+
+function drawPlots() {
+  const rows = lab.series, to = Math.max(laneTime(), lab.scene.duration);
+  const first = rows.length ? rows[0].energy.find(Number.isFinite) || 0 : 0;
+  const given = Math.max(lab.lanes[0].world.given, 1e-9);
+  const changes = rows.flatMap(row => row.energy.map(value => value - first)).filter(value => Number.isFinite(value));
+  const within = value => Math.max(-20 * given, Math.min(20 * given, value));
+  const most = Math.max(...changes.map(value => Math.abs(within(value))), 1e-3 * given, 1e-12);
+  plot("energy", {lines: lab.lanes.map((lane, k) => ({k, points: rows.map(row => [row.time, row.energy[k] - first])})), low: -most, high: most, from: 0, to, unit: "J", axis: "s"});
+  const size = Math.max(view.width, view.height) / 2.5, distances = rows.flatMap(row => row.apart).filter(value => value > 0 && Number.isFinite(value));
+  const least = Math.max(1e-16, Math.min(...distances, size)), largest = Math.min(Math.max(...distances, 10 * least), 1e3 * size);
+  plot("apart", {lines: lab.lanes.map((lane, k) => ({k, points: k ? rows.filter(row => row.apart[k] > 0).map(row => [row.time, row.apart[k]]) : []})), low: least, high: largest, logarithmic: true, from: 0, to, unit: "m", axis: "s"});
+  drawGrowth();
+}
+
+// By what the fastest mode is multiplied in a step, by dt, for each lane's scheme; dt and the limits are marked.
+function drawGrowth() {
+  if (!lab.mode) return plot("growth", {lines: [], low: 0, high: 2, from: 0, to: 1e3 * lab.dt * 2, unit: "", axis: "ms"});
+  const limits = lab.lanes.map(lane => (lab.limits[lane.scheme] || {}).limit).filter(limit => limit > 0 && limit < Infinity);
+  const to = 1e3 * Math.max(1.3 * lab.dt, 1.4 * Math.max(...limits, 2 / Math.sqrt(lab.mode.w2)));
+  const lines = lab.lanes.map((lane, k) => {
+    const scheme = schemes[lane.scheme];
+    if (!scheme || !scheme.linear) return {k, points: []};
+    return {k, points: Array.from({length: 161}, (_, q) => to * (q + 1) / 161).map(ms => [ms, growthOfMode(scheme, ms / 1e3, lab.mode.w2, lab.mode.g)])};
+  });
+  const marks = lab.lanes.flatMap((lane, k) => {
+    const {limit} = lab.limits[lane.scheme] || {};
+    return limit > 0 && limit < Infinity ? [{at: 1e3 * limit, k}] : [];
+  });
+  plot("growth", {lines, low: 0, high: 2, from: 0, to, marks: [...marks, {at: 1e3 * lab.dt, label: "dt"}], unit: "", axis: "ms"});
+}

@@ -1,0 +1,87 @@
+// A system under way by one scheme: steps, what changes on the way, and when it has left physics behind.
+
+// How many times its length a spring is, and how many times what it was given the energy is, when a run has blown up.
+const RATIO = 100;
+
+function startWorld(system, scheme, dt, changes = []) {
+  const memory = memoryOf(system);
+  const world = {system, memory, scheme, dt, steps: 0, origin: {time: 0, steps: 0}, blownUp: null, done: 0};
+  world.natural = Array.from({length: system.s}, (_, j) => Math.max(memory.F[memory.at.rest_lengths + j], lengthOf(memory, j)));
+  world.start = memory.F.slice(memory.at.x, memory.at.x + system.n * system.d);
+  const {kinetic, elastic} = energies(memory);
+  world.given = kinetic + elastic;
+  for (let j = 0; j < system.s; j++) world.given += law.elastic_energy(memory.F[memory.at.stiffness + j], world.natural[j]);
+  world.changes = changes.slice().sort((a, b) => a.time - b.time);
+  return world;
+}
+
+const timeOf = ({origin, steps, dt}) => origin.time + (steps - origin.steps) * dt;
+
+// What changes at the step that begins now or has changed before: a time within 1e-9 of a step's start is that start.
+function applyChanges(world) {
+  for (; world.done < world.changes.length; world.done++) {
+    const {time, parameter, value} = world.changes[world.done], {origin} = world;
+    if (Math.ceil((time - origin.time) / world.dt - 1e-9) > world.steps - origin.steps) return;
+    if (parameter === "dt") Object.assign(world, {origin: {time: timeOf(world), steps: world.steps}, dt: value});
+    else if (parameter === "hold" || parameter === "release") hold(world.memory, [value].flat(), parameter === "hold");
+    else setParameter(world.memory, parameter, value);
+  }
+}
+
+// A number of steps, as many as there are until it blows up, which every sixteenth step is looked at.
+function advance(world, steps) {
+  const {memory: {F, I, at}, system, scheme} = world, {advance: ofDimension, coefficients} = schemes[scheme];
+  const run = ofDimension[at.d];
+  for (let k = 1; k <= steps && !world.blownUp; k++) {
+    applyChanges(world);
+    run(F, I, at, coefficients(world.dt), 1);
+    for (const {kind, values} of system.obstacles) {
+      const project = obstacles[kind];
+      for (let i = 0; i < at.n; i++) project(F, at.x, at.v, i, !I[at.fixed + i], values);
+    }
+    world.steps++;
+    if (world.steps % 16 === 0) world.blownUp = blowUp(world);
+  }
+  return world;
+}
+
+// When and how a run has left physics behind, or null: {what, which}. Looked at often, so in two plain loops.
+function blowUp({memory: {F, I, at}, natural, given, start}) {
+  const {n, s, d, x, v, masses, springs, rest_lengths, stiffness} = at;
+  let pull = 0, energy = 0, allowed = given;
+  for (let axis = 0; axis < d; axis++) pull += F[at.gravity + axis] * F[at.gravity + axis];
+  for (let i = 0; i < n; i++) {
+    let away = 0, speed = 0;
+    for (let e = d * i; e < d * (i + 1); e++) {
+      const moved = F[x + e] - start[e];
+      away += moved * moved; speed += F[v + e] * F[v + e];
+    }
+    if (!Number.isFinite(away)) return {what: "position", which: i};
+    if (!Number.isFinite(speed)) return {what: "velocity", which: i};
+    energy += 0.5 * F[masses + i] * speed;
+    allowed += F[masses + i] * Math.sqrt(pull * away);
+  }
+  for (let j = 0; j < s; j++) {
+    const a = x + d * I[springs + 2 * j], b = x + d * I[springs + 2 * j + 1];
+    let squares = 0;
+    for (let axis = 0; axis < d; axis++) { const along = F[b + axis] - F[a + axis]; squares += along * along; }
+    const length = Math.sqrt(squares);
+    if (length > RATIO * natural[j]) return {what: "spring", which: j};
+    energy += law.elastic_energy(F[stiffness + j], length - F[rest_lengths + j]);
+  }
+  return energy > RATIO * RATIO * allowed && allowed > 0 ? {what: "energy", which: 0} : null;
+}
+
+// The mean distance of the masses of two worlds of one system [m].
+function apart(one, other) {
+  const {at} = one.memory, {n, d} = at;
+  let sum = 0;
+  for (let i = 0; i < n; i++) {
+    let squares = 0;
+    for (let axis = 0; axis < d; axis++) {
+      squares += (one.memory.F[at.x + d * i + axis] - other.memory.F[other.memory.at.x + d * i + axis]) ** 2;
+    }
+    sum += Math.sqrt(squares);
+  }
+  return sum / n;
+}

@@ -1,0 +1,85 @@
+"""The page's physics, run by Node: runs and limits asked for as JSON, answered as JSON with doubles as their bits."""
+
+from __future__ import annotations
+
+import base64
+import json
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from report.browser.lab_page import physics
+
+#: Doubles travel as their bits: JSON has neither NaN nor infinity, and some writers lose the sign of zero.
+DRIVER = """
+const bits = array => Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");
+const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
+  if (asked.ask === "run") {
+    const world = startWorld(asked.system, asked.scheme, asked.dt, asked.changes || []);
+    const {F, at} = world.memory, size = at.n * at.d, rows = [];
+    for (let k = 0; k < asked.steps; k++) {
+      world.blownUp = null;
+      advance(world, 1);
+      rows.push(...F.slice(at.x, at.x + 2 * size));
+    }
+    return bits(Float64Array.from(rows));
+  }
+  const memory = memoryOf(asked.system);
+  for (const [name, value] of Object.entries(asked.set || {})) setParameter(memory, name, value);
+  const rest = equilibrium(memory, asked.rest, asked.contacts), linear = linearise(memory, rest.x, asked.contacts);
+  if (asked.ask === "limits") {
+    const known = {};
+    const limits = Object.fromEntries(asked.schemes.map(name => [name, limitOf(name, linear, known)]));
+    return {off: rest.off, limits, rest: Array.from(rest.x)};
+  }
+  if (asked.ask === "grown") return asked.cases.map(one => grown({...asked.system}, memory, rest.x, one));
+  throw Error(asked.ask);
+});
+function grown(system, memory, rest, {scheme, dt, steps, size}) {
+  const {at, I} = memory, noise = pseudoRandom(at.n * at.d, 7);
+  const positions = rest.map((x, e) => I[at.fixed + Math.floor(e / at.d)] ? x : x + size * noise[e]);
+  const world = startWorld({...system, positions: Array.from(positions), velocities: 0, obstacles: []}, scheme, dt);
+  const away = () => {
+    let most = 0;
+    rest.forEach((x, e) => { most = Math.max(most, Math.abs(world.memory.F[at.x + e] - x)); });
+    return most / size;
+  };
+  let most = 0;
+  for (let k = 0; k < steps && !world.blownUp && most < 1e4; k += 20) {
+    advance(world, 20);
+    most = Math.max(most, away());
+  }
+  return world.blownUp ? 1e300 : most;
+}
+process.stdout.write(JSON.stringify(answers));
+"""
+
+
+def ask(questions: Sequence[Mapping[str, Any]], text: str = "") -> list[Any]:
+    """Node's answers, by the page's physics or another text; without Node the test is skipped, but never in CI."""
+    node = shutil.which("node")
+    if node is None:
+        if os.environ.get("CI"):
+            pytest.fail("node is not installed, and in CI it must be: see .ci/run")
+        pytest.skip("node is not installed")
+    with tempfile.TemporaryDirectory() as folder:
+        program = Path(folder) / "physics.cjs"
+        program.write_text((text or physics()) + DRIVER, encoding="utf-8")
+        done = subprocess.run(
+            [node, str(program)], input=json.dumps(questions), capture_output=True, text=True, timeout=600
+        )
+    assert done.returncode == 0, done.stderr[-3000:]
+    answers: list[Any] = json.loads(done.stdout)
+    return answers
+
+
+def doubles(answer: str) -> np.ndarray[Any, np.dtype[np.float64]]:
+    """Bits as an array."""
+    return np.frombuffer(base64.b64decode(answer), dtype=np.float64)

@@ -1,0 +1,58 @@
+"""Python's text as JavaScript: what is translated, and what is refused."""
+
+from __future__ import annotations
+
+import ast
+
+import pytest
+
+from reference.errors import Unsupported
+from reference.schemes.catalogue import find
+from report.browser.equations import equations_of
+from report.browser.javascript import Translation, of_expression
+from report.browser.programs import page_schemes, unavailable
+
+
+def lines(text: str, dimension: int | None = 2) -> list[str]:
+    """A text's translation."""
+    return Translation(dimension).body(ast.parse(text).body)
+
+
+def test_arrays_are_places_in_two_memories() -> None:
+    """Doubles in F, whole numbers in I, rows of vectors one after the other."""
+    assert lines("x1[j] = x0[ends_b[j]]") == ["F[x + 2 * j + 1] = F[x + 2 * I[springs + 2 * j + 1] + 0];"]
+    assert lines("x[i, axis] += 2.5", None) == ["F[x + d * i + axis] += 2.5;"]
+
+
+def test_numbers_and_choices_are_said_as_they_are() -> None:
+    """Infinity, square roots, a choice, a whole coefficient."""
+    assert of_expression("0.0 if q == np.inf else np.sqrt(f) / q") == "((q === Infinity) ? 0.0 : (Math.sqrt(f) / q))"
+    assert of_expression("truediv(dt, 6)") == "(dt / 6)"
+
+
+@pytest.mark.parametrize(
+    "text", ["np.exp(x)", "x ** 3", "np.hypot(x, y)", "x // y", "x if y else z()", "[x for x in y]"]
+)
+def test_what_a_browser_computes_otherwise_is_refused(text: str) -> None:
+    """Powers, exponentials and hypot do not end in the same bits; other things are not known."""
+    with pytest.raises(Unsupported):
+        of_expression(text)
+
+
+def test_every_scheme_is_in_the_page_or_has_a_reason() -> None:
+    """Those that can be traced are; those that solve equations are not."""
+    assert set(page_schemes()) >= {"euler", "heun", "kick_drift", "drift_kick", "velocity_verlet", "rk4"}
+    assert set(page_schemes()) >= {"euler_in_place", "heun_link_by_link", "heun_aliased"}
+    assert "springs" in unavailable()["backward_euler"]
+    assert not set(page_schemes()) & set(unavailable())
+
+
+def test_equations_are_those_of_the_textbooks() -> None:
+    """Of Heun (slides 6-7): the average of the slope here and at Euler's guess."""
+    assert equations_of(find("heun")) == [
+        "a0 = a(x, v)",
+        "a1 = a(x + dt v, v + dt a0)",
+        "x' = x + (dt/2) (v + v + dt a0)",
+        "v' = v + (dt/2) (a0 + a1)",
+    ]
+    assert equations_of(find("backward_euler")) == []

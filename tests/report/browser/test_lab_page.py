@@ -1,0 +1,186 @@
+"""The page in Chromium: from disk, at all widths, light and dark; what it shows, and what a link brings back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+import pytest
+
+from report.browser.lab_page import lab_page
+from report.browser.presets import PRESETS
+from report.browser.system_data import system_data
+from tests.report.browser.node import DRIVER, doubles
+from tests.report.browser.systems import random_system
+from tests.report.browser.test_bits import STEPS, of_reference, same_bits
+from tests.report.chromium import VIEWS, Shown, chromium
+
+#: Scenes that are quick to make, and the lessons'.
+SHOWN = [preset for preset in PRESETS if preset.scene in ("oscillator", "string", "cloth", "barrier", "jello")]
+
+#: The most a page may weigh [bytes].
+LARGEST = 3_000_000
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The page, on disk."""
+    made = tmp_path_factory.mktemp("page") / "lab.html"
+    made.write_text(lab_page(SHOWN), encoding="utf-8")
+    return made
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """Chromium."""
+    with chromium() as found:
+        yield found
+
+
+def opened(browser: Any, file: Path, state: str = "", view: tuple[int, str, str] = VIEWS[0]) -> Shown:
+    """The page in a state, its limits computed."""
+    shown = Shown(browser, file, view)
+    if state:
+        shown.page.evaluate("state => { location.hash = state; }", state)
+    until(shown.page, "lab.mode")
+    return shown
+
+
+def until(page: Any, statement: str) -> None:
+    """Wait until it is true: the page's own policy forbids Playwright's way of asking for that, which is `eval`."""
+    end = monotonic() + 300
+    while not page.evaluate(statement):
+        assert monotonic() < end, statement
+        page.wait_for_timeout(50)
+
+
+@pytest.mark.parametrize("view", VIEWS[:4], ids=lambda view: "-".join(map(str, view)))
+def test_it_is_shown_without_a_request_or_a_complaint(browser: Any, file: Path, view: tuple[int, str, str]) -> None:
+    """And without a violation that axe-core knows, or a part that reaches out of the window."""
+    shown = opened(browser, file, "lesson=3" if view[0] == 360 else "", view)
+    assert file.stat().st_size < LARGEST
+    assert shown.requests == []
+    assert shown.violations() == []
+    assert shown.sideways() == 0
+    shown.page.evaluate("setPlaying(true)")
+    until(shown.page, "lab.lanes[0].world.steps > 3")
+    assert shown.complaints == []
+    shown.page.close()
+
+
+def test_chromium_ends_in_the_reference_s_bits(browser: Any, file: Path) -> None:
+    """As Node does (`test_bits`): a few random systems by two schemes."""
+    shown = opened(browser, file)
+    for seed in range(3):
+        system, dt = random_system(seed)
+        for scheme in ("rk4", "heun_link_by_link"):
+            question = {"system": system_data(system), "scheme": scheme, "dt": dt, "steps": STEPS}
+            answer = shown.page.evaluate(RUN, question)
+            rows = doubles(answer).reshape(STEPS, -1)
+            expected = of_reference(system, scheme, dt)
+            assert same_bits(rows[: len(expected)], expected), (seed, scheme)
+    shown.page.close()
+
+
+#: The driver's run, its bits as text without Node's buffers.
+RUN = (
+    "asked => {"
+    + DRIVER.partition('if (asked.ask === "run") {')[2].partition("return bits(")[0]
+    + "const bytes = new Uint8Array(Float64Array.from(rows).buffer);"
+    + "return btoa(Array.from(bytes, byte => String.fromCharCode(byte)).join('')); }"
+)
+
+
+def test_a_link_brings_back_the_same_numbers_and_the_same_picture(browser: Any, file: Path) -> None:
+    """What was set, changed on the way and stepped: opened anew, every position is the same to the bit."""
+    state = "s=string&w=heun,heun_aliased&dt=0.002&at=0:stiffness:150,0.05:gravity:3.7,0.06:hold:4&n=80"
+    places = "Array.from(lab.lanes[1].world.memory.F.slice(lab.lanes[1].world.memory.at.x, 40))"
+    first = opened(browser, file, state)
+    link, numbers = first.page.evaluate("stateText()"), first.page.evaluate(places)
+    picture = first.page.evaluate("draw(), canvas.toDataURL()")
+    second = opened(browser, file, link)
+    assert second.page.evaluate(places) == numbers
+    assert second.page.evaluate("draw(), canvas.toDataURL()") == picture
+    assert second.page.evaluate("stateText()") == link
+    assert "--change=0.05:gravity=3.7" in first.page.evaluate("commandText()")
+    for shown in (first, second):
+        shown.page.close()
+
+
+def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> None:
+    """By its buttons: dt to 1.02 times the limit, play, back to before, and a shorter dt that is stable."""
+    shown = opened(browser, file, "s=string&w=kick_drift")
+    page = shown.page
+    page.get_by_role("button", name="1.02").click()
+    page.evaluate("lab.speed = 4; setPlaying(true)")
+    page.wait_for_selector("#said .banner")
+    limit, dt = page.evaluate("[lab.limits.kick_drift.limit, lab.dt]")
+    assert dt == pytest.approx(1.02 * limit)
+    assert "2.04" in page.inner_text("#said")  # dt times omega, as 2 is the limit
+    buttons = page.locator("#said button")
+    buttons.nth(0).click()
+    assert page.evaluate("lab.lanes[0].world.blownUp === null && lab.lanes[0].world.steps > 0")
+    page.evaluate("setPlaying(true)")
+    page.wait_for_selector("#said .banner")
+    page.locator("#said button").nth(1).click()
+    assert page.evaluate("lab.dt") < limit
+    page.close()
+
+
+def test_every_lesson_s_task_can_be_done(browser: Any, file: Path) -> None:
+    """Each is not done at its start, and is done by what its task says."""
+    shown = opened(browser, file, "s=string")
+    page = shown.page
+    for k, deed in enumerate(DEEDS, 1):
+        page.evaluate("k => openLesson(k)", k)
+        until(page, "lab.limits.kick_drift || lab.limits.heun")
+        assert not page.evaluate("checkLesson(), doneLessons.has(lab.lesson)"), k
+        page.evaluate(f"(async () => {{ {deed} }})()")
+        until(page, "checkLesson(), doneLessons.has(lab.lesson)")
+    assert shown.complaints == []
+    page.close()
+
+
+#: What does the task of each lesson.
+DEEDS = (
+    "$('answer').value = '0.0628'",
+    "for (let k = 0; k < 290; k++) oneStep(); lookAtLanes();",
+    "change('dt', lab.limits.kick_drift.limit * 0.995); await new Promise(go => setTimeout(go, 300)); checkLesson();"
+    "change('dt', 0.011); for (let k = 0; k < 3000; k++) oneStep(); lookAtLanes();",
+    "change('damping', 3.1)",
+    "togglePin(0); const {I, at} = lab.lanes[0].world.memory;"
+    "const held = [...Array(at.n).keys()].filter(i => I[at.fixed + i]); held.slice(1).forEach(togglePin);"
+    "for (let k = 0; k < 350; k++) { oneStep(); if (k % 50 === 0) checkLesson(); }",
+    "change('stiffness', 160); $('answer').value = '0,5'",
+)
+
+
+def test_the_keyboard_does_what_a_pointer_does(browser: Any, file: Path) -> None:
+    """Play, step, choose a mass, move it, hold it."""
+    shown = opened(browser, file, "s=string&w=kick_drift")
+    page = shown.page
+    page.focus("#stage")
+    for key in (".", ".", "n", "n", "n", "p", "ArrowRight"):
+        page.keyboard.press(key)
+    assert page.evaluate("[lab.lanes[0].world.steps, view.selected, lab.touched]") == [2, 2, True]
+    assert page.evaluate("lab.lanes[0].world.memory.I[lab.lanes[0].world.memory.at.fixed + 2]") == 1
+    page.keyboard.press("Space")
+    assert page.evaluate("lab.playing")
+    page.close()
+
+
+def test_words_are_there_in_every_language() -> None:
+    """The same keys, with the same blanks to be filled in."""
+    import json
+    import re
+
+    from report.browser.lab_page import TEMPLATES
+
+    words = json.loads((TEMPLATES / "browser" / "words.json").read_text(encoding="utf-8"))
+    english = words.pop("en")
+    for language, own in words.items():
+        assert own.keys() == english.keys(), language
+        for key, text in own.items():
+            assert set(re.findall(r"{\w+}", text)) == set(re.findall(r"{\w+}", english[key])), (language, key)

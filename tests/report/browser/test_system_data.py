@@ -1,0 +1,61 @@
+"""Systems and recordings as the page reads them, and what it refuses."""
+
+from __future__ import annotations
+
+import base64
+
+import numpy as np
+import pytest
+
+from reference.errors import Unsupported
+from reference.scenes import find
+from report.browser.presets import PRESETS, Preset
+from report.browser.recordings import Recording, quantised, recording_data
+from report.browser.system_data import refuse_beyond, system_data
+
+
+def test_a_number_that_all_have_is_written_once() -> None:
+    """And others one by one, fixed masses by their numbers."""
+    data = system_data(find("cloth").system({"mass": 0.5, "rows": 3, "columns": 3}))
+    assert (data["masses"], data["stiffness"], data["velocities"]) == (0.5, 40.0, 0.0)
+    assert len(data["rest_lengths"]) == data["s"]
+    assert len(data["positions"]) == data["n"] * data["d"]
+
+
+def test_what_moves_all_the_time_and_what_is_too_large_is_refused() -> None:
+    """With the reason: a truck that crosses, ground that shakes, more masses than a browser steps in time."""
+    for name in ("crossing", "earthquake"):
+        with pytest.raises(Unsupported, match="springlab live"):
+            Preset(name).data()
+    with pytest.raises(Unsupported, match="2,500"):
+        refuse_beyond(find("cloth").system({"rows": 60, "columns": 60}))
+
+
+def test_every_scene_of_the_lecture_that_stands_still_is_a_preset() -> None:
+    """Only driven scenes, and the drape, which is one of many masses and short steps, are left out."""
+    from reference.scenes import scenes
+
+    assert {preset.scene for preset in PRESETS} == set(scenes()) - {"crossing", "earthquake", "drape"}
+
+
+def test_a_recording_is_off_by_half_a_quantum_at_most() -> None:
+    """Places are rounded to a quantum, in whole numbers of 16 bits; the end of the run is the reference's."""
+    places = np.random.default_rng(0).normal(size=(7, 5, 3))
+    offset, quantum, whole = quantised(places)
+    assert np.abs(whole).max() < 2**15
+    assert np.abs(whole * quantum + offset - places).max() <= quantum / 2 * (1 + 1e-9)
+
+    setup = find("oscillator").setup({})
+    data = recording_data(Recording("kick_drift", dt=1e-3, duration=0.5), setup)
+    frames = np.frombuffer(base64.b64decode(data["frames"]), "<i2").reshape(-1, 2, 1) * data["quantum"]
+    t = data["every"] * np.arange(len(frames))
+    # x = x_rest + (x_0 - x_rest) cos(w t) with w = sqrt(k/m) = 100 1/s; kick-drift at dt w = 0.1 is off by 5 % of it
+    sag, start = 0.02 * 9.81 / 200, 0.01
+    expected = -(0.125 + sag) + (sag - start) * np.cos(100 * t)
+    assert np.abs(frames[:, 1, 0] + data["offset"][0] - expected).max() < 0.1 * start
+
+
+def test_a_recording_that_does_not_come_to_its_end_is_refused() -> None:
+    """With how it ended."""
+    with pytest.raises(Unsupported, match="diverged"):
+        recording_data(Recording("euler", dt=0.1, duration=4.0), find("oscillator").setup({}))

@@ -1,0 +1,33 @@
+"""`springlab page`: what it writes, and what it says of what it cannot write."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from reference.errors import InputError
+from report.commands.page import page_command
+
+
+def test_a_scene_of_one_s_own_is_written(tmp_path: Path) -> None:
+    """With its name, its changes, and its command."""
+    own = tmp_path / "my_scene.toml"
+    own.write_text('scene = "spring"\n[[changes]]\ntime = 0.2\nparameter = "stiffness"\nvalue = 100.0\n')
+    out = tmp_path / "lab.html"
+    done = CliRunner().invoke(page_command, [str(own), "--out", str(out)], catch_exceptions=False)
+    assert done.exit_code == 0
+    text = out.read_text(encoding="utf-8")
+    assert '"name":"my_scene"' in text
+    assert '"changes":[{"time":0.2,"parameter":"stiffness","value":100.0}]' in text
+    assert "http" not in text.replace("http-equiv", "")
+
+
+@pytest.mark.parametrize("scene", ["crossing", "earthquake", "strng"])
+def test_what_cannot_be_is_refused_by_name(scene: str, tmp_path: Path) -> None:
+    """In one line, and nothing is written."""
+    out = tmp_path / "lab.html"
+    with pytest.raises(InputError, match=scene):
+        CliRunner().invoke(page_command, [scene, "--out", str(out)], catch_exceptions=False)
+    assert not out.exists()
