@@ -14,7 +14,7 @@ from reference.compiled.tracing import numbers_of
 from reference.errors import SolverError, Unsupported
 from reference.scenes import Setup
 from reference.state import Array
-from reference.system import HELD, PARAMETERS, MassSpringSystem
+from reference.system import BREAK, HELD, MassSpringSystem
 
 if TYPE_CHECKING:  # this imports SciPy
     from reference.theory.contacts import Contacts
@@ -25,6 +25,9 @@ MOST_MASSES = 2_500
 #: And more changes than a page carries along.
 MOST_CHANGES = 50
 
+#: What can change on the fly there.
+CHANGES = ("mass", "rest_length", "stiffness", "damping", "drag", "gravity", *HELD, BREAK)
+
 #: What of a system the page knows. Whatever else a system comes to have is refused until the page has it too.
 KNOWN = frozenset(
     {
@@ -32,6 +35,9 @@ KNOWN = frozenset(
         *("velocities", "fixed", "obstacles"),
     }
 )
+
+#: What people call those that it does not.
+_WORDS = {"nonlinear": "springs that are not linear"}
 
 
 def system_data(system: MassSpringSystem) -> dict[str, Any]:
@@ -66,7 +72,8 @@ def refuse_beyond(system: MassSpringSystem) -> None:
         raise Unsupported(f"{len(system.masses)} masses: the page takes at most {MOST_MASSES:,}")
     for field in fields(system):
         if field.name not in KNOWN and _is_set(system, field.name):
-            raise Unsupported(f"{field.name.replace('_', ' ')}: the page does not know it yet; `springlab live` does")
+            what = _WORDS.get(field.name, field.name)
+            raise Unsupported(f"{what}: the page does not know them yet; `springlab live` does")
 
 
 def _is_set(system: MassSpringSystem, name: str) -> bool:
@@ -111,7 +118,7 @@ def changes_data(changes: Sequence[Change]) -> list[Mapping[str, Any]]:
             f"{len(changes)} changes: the page takes no load and no ground that moves; `springlab live` does"
         )
     for change in changes:
-        if change.parameter not in (*PARAMETERS, *HELD):
+        if change.parameter not in CHANGES:
             raise Unsupported(f"changes of {change.parameter}: the page does not know them; `springlab live` does")
     return [{"time": change.time, "parameter": change.parameter, "value": _plain(change.value)} for change in changes]
 

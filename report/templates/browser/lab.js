@@ -3,6 +3,9 @@
 // How much of a frame steps may take [ms], and how much the past [doubles].
 const STEPPING = 11, PAST = 4e6;
 
+// What happens to masses or springs by their numbers.
+const LISTS = ["hold", "release", "break"];
+
 const lab = {
   scene: null, lanes: [], dt: 1e-3, changes: [], playing: false, speed: 1, beside: false,
   past: [], series: [], touched: false, grabbed: null, reached: 1, debt: 0, limits: {}, lesson: 0,
@@ -41,7 +44,7 @@ const recordingNamed = name => lab.scene && (lab.scene.recordings || []).find(on
 // From the start again, with everything as it is set now.
 function reset() {
   const last = {};
-  for (const change of lab.changes) if (!["hold", "release", "dt"].includes(change.parameter)) last[change.parameter] = change;
+  for (const change of lab.changes) if (![...LISTS, "dt"].includes(change.parameter)) last[change.parameter] = change;
   lab.changes = Object.values(last).map(change => ({...change, time: 0}));
   lab.playing = false;
   startLanes(lab.lanes.map(lane => lane.scheme));
@@ -54,7 +57,7 @@ function change(parameter, value) {
     lab.dt = value;
     if (time === 0) { lab.changes = lab.changes.filter(one => one.parameter !== "dt"); return startLanes(lab.lanes.map(lane => lane.scheme)); }
   }
-  lab.changes = lab.changes.filter(one => one.time !== time || one.parameter !== parameter || parameter === "hold" || parameter === "release");
+  lab.changes = lab.changes.filter(one => one.time !== time || one.parameter !== parameter || LISTS.includes(parameter));
   lab.changes.push({time, parameter, value});
   for (const {world} of lab.lanes) {
     world.changes = [...lab.scene.changes, ...lab.changes].sort((a, b) => a.time - b.time);
@@ -149,8 +152,7 @@ function rewind(k) {
     fresh.done = 0;
     while (fresh.done < fresh.changes.length && fresh.changes[fresh.done].time <= frame.time) {
       const {parameter, value} = fresh.changes[fresh.done++];
-      if (parameter === "hold" || parameter === "release") hold(fresh.memory, [value].flat(), parameter === "hold");
-      else if (parameter !== "dt") setParameter(fresh.memory, parameter, value);
+      if (parameter !== "dt") applyChange(fresh.memory, parameter, value);
     }
     F.set(frame.states[which], at.x);
     lane.world = fresh;

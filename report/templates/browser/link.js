@@ -30,10 +30,10 @@ function readState(text) {
   const number = (word, least, most) => { const value = Number(word); return word !== undefined && value >= least && value <= most ? value : undefined; };
   const changes = (words.at || "").split(",").flatMap(word => {
     const [time, parameter, text] = word.split(":"), values = (text || "").split("+").map(Number), at = number(time, 0, 1e6);
-    const known = parameter in PARAMETERS || ["dt", "hold", "release"].includes(parameter);
+    const known = parameter in PARAMETERS || [...LISTS, "dt"].includes(parameter);
     if (at === undefined || !known || !text || !values.every(Number.isFinite)) return [];
     if (parameter === "dt" && !(values[0] > 1e-9 && values[0] <= 10)) return [];
-    return [{time: at, parameter, value: parameter === "hold" || parameter === "release" ? values.map(Math.round) : values.length > 1 ? values : values[0]}];
+    return [{time: at, parameter, value: LISTS.includes(parameter) ? values.map(Math.round) : values.length > 1 ? values : values[0]}];
   });
   return {
     scene: sceneNamed(words.s) ? words.s : undefined, lanes: words.w ? words.w.split(",") : undefined, dt: number(words.dt, 1e-9, 10), changes,
@@ -45,8 +45,8 @@ function readState(text) {
 // The state of a link, at once: steps are taken before anything is shown, up to a second's worth.
 function openState(state) {
   lab.speed = state.speed || 1; lab.beside = state.beside; lab.playing = false;
-  const {n} = (sceneNamed(state.scene) || DATA.scenes[0]).system;
-  const inside = ({parameter, value}) => !["hold", "release"].includes(parameter) || value.every(i => i >= 0 && i < n);
+  const {n, s} = (sceneNamed(state.scene) || DATA.scenes[0]).system;
+  const inside = ({parameter, value}) => !LISTS.includes(parameter) || value.every(i => i >= 0 && i < (parameter === "break" ? s : n));
   openScene(state.scene, {lanes: state.lanes || ["kick_drift"], dt: state.dt, changes: state.changes.filter(inside)});
   lab.firstDt = lab.dt;
   const begin = performance.now();

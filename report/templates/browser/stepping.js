@@ -23,9 +23,15 @@ function applyChanges(world) {
     const {time, parameter, value} = world.changes[world.done], {origin} = world;
     if (Math.ceil((time - origin.time) / world.dt - 1e-9) > world.steps - origin.steps) return;
     if (parameter === "dt") Object.assign(world, {origin: {time: timeOf(world), steps: world.steps}, dt: value});
-    else if (parameter === "hold" || parameter === "release") hold(world.memory, [value].flat(), parameter === "hold");
-    else setParameter(world.memory, parameter, value);
+    else applyChange(world.memory, parameter, value);
   }
+}
+
+function applyChange(memory, parameter, value) {
+  const which = [value].flat();
+  if (parameter === "hold" || parameter === "release") hold(memory, which, parameter === "hold");
+  else if (parameter === "break") for (const name of ["stiffness", "damping"]) for (const j of which) memory.F[memory.at[name] + j] = 0;
+  else setParameter(memory, parameter, value);
 }
 
 // A number of steps, as many as there are until it blows up, which every sixteenth step is looked at.

@@ -27,6 +27,8 @@ def test_what_moves_all_the_time_and_what_is_too_large_is_refused() -> None:
     for name in ("crossing", "earthquake"):
         with pytest.raises(Unsupported, match="springlab live"):
             Preset(name).data()
+    with pytest.raises(Unsupported, match="not linear"):
+        refuse_beyond(find("string").system({"tension_only": 1}))
     with pytest.raises(Unsupported, match="2,500"):
         refuse_beyond(find("cloth").system({"rows": 60, "columns": 60}))
 
