@@ -21,8 +21,9 @@ from reference.motion import EveryMotion, Motion, MotionByMass, MotionOfRods, Mo
 from reference.registry import Registry
 from reference.state import State
 
-#: How a scheme stands to the theory: right; used by an engine; or deliberately incorrect.
-Kind = Literal["scheme", "engine_scheme", "in_place"]
+#: How a scheme stands to the theory: right; used by an engine; of those, a solver of constraints with parameters; or
+#: deliberately incorrect.
+Kind = Literal["scheme", "engine_scheme", "constraint_scheme", "in_place"]
 
 #: What a scheme asks of the equations of motion, by the protocol its first parameter is annotated with.
 Needs = Literal["accelerations", "accelerations of one mass", "springs", "distance constraints"]
@@ -202,8 +203,13 @@ def scheme(
 
 
 def schemes() -> Mapping[str, Scheme]:
-    """All schemes by name, the simplest first: where two do the same, the first is the one to name."""
-    return _SCHEMES.all()
+    """The schemes that everything is compared with, the simplest first: where two do the same, the first is named."""
+    return {name: scheme for name, scheme in _SCHEMES.all().items() if scheme.kind != "constraint_scheme"}
+
+
+def constraint_schemes() -> Mapping[str, Scheme]:
+    """Solvers of constraints: what they do depends on their parameters, so they are tried where they are named."""
+    return {name: scheme for name, scheme in _SCHEMES.all().items() if scheme.kind == "constraint_scheme"}
 
 
 def aliases() -> Mapping[str, Scheme]:
@@ -217,7 +223,7 @@ def find(name: str) -> Scheme:
     Raises:
         InputError: with a suggestion, where there is none; for a parameter it does not have.
     """
-    known = {**schemes(), **aliases()}
+    known = {**schemes(), **constraint_schemes(), **aliases()}
     parts = re.fullmatch(r"([^(]*)(?:\((.*)\))?", name, re.S)
     if parts is None:
         raise InputError(f"scheme {name!r}: expected a name, or a name with parameters, as in sweeps(rounds=3)")

@@ -1,0 +1,71 @@
+"""In which order a solver goes through the springs of a system: where it stops early, the order is part of the scheme.
+
+    made         as they are numbered
+    reversed     the last made first
+    colours      springs that share no moving mass are of one colour; colour after colour, each in the order made
+    colours_back the same, made backwards: the last spring is given the first colour
+    island       as Box2D 2 walks from body to body: the newest first, along the newest joints first
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reference.errors import unknown_name
+from reference.system import IntArray, MassSpringSystem
+
+ORDERS = ("made", "reversed", "colours", "colours_back", "island")
+
+
+def in_order(system: MassSpringSystem, order: str) -> IntArray:
+    """The numbers of the springs, in the order they are solved in, shape (s,); those between fixed masses left out.
+
+    Raises:
+        InputError: for an order that is none of ORDERS.
+    """
+    if order not in ORDERS:
+        raise unknown_name("order of springs", order, ORDERS)
+    moves = ~system.fixed[system.springs].all(axis=1)
+    made = np.flatnonzero(moves)
+    if order == "island":
+        return np.array(_island(system), dtype=np.int64)
+    if order in ("reversed", "colours_back"):
+        made = made[::-1]
+    if order in ("colours", "colours_back"):
+        made = made[np.argsort(_colours(system, made), kind="stable")]
+    return np.ascontiguousarray(made, dtype=np.int64)
+
+
+def _colours(system: MassSpringSystem, made: IntArray) -> IntArray:
+    """Greedy: each spring has the first colour that no spring before it has on one of its moving masses."""
+    taken: list[set[int]] = [set() for _ in system.masses]
+    colours = []
+    for j in made.tolist():
+        ends = [i for i in system.springs[j].tolist() if not system.fixed[i]]
+        used = set().union(*(taken[i] for i in ends))
+        colour = next(c for c in range(len(used) + 1) if c not in used)
+        colours.append(colour)
+        for i in ends:
+            taken[i].add(colour)
+    return np.array(colours, dtype=np.int64)
+
+
+def _island(system: MassSpringSystem) -> list[int]:
+    """Depth first, from the last mass on; a fixed mass is an end of the walk (b2World::Solve of Box2D 2)."""
+    springs: list[list[tuple[int, int]]] = [[] for _ in system.masses]
+    for j, (a, b) in enumerate(system.springs.tolist()):
+        springs[a].insert(0, (j, b))
+        springs[b].insert(0, (j, a))
+    found, seen = dict.fromkeys([], 0), np.zeros(len(system.masses), dtype=bool)
+    for seed in reversed(range(len(system.masses))):
+        stack = [] if seen[seed] or system.fixed[seed] else [seed]
+        seen[seed] = True
+        while stack:
+            at = stack.pop()
+            for j, other in [] if system.fixed[at] else springs[at]:
+                if j not in found:
+                    found[j] = len(found)
+                    if not seen[other] or system.fixed[other]:
+                        seen[other] = True
+                        stack.append(other)
+    return list(found)

@@ -1,0 +1,185 @@
+"""Position-based solvers: positions are moved first, then corrected spring by spring; velocities follow from them.
+
+XPBD holds a spring of stiffness k [N/m] and damping c [N s/m] as a constraint C = length - rest length of compliance
+1/k. In a step of h, with a = 1/(k h^2), g = c/(k h), W = 1/m_a + 1/m_b, a correction is
+
+    dL = -(C + a L + g h e.(v_b - v_a)) / ((1 + g) W + a),
+
+with L the sum of the corrections so far. (Macklin, Mueller and Chentanez, *XPBD*, MIG 2016, equations 18 and 26.) Solved
+to the end that is backward Euler. In single precision v = (x - x0)/h is as coarse as a position's last digit over h:
+with more sub-steps, velocities get worse.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from reference.jit import compiled
+from reference.motion import MotionOfSprings
+from reference.schemes.catalogue import scheme
+from reference.solver_numbers import SolverNumbers, numbers_of
+from reference.state import Array, State
+from reference.system import IntArray
+
+
+@scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
+def xpbd_jacobi(
+    motion: MotionOfSprings, state: State, dt: float, *, iterations: int = 2, single: bool = False
+) -> State:
+    """XPBD, all springs corrected from the same positions, and the corrections summed (Newton's SolverXPBD).
+
+    Neither averaged nor relaxed, so it blows up where too many springs meet at a mass. Two iterations are Newton's
+    default; it has no drag.
+    """
+    it = numbers_of(motion.system, state, "made", single)
+    h, (a, b) = it.number(dt), it.ends.T
+    with np.errstate(divide="ignore"):
+        compliance, damping = 1 / (it.stiffness * h * h), it.damping / (it.stiffness * h)
+    moves = (it.both > 0) & (it.stiffness > 0)
+    start, sums = it.x.copy(), np.zeros_like(it.rest)
+    slow_down(it, h)
+    it.x[:] += it.v * h
+    for _ in range(iterations):
+        gap, relative = it.x[b] - it.x[a], it.v[b] - it.v[a]
+        lengths = norms(gap)
+        e = gap / lengths[:, None]
+        wanted = lengths - it.rest + compliance * sums + damping * (h * dots(e, relative))
+        with np.errstate(invalid="ignore"):
+            change = np.where(moves, -wanted / ((1 + damping) * it.both + compliance), 0)
+        sums = sums + change
+        moved = np.zeros_like(it.x)
+        ends = np.concatenate([(it.inverse[b] * change)[:, None] * e, -(it.inverse[a] * change)[:, None] * e], axis=1)
+        np.add.at(moved, it.ends[:, ::-1].ravel(), ends.reshape(-1, it.x.shape[1]))
+        it.x[:] += moved
+        it.v[:] = (it.x - start) / h
+    return it.state(state.time + dt)
+
+
+@scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
+def xpbd_gauss_seidel(
+    motion: MotionOfSprings,
+    state: State,
+    dt: float,
+    *,
+    substeps: int = 5,
+    sweeps: int = 1,
+    order: str = "made",
+    single: bool = False,
+) -> State:
+    """XPBD, one spring after the other, each from what those before it have left (Jolt's soft bodies, PyPBD).
+
+    Jolt calls its 5 sub-steps of one sweep each iterations. Drag takes the part h Cd/m of a velocity.
+    """
+    it = numbers_of(motion.system, state, order, single)
+    h = it.number(dt / substeps)
+    with np.errstate(divide="ignore"):
+        compliance, damping = 1 / (it.stiffness * h * h), it.damping / (it.stiffness * h)
+    for _ in range(substeps):
+        slow_down(it, h)
+        start, sums = it.x.copy(), np.zeros_like(it.rest)
+        it.x[:] += h * it.v
+        for _ in range(sweeps):
+            _correct(it.x, start, it.ends, it.order, it.inverse, it.rest, it.both, compliance, damping, sums)
+        it.v[:] = (it.x - start) / h
+    return it.state(state.time + dt)
+
+
+@scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
+def vertex_block_descent(
+    motion: MotionOfSprings, state: State, dt: float, *, iterations: int = 10, jacobi: bool = True, single: bool = False
+) -> State:
+    """Vertex block descent: Newton's method on one mass at a time, on backward Euler's energy (Newton's SolverVBD).
+
+    With y = x0 + h v + h^2 g, and l0 a spring's length at the start of the step, a mass is moved by H^-1 f,
+    f = m (y - x)/h^2 - sum of (k C + c/h (l - l0)) e,  H = m/h^2 + sum of k (1 - L/l (1 - e e^T)) + c/h e e^T.
+    Newton colours its masses by triangles: with springs alone all have one colour, and move from the same positions
+    (`jacobi`). (Chen, Liu, Yang and Yuksel, *Vertex Block Descent*, SIGGRAPH 2024.)
+    """
+    it = numbers_of(motion.system, state, "made", single)
+    h, start = it.number(dt), it.x.copy()
+    lengths = norms(start[it.ends[:, 1]] - start[it.ends[:, 0]])
+    inertial = start + h * it.v + h * h * it.weight
+    free = it.inverse > 0
+    it.x[free] = inertial[free]
+    every = np.flatnonzero(free)
+    for _ in range(iterations):
+        for masses in [every] if jacobi else every[:, None]:
+            force, hessian = blocks(it, inertial, lengths, h)
+            it.x[masses] += np.linalg.solve(hessian[masses], force[masses, :, None])[..., 0]
+    it.v[:] = (it.x - start) / h
+    return it.state(state.time + dt)
+
+
+def slow_down(it: SolverNumbers, h: Array) -> None:
+    """Weight, and what drag leaves of the velocities in a step of h [s]."""
+    it.v[:] += it.weight * h
+    if it.drag.any():
+        it.v[:] *= np.maximum(1 - h * it.drag, 0)
+
+
+def norms(vectors: Array) -> Array:
+    """Lengths, shape (s,), added up axis by axis as engines do."""
+    return np.sqrt(dots(vectors, vectors))
+
+
+def dots(one: Array, other: Array) -> Array:
+    """Scalar products, shape (s,)."""
+    total = one[:, 0] * other[:, 0]
+    for axis in range(1, one.shape[1]):
+        total = total + one[:, axis] * other[:, axis]
+    return total
+
+
+def blocks(it: SolverNumbers, inertial: Array, lengths: Array, h: Array) -> tuple[Array, Array]:
+    """The force f, shape (n, d), and the matrix H, shape (n, d, d), of every mass where they are."""
+    a, b = it.ends.T
+    gap, one = it.x[b] - it.x[a], np.eye(it.x.shape[1], dtype=it.x.dtype)
+    length = norms(gap)
+    e = gap / length[:, None]
+    along = e[:, :, None] * e[:, None, :]
+    with np.errstate(divide="ignore"):
+        mass = np.where(it.inverse > 0, 1 / it.inverse, 0).astype(it.x.dtype) / (h * h)
+    pull = (it.stiffness * (length - it.rest) + it.damping / h * (length - lengths))[:, None] * e
+    stiff = it.stiffness[:, None, None] * (one - (it.rest / length)[:, None, None] * (one - along))
+    stiff = stiff + (it.damping / h)[:, None, None] * along
+    force, hessian = mass[:, None] * (inertial - it.x), mass[:, None, None] * one
+    for end, sign in ((a, 1), (b, -1)):
+        np.add.at(force, end, sign * pull)
+        np.add.at(hessian, end, stiff)
+    return force, hessian
+
+
+def correct(
+    x: Array,
+    start: Array,
+    ends: IntArray,
+    order: IntArray,
+    inverse: Array,
+    rest: Array,
+    both: Array,
+    compliance: Array,
+    damping: Array,
+    sums: Array,
+) -> None:
+    """One sweep over the springs in their order: positions are corrected along each."""
+    for j in order:
+        a, b = ends[j, 0], ends[j, 1]
+        gap = x[b, 0] - x[a, 0]
+        squares = gap * gap
+        approach = gap * ((x[b, 0] - start[b, 0]) - (x[a, 0] - start[a, 0]))
+        for axis in range(1, x.shape[1]):
+            gap = x[b, axis] - x[a, axis]
+            squares += gap * gap
+            approach += gap * ((x[b, axis] - start[b, axis]) - (x[a, axis] - start[a, axis]))
+        length = np.sqrt(squares)
+        wanted = (length - rest[j]) + compliance[j] * sums[j] + damping[j] * (approach / length)
+        change = wanted / (both[j] + damping[j] * both[j] + compliance[j])
+        sums[j] -= change
+        part = change / length
+        for axis in range(x.shape[1]):
+            gap = (x[b, axis] - x[a, axis]) * part
+            x[a, axis] += inverse[a] * gap
+            x[b, axis] -= inverse[b] * gap
+
+
+(_correct,) = compiled(correct)
