@@ -10,12 +10,14 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Mapping
 from functools import cache
-from importlib import metadata
 from typing import Literal, Protocol
 
 import numpy as np
 
 import engines
+from engines.process.packages import available_version as available_version
+from engines.process.packages import how_to_install
+from engines.process.packages import installed_version as installed_version
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
 from reference.registry import Registry
@@ -196,14 +198,14 @@ def changed(engine: Engine, system: MassSpringSystem, parameter: str, value: Val
 
 
 def version(engine: Engine) -> str | None:
-    """The installed version of the engine's package, or None where it is not installed."""
-    return installed_version(engine.package)
+    """The version of the engine's package, beside the lab or in an environment of its own; None where it is in none."""
+    return available_version(engine.package)
 
 
 def absence(engine: Engine) -> str:
     """Why an engine whose package is not there is not: with its `where_it_comes`, if it says that."""
     where = getattr(engine, "where_it_comes", "")
-    return f"{engine.package} is not installed" + (f"; {where}" if where else "")
+    return how_to_install(engine.package) + (f"; {where}" if where else "")
 
 
 def precision(engine: Engine) -> Precision:
@@ -215,15 +217,6 @@ def precision(engine: Engine) -> Precision:
 def recorded_settings(engine: Engine) -> dict[str, object]:
     """What is recorded with every result of an engine: its settings and its precision."""
     return {**engine.settings, "precision": precision(engine)}
-
-
-@cache
-def installed_version(package: str) -> str | None:
-    """The installed version of a package, or None. It is looked up once: that takes milliseconds."""
-    try:
-        return metadata.version(package)
-    except metadata.PackageNotFoundError:
-        return None
 
 
 def modules() -> list[str]:

@@ -1,10 +1,10 @@
 """In which order a solver goes through the springs of a system: where it stops early, the order is part of the scheme.
 
-    made         as they are numbered
-    reversed     the last made first
-    colours      springs that share no moving mass are of one colour; colour after colour, each in the order made
-    colours_back the same, made backwards: the last spring is given the first colour
-    island       as Box2D 2 walks from body to body: the newest first, along the newest joints first
+made         as they are numbered
+reversed     the last made first
+colours      springs that share no moving mass are of one colour; colour after colour, each in the order made
+colours_back the same, made backwards: the last spring is given the first colour
+island       as Box2D 2 walks from body to body: the newest first, along the newest joints first
 """
 
 from __future__ import annotations
@@ -56,7 +56,8 @@ def _island(system: MassSpringSystem) -> list[int]:
     for j, (a, b) in enumerate(system.springs.tolist()):
         springs[a].insert(0, (j, b))
         springs[b].insert(0, (j, a))
-    found, seen = dict.fromkeys([], 0), np.zeros(len(system.masses), dtype=bool)
+    found: dict[int, None] = {}
+    seen = np.zeros(len(system.masses), dtype=bool)
     for seed in reversed(range(len(system.masses))):
         stack = [] if seen[seed] or system.fixed[seed] else [seed]
         seen[seed] = True
@@ -64,7 +65,7 @@ def _island(system: MassSpringSystem) -> list[int]:
             at = stack.pop()
             for j, other in [] if system.fixed[at] else springs[at]:
                 if j not in found:
-                    found[j] = len(found)
+                    found[j] = None
                     if not seen[other] or system.fixed[other]:
                         seen[other] = True
                         stack.append(other)

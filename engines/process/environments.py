@@ -15,11 +15,12 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import numpy as np
 
+from engines.process.packages import APART
 from reference.cache import cache_folder
 from reference.errors import InputError
 
@@ -43,7 +44,7 @@ def environment(package: str, version: str) -> Path:
     if not re.fullmatch(r"\d[\w.!+-]*", version):
         raise InputError(f"{package} version {version!r}: expected one such as 1.2.3")
     folder = cache_folder("environments")
-    home = folder / f"{package}-{version}-{_digest()}"
+    home = _home(folder, package, version)
     with _locked(folder / f"{home.name}.lock"):
         for dead in _dead(folder, home):
             shutil.rmtree(dead, ignore_errors=True)
@@ -57,6 +58,23 @@ def environment(package: str, version: str) -> Path:
     return _python(home)
 
 
+def kept(package: str, version: str) -> Path | None:
+    """The Python of an environment that was made before; None where there is none, and nothing is made."""
+    python = _python(_home(cache_folder("environments"), package, version))
+    return python if python.exists() else None
+
+
+def _home(folder: Path, package: str, version: str) -> Path:
+    """Where an environment is, or would be."""
+    return folder / f"{package}-{version}-{_digest(_other_python(package))}"
+
+
+def _other_python(package: str) -> str | None:
+    """The Python that a package has wheels for, where it is not the lab's own."""
+    other = APART[package].python if package in APART else None
+    return None if other == f"{sys.version_info.major}.{sys.version_info.minor}" else other
+
+
 def numpy_version() -> str:
     """Which NumPy an environment came to have: a task to be done there."""
     return f"{np.__version__.split('.')[0]}.x"
@@ -65,21 +83,36 @@ def numpy_version() -> str:
 def _make(home: Path, package: str, version: str) -> None:
     uv = shutil.which("uv")
     python, wanted = str(_python(home)), f"{package}=={version}"
+    known, other = APART.get(package), _other_python(package)
+    module, beside = (known.module, known.beside) if known else (package, ())
     if uv:
-        _call(wanted, uv, "venv", "--quiet", "--clear", "--python", sys.executable, str(home))
+        _call(wanted, uv, "venv", "--quiet", "--clear", "--python", other or sys.executable, str(home))
         install = [uv, "pip", "install", "--quiet", "--python", python]
+    elif other:
+        _call(wanted, str(_found(other)), "-m", "venv", str(home))
+        install = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
     else:
         # By the pip that is here: a new one in every environment would take longer than the rest.
         _call(wanted, sys.executable, "-m", "venv", "--without-pip", str(home))
         pip = [sys.executable, "-m", "pip", "--python", python]
         install = [*pip, "install", "--quiet", "--disable-pip-version-check"]
     for numpy in NUMPY:
-        _call(wanted, *install, wanted, numpy)
-        if subprocess.run([python, "-c", f"import {package}"], capture_output=True, cwd=home).returncode == 0:
+        _call(wanted, *install, wanted, *beside, numpy)
+        if subprocess.run([python, "-c", f"import {module}"], capture_output=True, cwd=home).returncode == 0:
             break
     (packages,) = home.glob("lib/python*/site-packages")
     for room in ROOMS:
         (packages / room).symlink_to(LAB / room)
+
+
+def _found(version: str) -> Path:
+    """An interpreter of another version: on the path, or among pyenv's. Raises InputError where there is none."""
+    pyenv = Path(os.environ.get("PYENV_ROOT") or Path.home() / ".pyenv") / "versions"
+    for python in [Path(f"python{version}"), *sorted(pyenv.glob(f"{version}.*/bin/python"))]:
+        with suppress(OSError):
+            if subprocess.run([python, "--version"], capture_output=True).returncode == 0:
+                return python
+    raise InputError(f"Python {version} is not installed: expected python{version} on the path")
 
 
 def _call(wanted: str, *words: str) -> None:
@@ -103,9 +136,9 @@ def _python(home: Path) -> Path:
     return home / "bin" / "python"
 
 
-def _digest() -> str:
-    """Of what an environment depends on beside its package: this Python, NumPy, and where the lab is."""
-    return hashlib.sha256(f"{sys.version} {NUMPY} {LAB}".encode()).hexdigest()[:8]
+def _digest(other: str | None = None) -> str:
+    """Of what an environment depends on beside its package: its Python, NumPy, and where the lab is."""
+    return hashlib.sha256(f"{other or sys.version} {NUMPY} {LAB}".encode()).hexdigest()[:8]
 
 
 def _dead(folder: Path, home: Path) -> Iterator[Path]:

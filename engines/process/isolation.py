@@ -11,6 +11,7 @@ import numpy as np
 
 from engines.engine import Engine, Precision, absence, precision, version
 from engines.line import started
+from engines.process.packages import interpreter
 from engines.process.supervisor import supervisor
 from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step
@@ -50,9 +51,18 @@ def isolated(
         function: of a module (it travels by name); its arguments travel as pickles.
         time_limit: [s].
         memory_limit: [bytes].
-        python: an interpreter that can import `engines` and NumPy; left out, this one.
+        python: an interpreter that can import `engines` and NumPy; left out, that of the environment that is kept for
+            the engine among the arguments, or this one.
     """
+    if python is None:
+        python = interpreter_for(arguments)
     return supervisor(python).run(function, arguments, time_limit, memory_limit)
+
+
+def interpreter_for(arguments: Sequence[Any]) -> Path | None:
+    """The Python of an engine's own environment, where its package is not beside the lab but in one that is kept."""
+    packages = [package for argument in arguments if isinstance(package := getattr(argument, "package", None), str)]
+    return next((python for package in packages if (python := interpreter(package)) is not None), None)
 
 
 @dataclass(frozen=True)

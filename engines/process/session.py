@@ -13,6 +13,7 @@ from weakref import WeakSet
 
 from engines.engine import Engine, Simulation
 from engines.line import started
+from engines.process.packages import interpreter
 from engines.process.worker import NoAnswerError, NotStartedError, Worker
 from reference.errors import InputError, Unsupported
 from reference.outcome import Outcome
@@ -56,7 +57,7 @@ class Session:
 
     def __init__(self, engine: Engine, system: MassSpringSystem, dt: float, time_limit: float = TIME_LIMIT) -> None:
         self._engine, self._time_limit = engine, time_limit
-        self._worker: Worker | None = Worker()
+        self._worker: Worker | None = Worker(interpreter(engine.package))
         _open.add(self)
         self.restart(system, dt)
 

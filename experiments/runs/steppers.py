@@ -32,13 +32,13 @@ def default_steppers() -> list[Stepper]:
 def _scheme_named(name: str, known: Iterable[str]) -> Stepper:
     """A scheme by an alias, or with parameters."""
     base = name.partition("(")[0]
-    if base == name and base not in catalogue.aliases():
+    if base == name and base not in {**catalogue.aliases(), **catalogue.constraint_schemes()}:
         raise unknown_name("stepper", name, known)
     return stepper_named(name)
 
 
 def find_steppers(names: Iterable[str]) -> list[Stepper]:
-    """The steppers of these names; of schemes also aliases, and parameters as in sweeps(rounds=3).
+    """The steppers of these names; of schemes also aliases, parameters, as in sweeps(rounds=3), and solvers.
 
     Raises:
         InputError: for an unknown name, or an engine that is not installed.

@@ -5,9 +5,10 @@ XPBD holds a spring of stiffness k [N/m] and damping c [N s/m] as a constraint C
 
     dL = -(C + a L + g h e.(v_b - v_a)) / ((1 + g) W + a),
 
-with L the sum of the corrections so far. (Macklin, Mueller and Chentanez, *XPBD*, MIG 2016, equations 18 and 26.) Solved
-to the end that is backward Euler. In single precision v = (x - x0)/h is as coarse as a position's last digit over h:
-with more sub-steps, velocities get worse.
+with L the sum of the corrections so far. (Macklin, Mueller and Chentanez, *XPBD*, MIG 2016, equations 18 and 26.)
+Solved to the end that is backward Euler, but for the directions, which are those that springs had at each correction.
+In single precision v = (x - x0)/h is as coarse as a position's last digit over h: with more sub-steps, velocities get
+worse.
 """
 
 from __future__ import annotations

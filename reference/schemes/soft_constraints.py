@@ -277,6 +277,4 @@ def sweep_where_they_are(
 
 
 _push, _sweep, _sweep_totals = compiled(push, sweep, sweep_totals)
-_direction, _push_where_they_are, _sweep_where_they_are = compiled(
-    direction, push_where_they_are, sweep_where_they_are
-)
+_direction, _push_where_they_are, _sweep_where_they_are = compiled(direction, push_where_they_are, sweep_where_they_are)

@@ -24,6 +24,7 @@ COMMANDS = {
     "identify": "Say which scheme a stepper is.",
     "explain": "Derive what a stepper computes, from the outside.",
     "stability": "Predict and measure the largest stable dt; map growth.",
+    "translate": "What to type into engines for k and c, and what their own numbers mean.",
     "live": "Open a page where scenes run and everything can be changed.",
     "page": "Write the lab as one file that runs in a browser, with nothing installed.",
     "sweep": "Run steppers over a grid of parameters; nothing is lost.",

@@ -27,11 +27,13 @@ if TYPE_CHECKING:
 @click.option("--all", "all_kept", is_flag=True, help="All versions in the baseline.")
 @click.option("--check", is_flag=True, help="Compare with the baseline; exit code 1, with the differences, if any.")
 @click.option("--update-baseline", "update", is_flag=True, help="Write the baseline that the project keeps.")
+@click.option("--install", is_flag=True, help="Only make the environment that ENGINE's package is run in, and keep it.")
 @json_option
 @out_option(RESULTS / "versions")
 def versions_command(
     engine: str | None,
     versions: tuple[str, ...],
+    install: bool,
     all_kept: bool,
     check: bool,
     update: bool,
@@ -46,6 +48,8 @@ def versions_command(
     """
     from experiments.engine_versions.versions import measure_versions
 
+    if install:
+        return _install(engine)
     if engine is None and not (all_kept or check):
         raise InputError("versions: expected ENGINE and VERSION..., or --all, or --check")
     measured = []
@@ -59,6 +63,21 @@ def versions_command(
         for _, found in measured:
             print(f"written: {write(found)}", file=sys.stderr)
     return _compare(measured, as_json) if check else _show(measured, as_json, out)
+
+
+def _install(name: str | None) -> int:
+    """Make the environment of a package that has one of its own."""
+    from engines.engine import registry
+    from engines.process.environments import environment
+    from engines.process.packages import APART
+
+    package = registry()[name].package if name and name in registry() else name
+    if package is None or package not in APART:
+        raise InputError(f"versions --install {package or ''}: expected one of {', '.join(APART)}")
+    with progress("versions") as tell:
+        tell(f"environment of {package} {APART[package].version}")
+        click.echo(printable(f"made: {environment(package, APART[package].version).parents[1]}"))
+    return 0
 
 
 def _wanted(engine: str | None, versions: Sequence[str], kept: bool) -> list[tuple[Subject, list[str]]]:

@@ -13,6 +13,7 @@ from experiments.experiment import NAMES
 from experiments.runs.steppers import all_steppers
 from reference.nonlinear import KINDS
 from reference.scenes import scenes
+from reference.schemes.catalogue import constraint_schemes
 from reference.stepper import catalogued
 from tests.report.commands.terminal import springlab
 
@@ -43,7 +44,7 @@ def test_the_json_lists_everything_there_is() -> None:
     assert list(document) == ["scenes", "springs", "schemes", "engines", "experiments"]
     assert [row["scene"] for row in document["scenes"]] == list(scenes())
     others = [stepper.name for stepper in all_steppers().values() if stepper.kind != "engine"]
-    assert [row["stepper"] for row in document["schemes"]] == others
+    assert [row["stepper"] for row in document["schemes"]] == [*others, *constraint_schemes()]
     assert [row["parameter"] for row in document["springs"]] == list(KINDS)
     assert [row["engine"] for row in document["engines"]] == list(registry())
     assert [row["experiment"] for row in document["experiments"]] == list(NAMES)
@@ -54,7 +55,7 @@ def test_the_terminal_shows_every_name() -> None:
     """In tables that fold sentences but never names."""
     said = springlab("list")
     assert said.code == 0
-    for name in [*scenes(), *catalogued(), *registry(), *NAMES]:
+    for name in [*scenes(), *catalogued(), *constraint_schemes(), *registry(), *NAMES]:
         assert f" {name} " in said.out
 
 

@@ -1,0 +1,46 @@
+"""The orders that solvers go through springs in: on a string, worked out by hand; on any mesh, each spring once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reference.constraint_order import ORDERS, in_order
+from reference.scenes import find as find_scene
+
+#: Of a string of five springs: the anchor's is number 0.
+BY_HAND = {
+    "made": [0, 1, 2, 3, 4],
+    "reversed": [4, 3, 2, 1, 0],
+    "colours": [0, 2, 4, 1, 3],
+    "colours_back": [4, 2, 0, 3, 1],
+    "island": [4, 3, 2, 1, 0],
+}
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_a_string_by_hand(order: str) -> None:
+    """Springs of one colour share no moving mass."""
+    assert in_order(find_scene("string").system({"masses": 5}), order).tolist() == BY_HAND[order]
+
+
+@pytest.mark.parametrize("order", ORDERS)
+def test_every_spring_that_moves_anything_is_there_once(order: str) -> None:
+    """Of a cloth with an edge of fixed masses, whose springs move nothing."""
+    cloth = find_scene("cloth").system({"rows": 4, "columns": 5, "pinned": "edge"})
+    moves = ~cloth.fixed[cloth.springs].all(axis=1)
+    assert sorted(in_order(cloth, order).tolist()) == np.flatnonzero(moves).tolist()
+
+
+def test_springs_of_a_colour_share_no_moving_mass() -> None:
+    """The first springs of a cloth's colours, up to the first that shares one, are many."""
+    cloth = find_scene("cloth").system({"rows": 4, "columns": 5, "pinned": "edge"})
+    seen: set[int] = set()
+    count = 0
+    for j in in_order(cloth, "colours").tolist():
+        ends = {i for i in cloth.springs[j].tolist() if not cloth.fixed[i]}
+        if ends & seen:
+            break
+        seen |= ends
+        count += 1
+    assert count >= 5
