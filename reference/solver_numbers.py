@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from reference.constraint_order import in_order
+from reference.errors import Unsupported
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem
 
@@ -53,7 +54,14 @@ class SolverNumbers:
 
 
 def numbers_of(system: MassSpringSystem, state: State, order: str, single: bool) -> SolverNumbers:
-    """Of a state. Raises InputError for an unknown order of springs."""
+    """Of a state.
+
+    Raises:
+        InputError: for an unknown order of springs.
+        Unsupported: for springs that are not linear.
+    """
+    if system.nonlinear is not None:
+        raise Unsupported("solvers of constraints have linear springs only")
     kind: Any = np.float32 if single else np.float64
 
     def rounded(values: Array) -> Array:
