@@ -15,9 +15,9 @@ from typing import Literal, Protocol
 import numpy as np
 
 import engines
-from engines.process.packages import available_version as available_version
-from engines.process.packages import how_to_install
-from engines.process.packages import installed_version as installed_version
+from engines.process.available import available_version as available_version
+from engines.process.available import how_to_install
+from engines.process.available import installed_version as installed_version
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
 from reference.registry import Registry

@@ -11,7 +11,7 @@ import numpy as np
 
 from engines.engine import Engine, Precision, absence, precision, version
 from engines.line import started
-from engines.process.packages import interpreter
+from engines.process.available import interpreter
 from engines.process.supervisor import supervisor
 from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step

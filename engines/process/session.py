@@ -13,7 +13,7 @@ from weakref import WeakSet
 
 from engines.engine import Engine, Simulation
 from engines.line import started
-from engines.process.packages import interpreter
+from engines.process.available import interpreter
 from engines.process.worker import NoAnswerError, NotStartedError, Worker
 from reference.errors import InputError, Unsupported
 from reference.outcome import Outcome

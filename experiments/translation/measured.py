@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from engines.process.available import interpreter
 from engines.process.isolation import isolated
-from engines.process.packages import interpreter
 from engines.translation.program import run
 from engines.translation.translation import Spring, Translation
 from experiments.translation.oscillation import STRETCH, spring_of_values

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.process.packages import available_version, how_to_install
+from engines.process.available import available_version, how_to_install
 from engines.translation.translation import Settings, Spring, Stepping, Translation, translations
 from experiments.translation.measured import measured_spring, steps_to_watch
 from experiments.translation.oscillation import largest_stable_dt, spring_of_step, step_matrix, system_of

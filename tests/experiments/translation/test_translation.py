@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from engines.process.packages import available_version, how_to_install
+from engines.process.available import available_version, how_to_install
 from engines.translation.translation import Settings, Spring, Stepping, find, translations
 from experiments.translation.measured import spring_of_elongations
 from experiments.translation.oscillation import largest_stable_dt, spring_of_step, step_matrix
