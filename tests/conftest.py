@@ -1,7 +1,8 @@
-"""What all tests share: which engines the conformance suite runs, and which of the students' programs are checked."""
+"""What all tests share: which engines the conformance suite runs, and which part of long lists is checked."""
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import pytest
 
 from engines.engine import Engine, find, registry, version
 from reference.errors import InputError
-from tests.parts import PARTS, part, todays
+from tests.parts import PARTS, kept, part, todays
 
 # How long an example takes is a matter of what else the machine does.
 hypothesis.settings.register_profile("lab", deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow])
@@ -35,12 +36,14 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--part",
         type=int,
         metavar="N",
-        help=f"Check this part of the students' programs, 0 to {PARTS - 1}; today's if left out, all with --full.",
+        help="Check this part of long lists (students' programs, cases marked `rotating`), "
+        f"0 to {PARTS - 1}; today's if left out, all with --full.",
     )
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Refuse an unknown engine or part before anything runs; workers are given the part that was chosen here."""
+    config.addinivalue_line("markers", "rotating(n): of its cases every n-th is run, others on another day")
     if config.option.part is None:
         config.option.part = todays()
     if not 0 <= config.option.part < PARTS:
@@ -53,9 +56,27 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_report_header(config: pytest.Config) -> str:
-    """Which part of the students' programs is checked, and how to check it again."""
+    """Which part of long lists is checked, and how to check it again."""
     chosen = "all" if config.option.full else f"--part {config.option.part} of 0 to {PARTS - 1}"
-    return f"students' programs: {chosen}"
+    return f"students' programs, and cases that rotate: {chosen}"
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Leave out the cases of `rotating` tests whose day it is not; none with --full, nor where a case is named."""
+    if config.option.full or any("[" in argument for argument in config.args):
+        return
+    seen: Counter[str] = Counter()
+    left_out = []
+    for item in items:
+        marker = item.get_closest_marker("rotating")
+        if marker is not None:
+            test = item.nodeid.partition("[")[0]
+            if not kept(seen[test], marker.args[0], config.option.part):
+                left_out.append(item)
+            seen[test] += 1
+    config.hook.pytest_deselected(items=left_out)
+    gone = set(left_out)
+    items[:] = [item for item in items if item not in gone]
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

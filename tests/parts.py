@@ -13,6 +13,11 @@ def todays() -> int:
     return date.today().toordinal() % PARTS
 
 
+def kept(index: int, every: int, number: int) -> bool:
+    """Whether a case of a test that runs every n-th of its cases is in a part; one after the other comes round."""
+    return index % every == number % every
+
+
 def part(number: int) -> slice:
     """A part of a list, by its number."""
     return slice(number, None, PARTS)

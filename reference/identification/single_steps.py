@@ -33,6 +33,9 @@ LONG = 0.25
 #: states.
 STATES, ALL_UP_TO = 40, 1_000_000
 
+#: A scheme whose step is off by so many tolerances is not tried from further states where another one is right.
+FAR = 100
+
 #: A mass this near to an obstacle, as a part of the scale, may have touched it.
 TOUCH = 1e-6
 
@@ -89,6 +92,8 @@ def identify_steps(
 ) -> Identification:
     """Rank schemes by how far one step of theirs is from the stepper's, at most; errors are those at the start's scale.
 
+    A scheme that cannot be the nearest is given up at the first step that shows it: its error is the least it has.
+
     Args:
         catalogue: the schemes, the simplest first; those that cannot step the system so are left out.
     """
@@ -102,13 +107,15 @@ def identify_steps(
         why += ": a mass touches an obstacle in all of them, and contacts are its own" if steps.touching else ""
         return Identification(name, (), tolerance, why, compared=compared)
     some, whole = (steps.spread(most) for most in (STATES, max(STATES, ALL_UP_TO // steps.run.positions.shape[1])))
-    tried = {scheme: _match(scheme, stepper, some, length) for scheme, stepper in catalogue.items()}
-    near = [scheme for scheme, match in tried.items() if match is not None and match.error <= tolerance]
-    tried |= {scheme: _match(scheme, catalogue[scheme], whole, length) for scheme in near}
-    ranking = ranked([match for match in tried.values() if match is not None], tolerance, tolerance)
-    result = Identification(name, ranking, tolerance, compared=compared)
+    matches = (_match(scheme, stepper, some, length, FAR * tolerance) for scheme, stepper in catalogue.items())
+    tried = [match for match in matches if match is not None]
+    near = [_match(m.scheme, catalogue[m.scheme], whole, length) if m.error <= tolerance else m for m in tried]
+    tried = [match for match in near if match is not None]
+    result = Identification(name, ranked(tried, tolerance, tolerance), tolerance, compared=compared)
     if result.matches:
         return result
+    ranking = ranked(_nearest(tried, catalogue, some, length), tolerance, tolerance)
+    result = replace(result, ranking=ranking)
     memory = [scheme for scheme, stepper in catalogue.items() if not stepper.scheme.one_step]
     words = "no scheme of the catalogue can take single steps here"
     if ranking:
@@ -116,12 +123,31 @@ def identify_steps(
     return result.without_name(words + (f"; not comparable by single steps: {', '.join(memory)}" if memory else ""))
 
 
-def _match(name: str, stepper: SchemeStepper, steps: Steps, length: float) -> Match | None:
-    """How far single steps of a scheme are off, relative to each step's scale; None where it cannot take them."""
+def _nearest(
+    tried: Sequence[Match], catalogue: Mapping[str, SchemeStepper], steps: Steps, length: float
+) -> list[Match]:
+    """The same, of which those that were given up have gone on for as long as they may be the nearest."""
+    found: dict[str, Match | None] = {match.scheme: match for match in tried}
+    least = np.inf
+    for match in sorted(tried, key=lambda m: m.error):
+        given_up = match.steps < len(steps.systems)
+        if given_up and match.error <= least:
+            found[match.scheme] = _match(match.scheme, catalogue[match.scheme], steps, length, least)
+        now = found[match.scheme]
+        least = least if now is None else min(least, now.error)
+    return [match for match in found.values() if match is not None]
+
+
+def _match(name: str, stepper: SchemeStepper, steps: Steps, length: float, enough: float = np.inf) -> Match | None:
+    """How far single steps of a scheme are off, relative to each step's scale; None where it cannot take them.
+
+    Args:
+        enough: steps that come after one that is off by more are left out.
+    """
     if not stepper.scheme.one_step:
         return None
     x, v = steps.run.positions, steps.run.velocities
-    off = (0.0, 0.0)
+    off, count = (0.0, 0.0), 0
     try:
         for i, state in _stepped(stepper, steps):
             # a force rounds as its springs' lengths do: k / m times as much, in a step times h^2
@@ -130,10 +156,12 @@ def _match(name: str, stepper: SchemeStepper, steps: Steps, length: float) -> Ma
                 own = max(float(np.abs(x[i : i + 2]).max()), steps.dt * float(np.abs(v[i + 1]).max()), length) * stiff
                 apart = np.abs(state.positions - x[i + 1]).max(), steps.dt * np.abs(state.velocities - v[i + 1]).max()
             here = [length * float(a) / own if np.isfinite(a) else np.inf for a in apart]
-            off = (max(off[0], here[0]), max(off[1], here[1]))
+            off, count = (max(off[0], here[0]), max(off[1], here[1])), count + 1
+            if max(off) > enough:
+                break
     except (InputError, SolverError, Unsupported, np.linalg.LinAlgError):
         return None
-    return Match(name, *off, len(steps.systems))
+    return Match(name, *off, count)
 
 
 def _stepped(stepper: SchemeStepper, steps: Steps) -> Iterator[tuple[int, State]]:

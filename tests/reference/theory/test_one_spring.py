@@ -39,7 +39,7 @@ def implicit(ratio: float) -> float:
 
 def exponential_edges(ratio: float) -> list[float]:
     """Where h^2 w^2 = 2 (1 + e^(h c/m)) along the spring [s], rising: none, or two."""
-    h = np.linspace(1e-4, 60.0, 2_000_001) / W
+    h = np.linspace(1e-4, 60.0, 20_001) / W
     excess = (h * W) ** 2 - 2 * (1 + np.exp(2 * ratio * W * h))
     (crossings,) = np.nonzero(excess[:-1] * excess[1:] < 0)
     return [_newton(float(h[i]), ratio) for i in crossings]

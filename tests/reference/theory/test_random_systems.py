@@ -150,6 +150,7 @@ def checked(seed: int) -> Iterator[tuple[Scheme, Equilibrium, Rates, Limit]]:
             yield scheme, rest, found, limit
 
 
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("seed", range(8))
 def test_limits_are_those_of_dense_eigenvalues(seed: int) -> None:
     """By every scheme, on systems that share nothing. A larger sample, 300, is `make soak`'s."""
