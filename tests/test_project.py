@@ -10,6 +10,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
+import yaml
 from packaging.requirements import Requirement
 
 from experiments.experiment import experiments
@@ -222,7 +223,15 @@ def test_nothing_that_is_made_is_kept() -> None:
 
 def test_the_papers_are_there() -> None:
     """And the licence is BSD-3-Clause, in its own words."""
-    for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "LICENSE", "Makefile", "requirements.lock"):
+    for name in (
+        "README.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
+        "LICENSE",
+        "Makefile",
+        "requirements.lock",
+        "SECURITY.md",
+    ):
         assert (ROOT / name).stat().st_size > 0
     licence = " ".join((ROOT / "LICENSE").read_text(encoding="utf-8").split())
     for words in (
@@ -232,6 +241,17 @@ def test_the_papers_are_there() -> None:
         "3. Neither the name of the copyright holder nor the names of its contributors may be used",
     ):
         assert words in licence
+
+
+def test_issue_forms_can_be_read() -> None:
+    """Each with a name, a description, and fields that have labels."""
+    forms = [file for file in (ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml") if file.name != "config.yml"]
+    assert len(forms) == 3
+    for file in forms:
+        form = yaml.safe_load(file.read_text(encoding="utf-8"))
+        assert form["name"]
+        assert form["description"]
+        assert all(field["attributes"]["label"] for field in form["body"])
 
 
 def test_continuous_integration_runs_make_test() -> None:
