@@ -18,6 +18,10 @@ class Unsupported(Exception):  # noqa: N818 - one of the five words a run ends w
     """A stepper cannot do what is asked of it; the message is the reason."""
 
 
+class Fault(Exception):  # noqa: N818 - not ours
+    """What a user's own file does that no step may; the message names the file and says what, in a line."""
+
+
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> InputError:
     """The error for a name nobody has: names the nearest one, or all of them.
 

@@ -61,6 +61,8 @@ def name_line(explanation: Explanation) -> str:
         return f"{explanation.stepper} is what the catalogue has by this name{ties}"
     if found.identified_as is not None:
         return f"{found}. {found.remark}".rstrip(". ")
+    if not found.ranking:
+        return f"{explanation.stepper} cannot be told: {explanation.reason}"
     words = f"{explanation.stepper} is not in the catalogue"
     if explanation.tableau is not None:
         kind = "an explicit" if explanation.tableau.explicit else "an implicit"

@@ -14,8 +14,9 @@ from engines.line import started
 from engines.process.available import interpreter
 from engines.process.supervisor import supervisor
 from reference.breaking import breaking
+from engines.process.worker_main import one_line
 from reference.changes import Change, applied, changes_by_step
-from reference.errors import InputError, Unsupported
+from reference.errors import Fault, InputError, Unsupported
 from reference.outcome import Outcome, outcome_of
 from reference.state import State, Trajectory
 from reference.system import BREAK, HELD, MassSpringSystem
@@ -63,6 +64,11 @@ def interpreter_for(arguments: Sequence[Any]) -> Path | None:
     """The Python of an engine's own environment, where its package is not beside the lab but in one that is kept."""
     packages = [package for argument in arguments if isinstance(package := getattr(argument, "package", None), str)]
     return next((python for package in packages if (python := interpreter(package)) is not None), None)
+
+
+def in_this_process(function: Callable[..., T], *arguments: Any, time_limit: float = TIME_LIMIT) -> T | Outcome:
+    """What a function returns, called here: for what cannot travel to another process. There is no limit on it."""
+    return function(*arguments)
 
 
 @dataclass(frozen=True)
@@ -116,7 +122,9 @@ class EngineStepper:
         if self.version is None:
             return [Outcome("unsupported", f"{self.engine.package} is not installed")] * len(runs)
         cases = [tuple(run) for run in runs]
-        answer = isolated(run_engine_on_each, self.engine, cases, time_limit=self.time_limit)
+        # many short runs are no run to be kept
+        call = in_this_process if self.isolate is in_this_process else isolated
+        answer = call(run_engine_on_each, self.engine, cases, time_limit=self.time_limit)
         return [answer] * len(runs) if isinstance(answer, Outcome) else answer
 
 
@@ -156,4 +164,6 @@ def run_engine(
                 break
     except (Unsupported, InputError) as error:
         return Outcome("unsupported", str(error))
+    except Fault as error:
+        return Outcome("crashed", one_line(str(error)))
     return outcome_of(first, Trajectory.of(states), changes)

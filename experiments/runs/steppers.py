@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from engines.engine import absence, registry
+from engines.own.stepper import is_own, own_stepper
 from engines.process.isolation import EngineStepper
 from experiments.runs.runner import answer
+from reference.cache import remarks
 from reference.errors import InputError, unknown_name
 from reference.lecture.listings import listings
 from reference.schemes import catalogue
@@ -40,12 +42,20 @@ def _scheme_named(name: str, known: Iterable[str]) -> Stepper:
 def find_steppers(names: Iterable[str]) -> list[Stepper]:
     """The steppers of these names; of schemes also aliases, parameters, as in sweeps(rounds=3), and solvers.
 
+    A name may be a file of the user's own, FILE.py, FILE.py:FUNCTION or FILE.c (`engines.own`). What such a file does
+    that a step should not is among `cache.remarks`.
+
     Raises:
         InputError: for an unknown name, or an engine that is not installed.
     """
     known = all_steppers()
-    found = []
+    found: list[Stepper] = []
     for name in names:
+        if is_own(name):
+            own = own_stepper(name)
+            remarks.update(dict.fromkeys(own.remarks()))
+            found.append(own)
+            continue
         stepper = known.get(name) or _scheme_named(name, known)
         if isinstance(stepper, EngineStepper) and stepper.version is None:
             raise InputError(f"stepper {name!r} cannot run: {absence(stepper.engine)}")

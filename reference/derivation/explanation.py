@@ -11,7 +11,8 @@ from reference.derivation.implicit import implicit_tableau, tableau_by_points
 from reference.derivation.near import nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order
 from reference.derivation.of_schemes import updates_of_scheme
-from reference.derivation.oscillators import runs_of
+from reference.derivation.oscillators import ASIDE, Run, oscillator, runs_of
+from reference.derivation.oscillators import DT as OSCILLATOR_DT
 from reference.derivation.pasts import Pasts, pasts
 from reference.derivation.recording import Recording
 from reference.derivation.step_matrix import StepMatrix, step_matrix
@@ -47,14 +48,14 @@ class Explanation:
 
     stepper: str
     identification: Identification
-    pasts: Pasts | None
-    matrix: StepMatrix | None
-    follows: Consequences | None
-    updates: Updates | None
-    tableau: Tableau | None
-    nonlinear_order: int | None
-    nearest: str
-    reasons: tuple[str, ...]
+    pasts: Pasts | None = None
+    matrix: StepMatrix | None = None
+    follows: Consequences | None = None
+    updates: Updates | None = None
+    tableau: Tableau | None = None
+    nonlinear_order: int | None = None
+    nearest: str = ""
+    reasons: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
 
     @property
@@ -133,20 +134,24 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     """
     reasons: list[str] = []
     runs, precision = runs_of(stepper), precision_of(stepper)
+    (first,) = runs([Run(oscillator(0.5, 0.0, 0.0, ASIDE), OSCILLATOR_DT)])
+    if first.ending in ("crashed", "timed out"):
+        nothing = Identification(stepper.name, (), 0.0, first.reason)
+        return Explanation(stepper.name, nothing, reasons=(first.reason,))
     tell("its step matrix")
     matrix = _tried(lambda: step_matrix(runs, precision), reasons, "no step matrix: ")
     damped, dragged = (matrix.damped, matrix.dragged) if matrix else (False, False)
     tell("its past")
     past = _tried(lambda: pasts(runs, precision, damped, dragged), reasons, "whether it looks back: ")
+    if past is not None and not past.deterministic:
+        nothing = Identification(stepper.name, (), 0.0, "it is random")
+        return Explanation(stepper.name, nothing, past, reasons=("it is random: the same step twice is not the same",))
     tell("its slopes")
     updates, tableau, remarks = _asked(stepper, reasons)
     tell("its order")
     seen = None if precision == "single" else nonlinear_order(runs, damped, dragged)
     tell("its name")
-    system = find_scene("string").system(
-        {"masses": MASSES, "damping": DAMPING if damped else 0.0, "drag": DRAG if dragged else 0.0, "angle": 0.5}
-    )
-    identification = identify(stepper, system, DT, STEPS)
+    identification = _identified(stepper, damped, dragged)
     nearest = ""
     if identification.identified_as is None:
         reasons.append(f"not identified: {identification.reason}")
@@ -167,6 +172,17 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         tuple(reasons),
         remarks,
     )
+
+
+def _identified(stepper: Stepper, damped: bool, dragged: bool) -> Identification:
+    """On a string; of what knows one mass only, on an oscillator."""
+    damping, drag = DAMPING if damped else 0.0, DRAG if dragged else 0.0
+    string = find_scene("string").system({"masses": MASSES, "damping": damping, "drag": drag, "angle": 0.5})
+    found = identify(stepper, string, DT, STEPS)
+    if found.ranking:
+        return found
+    hanging = find_scene("spring").system({"damping": damping, "drag": drag})
+    return identify(stepper, hanging, DT, STEPS)
 
 
 def _tried(find: Callable[[], Any], reasons: list[str], words: str) -> Any:

@@ -41,7 +41,7 @@ def tableau_by_points(
         start: y0, all unknowns in a row; end: y1.
         points: all P that it asked at, in order; slopes: f there.
     """
-    kept = _distinct(points)[-LAST:]
+    kept = [i for i in _distinct(points) if not _differenced(points, i)][-LAST:]
     for stages in range(1, MOST_STAGES + 1):
         for chosen in reversed(list(combinations(kept, stages))):
             matrix = h * np.stack([slopes[i] for i in chosen], axis=1)
@@ -62,6 +62,11 @@ def _coefficients(matrix: Array, change: Array) -> Array | None:
 def _number(c: float) -> Number:
     found = recognised(c, OFF)
     return c if found is None else found
+
+
+def _differenced(points: Sequence[Array], i: int) -> bool:
+    """Whether a point is another's but for one unknown: a Jacobian was made of differences there."""
+    return any(np.count_nonzero(points[i] != other) == 1 for other in points[max(0, i - 2 * len(points[i])) : i])
 
 
 def _distinct(points: Sequence[Array]) -> list[int]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cache
 from itertools import product
 
+import numpy as np
+
 from reference.derivation.formula import number
 from reference.derivation.implicit import implicit_tableau
 from reference.derivation.of_schemes import tableau_of_scheme
@@ -35,14 +37,17 @@ def nearest_known(name: str, tableau: Tableau | None, matrix: StepMatrix | None)
     if matrix is None:
         return ""
     text = matrix.text()
+    if not all(matrix.asks(letter) for letter in "abd"):
+        return ""
     places = list(product(range(2), range(2)))
     differing = {
         scheme: [(i, j) for i, j in places if known[i][j] != text[i][j]]
         for scheme, known in known_matrices().items()
         if scheme != name
     }
-    scheme = min(differing, key=lambda s: len(differing[s]))
-    if len(differing[scheme]) > 2:
+    # first by what they do without damping: a mistake is often in that alone
+    scheme = min(differing, key=lambda s: (_apart_undamped(matrix, s), len(differing[s]), _apart(matrix, s)))
+    if len(differing[scheme]) > 2 and _apart_undamped(matrix, scheme):
         return ""
     if not differing[scheme]:
         return f"its step matrix is that of {scheme}: they differ in motion that is not linear"
@@ -65,7 +70,25 @@ def known_matrices() -> dict[str, list[list[str]]]:
     for name, scheme in catalogue.schemes().items():
         if scheme.one_step:
             try:
-                found[name] = step_matrix(runs_of(SchemeStepper(scheme))).text()
+                found[name] = _matrix_of(name).text()
             except Unsupported:
                 continue
     return found
+
+
+@cache
+def _matrix_of(scheme: str) -> StepMatrix:
+    return step_matrix(runs_of(SchemeStepper(catalogue.find(scheme))))
+
+
+def _apart_undamped(matrix: StepMatrix, scheme: str) -> int:
+    """In how many entries two step matrices differ without damping and drag."""
+    a, nothing = matrix.samples.a, 0 * matrix.samples.a
+    off = np.abs(_matrix_of(scheme).at(a, nothing, nothing) - matrix.at(a, nothing, nothing)).max(axis=0)
+    return int((off > 1e-9).sum())
+
+
+def _apart(matrix: StepMatrix, scheme: str) -> float:
+    """How far two step matrices are apart where one was measured."""
+    at = matrix.samples
+    return float(np.abs(_matrix_of(scheme).at(at.a, at.b, at.d) - matrix.measured).mean())

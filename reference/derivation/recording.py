@@ -39,7 +39,7 @@ Slopes = Callable[[float, Array, Array], tuple[Array, Array]]
 Advance = Callable[[Slopes, State, float], State]
 
 
-class TooManyCalls(Exception):  # noqa: N818 - an ending, not an error
+class TooManyCalls(BaseException):
     """A step asks more than MOST_CALLS times."""
 
 

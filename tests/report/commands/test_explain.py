@@ -45,3 +45,22 @@ def test_bad_input_is_one_line() -> None:
     assert springlab("explain", "heun", "--plot", "region.doc").code == 2
     said = springlab("explain", "huen")
     assert (said.code, said.err.strip()) == (2, "springlab: unknown stepper 'huen': did you mean 'heun'?")
+
+
+def test_a_file_of_the_users_own_is_explained(tmp_path: Path) -> None:
+    """Heun with weights 2/3 and 1/3: no name, and the mistake in numbers."""
+    file = tmp_path / "mine.py"
+    file.write_text("def step(f, y, t, h):\n    k = f(y, t)\n    return y + h / 3 * (2 * k + f(y + h * k, t + h))\n")
+    document = json.loads(springlab("explain", str(file), "--json").out)
+    assert document["tableau"] == {"a": [["0", "0"], ["1", "0"]], "b": ["2/3", "1/3"], "c": ["0", "1"]}
+    assert (document["identified_as"], document["order"]) == (None, 1)
+    assert "b2 is 1/3 where heun has 1/2" in springlab("explain", str(file)).out
+
+
+def test_a_broken_file_is_told_in_a_line(tmp_path: Path) -> None:
+    """And nothing else is claimed."""
+    file = tmp_path / "mine.py"
+    file.write_text("def step(f, y, t, h):\n    return y[1:]\n")
+    document = json.loads(springlab("explain", str(file), "--json").out)
+    assert document["reason"] == "mine.py returns y of shape (7,): expected (8,)"
+    assert document["step_matrix"] is None
