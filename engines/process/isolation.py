@@ -13,8 +13,8 @@ from engines.engine import Engine, Precision, absence, precision, version
 from engines.line import started
 from engines.process.available import interpreter
 from engines.process.supervisor import supervisor
-from reference.breaking import breaking
 from engines.process.worker_main import one_line
+from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step
 from reference.errors import Fault, InputError, Unsupported
 from reference.outcome import Outcome, outcome_of
