@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from engines.own.stepping import OwnStep
-from reference.derivation.recording import Advance, Recording, Slopes, TooManyCalls, record
 from reference.errors import Fault
 from reference.state import Array, State
+
+if TYPE_CHECKING:
+    from reference.derivation.recording import Advance, Recording, Slopes
 
 
 def recording_of(make: Callable[[], OwnStep]) -> Recording | None:
@@ -19,6 +21,8 @@ def recording_of(make: Callable[[], OwnStep]) -> Recording | None:
     Args:
         make: the step anew, without memory of earlier calls.
     """
+    from reference.derivation.recording import TooManyCalls, record
+
     step = make()
     if step.form not in ("slope", "acceleration", "system"):
         return None

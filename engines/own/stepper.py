@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -17,8 +17,6 @@ from engines.own.forms import roles_of
 from engines.own.recorded import recording_of
 from engines.own.stepping import OwnStep
 from engines.process.isolation import EngineStepper, in_this_process
-from reference.derivation.oscillators import oscillator
-from reference.derivation.recording import Recording
 from reference.errors import Fault, InputError, Unsupported
 from reference.line import system_in_plane
 from reference.obstacles import project_out
@@ -26,6 +24,9 @@ from reference.outcome import Outcome
 from reference.printable import printable
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
+
+if TYPE_CHECKING:
+    from reference.derivation.recording import Recording
 
 #: A run of an own file may take so long [s]; the look at what it should not do, less.
 TIME_LIMIT, LOOK_LIMIT = 20.0, 5.0
@@ -225,4 +226,6 @@ def look_at(engine: OwnFile | OwnFunction) -> tuple[str, ...]:
 
 def _small() -> MassSpringSystem:
     """One mass that hangs on a spring in the plane, off its rest and moving: all forms can step it."""
+    from reference.derivation.oscillators import oscillator
+
     return system_in_plane(oscillator(0.3, 0.0, 0.0, 1 / 32, 1 / 4))
