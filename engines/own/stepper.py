@@ -21,7 +21,6 @@ from reference.errors import Fault, InputError, Unsupported
 from reference.line import system_in_plane
 from reference.obstacles import project_out
 from reference.outcome import Outcome
-from reference.printable import printable
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -57,6 +56,8 @@ class OwnFile:
     @property
     def name(self) -> str:
         """The file's name, and the function's where that is not `step`."""
+        from reference.printable import printable
+
         function = "" if self.function == python_file.DEFAULT else f":{self.function}"
         return printable(f"{Path(self.path).name}{function}")
 
