@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite, why
 from experiments.runs.progress import Progress
+from experiments.runs.runner import current
 from experiments.runs.side_by_side import side_by_side
 from experiments.runs.steppers import installed_engines
 from reference.changes import whole_steps
@@ -30,6 +31,10 @@ SHOWN_BY, STATES = "heun", 60
 
 #: How often a dt is halved for a scene that diverges with its own.
 HALVINGS = 6
+
+
+#: Engines with what each did on a scene.
+Outcomes = list[tuple[Stepper, Outcome]]
 
 
 @dataclass(frozen=True)
@@ -72,21 +77,40 @@ def run(progress: Progress) -> Result:
     """All engines on all scenes; and how each scene moves, by the reference."""
     runs: list[Run] = []
     motions: dict[str, Shown] = {}
-    for name, scene in scenes().items():
-        runs += _runs(scene, lambda engine, name=name: progress(f"{name}, {engine}"))  # type: ignore[misc]
-        progress(f"{name}, {SHOWN_BY}")
-        motions[name] = shown(scene)
+    for scene, outcomes in _by_engines(progress):
+        progress(f"{scene.name}, which schemes the engines are")
+        runs += _identified(scene, outcomes)
+        progress(f"{scene.name}, {SHOWN_BY}")
+        motions[scene.name] = shown(scene)
     return result_of(runs, motions)
 
 
-def _runs(scene: Scene, progress: Progress) -> Iterator[Run]:
+def _by_engines(progress: Progress) -> Iterator[tuple[Scene, Outcomes]]:
+    """Every scene with what every engine did on it. While one is worked on, the engines are at the next."""
+
+    def outcomes(scene: Scene) -> Outcomes:
+        setup = scene.setup({})
+
+        def run_of(engine: Stepper) -> Outcome:
+            return engine.run(setup.system, setup.dt, STEPS, setup.changes)
+
+        return list(side_by_side(installed_engines(), run_of, lambda engine: progress(f"{scene.name}, {engine}")))
+
+    first, *others = scenes().values()
+    with current().threads(1) as ahead:
+        scene, coming = first, ahead.submit(outcomes, first)
+        for following in others:
+            done, last = coming.result(), scene
+            scene, coming = following, ahead.submit(outcomes, following)
+            yield last, done
+        yield scene, coming.result()
+
+
+def _identified(scene: Scene, outcomes: Outcomes) -> Iterator[Run]:
     setup = scene.setup({})
-    system, changes = setup.system, setup.changes
-    engines = installed_engines()
-    outcomes = list(side_by_side(engines, lambda s: s.run(system, scene.dt, STEPS, changes), progress))
-    found = identify_all(outcomes, system, scene.dt, STEPS, changes).each
+    found = identify_all(outcomes, setup.system, setup.dt, STEPS, setup.changes).each
     for (stepper, outcome), identification in zip(outcomes, found, strict=True):
-        yield Run(scene, system, stepper, outcome, identification)
+        yield Run(scene, setup.system, stepper, outcome, identification)
 
 
 def shown(scene: Scene, dt: float | None = None) -> Shown:

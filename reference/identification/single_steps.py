@@ -165,11 +165,14 @@ def _match(name: str, stepper: SchemeStepper, steps: Steps, length: float, enoug
 
 
 def _stepped(stepper: SchemeStepper, steps: Steps) -> Iterator[tuple[int, State]]:
-    """One step of a scheme from each of the states, by the state's number."""
+    """One step of a scheme from each of the states, by the state's number.
+
+    The last is the first: a motion that has come far tells schemes apart sooner than its start does.
+    """
     motion: Equations | None = None
     before: MassSpringSystem | None = None
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        for i, system in steps.systems.items():
+        for i, system in reversed(list(steps.systems.items())):
             if motion is None or system is not before:
                 motion, before = stepper.equations(system), system
                 step = stepper.scheme.on(motion)
