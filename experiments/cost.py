@@ -49,6 +49,10 @@ MASSES = (10, 30, 100, 300, 1000)
 MORE_MASSES = (3000, 10_000, 100_000)
 DT = 1e-3
 
+#: Strings of so many masses have all the kernels there are: of large systems (`reference.compiled.runs`), whose text is
+#: longest, and of others.
+COMPILED_FOR = (MORE_MASSES[-1], MASSES[0])
+
 #: What ratios are to: its kernel on the same string in the same run.
 ANCHOR = "kick_drift"
 
@@ -105,12 +109,13 @@ def compile_kernels() -> None:
     """All kernels, side by side in processes of their own: from the disk this one then has them in no time."""
     compilable = [s.scheme.name for s in steppers() if isinstance(s, SchemeStepper) and not why_not_compiled(s.scheme)]
     with current().threads() as pool:
-        list(pool.map(partial(isolated, compile_kernel), compilable))
+        each = [(name, masses) for masses in COMPILED_FOR for name in compilable]
+        list(pool.map(partial(isolated, compile_kernel), *zip(*each, strict=True)))
 
 
-def compile_kernel(name: str) -> None:
-    """A scheme's kernel, by its first step."""
-    advance(string(), find_scheme(name), DT, 1)
+def compile_kernel(name: str, masses: int) -> None:
+    """A scheme's kernel on the string of so many masses, by its first step; it is run by one thread, as it is timed."""
+    advance(string(masses), find_scheme(name), DT, 1, threads=1)
 
 
 def result_of(costs: Sequence[Cost]) -> Result:

@@ -24,8 +24,8 @@ from report.figures import animate, draw
 from report.page.section import Section
 from report.page.section_cache import cache_section, cached_section
 
-#: These take longest, and begin first: no core is to wait for the last of them.
-LONGEST = ("scenes", "maps", "stability", "energy", "order")
+#: These take longest, and begin first, in this order: no core is to wait for the last of them.
+LONGEST = ("scenes", "stability", "maps", "energy", "numbering", "drape", "order")
 
 #: What every experiment's process draws with.
 DRAWN_WITH = ("matplotlib.figure", "matplotlib.backends.backend_svg", "report.page.sections")
@@ -77,7 +77,7 @@ def all_sections(
     progress(f"{len(done)} of {len(experiments)} done")
     missing = [experiment for experiment in experiments if experiment.name not in done]
     parallel = [experiment for experiment in missing if not experiment.timed]
-    parallel.sort(key=lambda experiment: experiment.name not in LONGEST)
+    parallel.sort(key=lambda experiment: LONGEST.index(experiment.name) if experiment.name in LONGEST else len(LONGEST))
     alone = [experiment for experiment in missing if experiment.timed]
     make = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
 

@@ -13,7 +13,7 @@ from engines.process.isolation import EngineStepper
 from experiments import cost
 from experiments.benchmark.timing import Speeds, Timing
 from experiments.cost import ANCHOR, DTS, MASSES, Cost, Point
-from reference.compiled.kernels import advance, arrays_of
+from reference.compiled.kernels import advance, arrays_of, loops_for
 from reference.compiled.loops import Loops
 from reference.forces import SpringMotion
 from reference.pendulum import PendulumMotion
@@ -39,6 +39,16 @@ def check_order(scheme: Scheme) -> None:
     """
     *_, larger, smaller = points_of(scheme)
     assert np.log2(larger.error / smaller.error) == pytest.approx(scheme.order, abs=0.05)
+
+
+def test_every_kernel_that_is_timed_is_compiled_beforehand() -> None:
+    """Strings of all sizes have no other loops than those of the sizes that are compiled, side by side, before."""
+
+    def texts(sizes: tuple[int, ...]) -> set[str]:
+        return {loops_for(find("heun"), cost.string(masses)).text() for masses in sizes}
+
+    assert texts(cost.COMPILED_FOR) == texts((*cost.MASSES, *cost.MORE_MASSES))
+    assert texts(cost.COMPILED_FOR[1:]) != texts(cost.MORE_MASSES)
 
 
 @pytest.mark.parametrize("name", ["kick_drift", "drift_kick", "heun", "velocity_verlet", "rk4"])
