@@ -2,9 +2,9 @@
 
 javascript  Python's text of loops over numbers as JavaScript
 programs    schemes, the spring's law and obstacles, each from its one definition
-equations   what a scheme computes, written as equations
 system_data systems and scenes as the page reads them
 recordings  engines' runs, quantised, that the page lays over its own
+presets     which scenes there are where none is named
 lab_page    all of it, with the page's own scripts, in one file
 
 The page's own scripts and words stand in report/templates/browser.

@@ -23,8 +23,9 @@ from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, S
 from reference.schemes.catalogue import Scheme, schemes
 from reference.spring_law import elastic_energy, force_by_rate, force_by_stretch, spring_force
 from reference.theory.runge_kutta import stability_polynomial
-from report.browser.equations import equations_of
 from report.browser.javascript import Translation, definitions, of_expression, plain_function
+from report.site.linear_form import NotLinear, equations
+from report.site.mathml import of_equations
 
 #: Dimensions of systems.
 DIMENSIONS = (1, 2, 3)
@@ -114,11 +115,19 @@ def page_scheme(scheme: Scheme) -> PageScheme:
         "kind": json.dumps(scheme.kind),
         "order": str(scheme.order),
         "summary": json.dumps(scheme.summary),
-        "equations": json.dumps(equations_of(scheme)),
+        "equations": json.dumps(_equations(scheme)),
         "polynomial": json.dumps(stability_polynomial(scheme)),
         **own,
     }
     return PageScheme(scheme, "{\n" + ",\n".join(f"{key}: {value}" for key, value in entries.items()) + "\n}")
+
+
+def _equations(scheme: Scheme) -> str:
+    """What it computes in a step, as MathML; empty where that is no row of sums."""
+    try:
+        return of_equations(equations(trace(scheme)))
+    except (Unsupported, NotLinear):
+        return ""
 
 
 def script() -> str:

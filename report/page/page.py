@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from engines.engine import installed_version, registry
 from experiments.runs.environment import environment
+from report.browser.beside import BESIDE
 from report.figures import Picture
 from report.figures.overview import Explained
 from report.page import overview
@@ -53,8 +54,12 @@ class First:
     downloads: Sequence[tuple[str, str]] = ()
 
 
-def page(sections: Sequence[Section]) -> str:
-    """The report of experiments as HTML that asks for nothing from anywhere."""
+def page(sections: Sequence[Section], lab: str = "") -> str:
+    """The report of experiments as HTML that asks for nothing from anywhere.
+
+    Args:
+        lab: the file of the lab in a browser that stands beside it, to be linked; empty where there is none.
+    """
     engines = explained(next((section for section in sections if section.experiment.name == "divergence"), None))
     first = First(
         "springlab report",
@@ -65,7 +70,7 @@ def page(sections: Sequence[Section]) -> str:
         ENGINE_COLUMNS,
         [[engine.engine, engine.scheme, engine.error, engine.deviation] for engine in engines],
     )
-    return _rendered(first, sections, sections, packages(_identified(engines)))
+    return _rendered(first, sections, sections, packages(_identified(engines)), lab)
 
 
 def scene_page(name: str, sections: Sequence[Section]) -> str:
@@ -89,7 +94,9 @@ def scene_page(name: str, sections: Sequence[Section]) -> str:
     return _rendered(first, others, sections, packages(known))
 
 
-def _rendered(first: First, shown: Sequence[Section], sections: Sequence[Section], cards: Sequence[Package]) -> str:
+def _rendered(
+    first: First, shown: Sequence[Section], sections: Sequence[Section], cards: Sequence[Package], lab: str = ""
+) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     templates = Environment(
@@ -104,6 +111,8 @@ def _rendered(first: First, shown: Sequence[Section], sections: Sequence[Section
         undone=_undone(sections),
         environment=_environment(),
         script=_script() if any(section.motions for section in shown) else "",
+        beside=BESIDE if lab else {},
+        lab=lab,
         findings=FINDINGS,
         rows=ROWS,
     )

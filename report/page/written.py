@@ -9,9 +9,15 @@ from pathlib import Path
 from experiments.experiment import NAMES, Experiment, find
 from experiments.runs.progress import Progress
 from reference.files.setup import setup_for
+from report.browser.beside import BESIDE, scenes_beside
+from report.browser.lab_page import lab_page
+from report.browser.presets import PRESETS
 from report.page.page import page, scene_page
 from report.page.section import Section
 from report.page.sections import all_sections, scene_sections
+
+#: The lab in a browser, beside the page.
+LAB = "lab.html"
 
 
 @dataclass(frozen=True)
@@ -25,7 +31,7 @@ class Written:
 def write_page(
     names: Sequence[str], folder: Path, store: Path, progress: Progress, *, fresh: bool = False, full: bool = False
 ) -> Written:
-    """The page of experiments.
+    """The page of experiments, and the lab in a browser beside it, in states that show them.
 
     Args:
         names: of which; without any those that belong in the report, in full all.
@@ -38,7 +44,11 @@ def write_page(
     wanted = _wanted(names, full)
     folder.mkdir(parents=True, exist_ok=True)
     sections = all_sections(wanted, folder, progress, store, fresh=fresh, full=full)
-    return _written(folder, page(sections), sections)
+    lab = LAB if any(section.experiment.name in BESIDE for section in sections) else ""
+    if lab:
+        presets = [preset for preset in PRESETS if (preset.name or preset.scene) in scenes_beside()]
+        (folder / lab).write_text(lab_page(presets), encoding="utf-8")
+    return _written(folder, page(sections, lab), sections)
 
 
 def write_scene_page(scene: str, folder: Path, progress: Progress) -> Written:

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import click
 
+from report.browser.lab_page import lab_page
+from report.browser.presets import PRESETS
 from report.commands.terminal import RESULTS, in_one_line, say
 from report.site.accessible import mend
 from report.site.generated import PAGES
@@ -44,12 +46,14 @@ def build(out: Path, *, notebooks: bool = True) -> int:
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), default=RESULTS / "docs", show_default=True)
 @click.option("--notebooks/--no-notebooks", default=True, help="Run them, or show them as they are.")
 def main(out: Path, notebooks: bool) -> None:
-    """Write the documentation as a site into a folder."""
+    """Write the documentation as a site into a folder, with the lab for a browser beside it, lab.html."""
     code = 0
 
     def made() -> None:
         nonlocal code
         code = build(out, notebooks=notebooks)
+        if code == 0:
+            (out / "lab.html").write_text(lab_page(PRESETS), encoding="utf-8")
 
     code = in_one_line(made) or code
     if code == 0:

@@ -167,7 +167,9 @@ function showEquations() {
   const names = [...new Set(lab.lanes.filter(lane => !lane.recording).map(lane => lane.scheme))];
   $("equations").replaceChildren(...names.flatMap(name => {
     const {summary, equations} = schemes[name];
-    return [element("p", {className: "small"}, `${name}: ${summary}`), element("pre", {tabIndex: 0}, equations.length ? equations.join("\n") : `${name} ${say("no_equations")}`)];
+    const shown = element("div", {className: "equations wide", tabIndex: 0, role: "group", ariaLabel: `${say("equations")}: ${name}`});
+    if (equations) shown.innerHTML = equations; else shown.textContent = `${name} ${say("no_equations")}`;
+    return [element("p", {className: "small"}, `${name}: ${summary}`), shown];
   }));
 }
 

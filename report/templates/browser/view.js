@@ -34,6 +34,10 @@ function fitView() {
       for (const sign of [-1, 1]) points.push(values.slice(0, d).map(value => value + sign * radius));
     }
   }
+  if (d === 2 && system.fixed.length === 1) {  // what hangs on one mass swings to both sides
+    const about = system.positions[2 * system.fixed[0]];
+    points.push(...points.map(([x, y]) => [2 * about - x, y]));
+  }
   const low = [], high = [];
   for (let axis = 0; axis < d; axis++) {
     low[axis] = Math.min(...points.map(point => point[axis])); high[axis] = Math.max(...points.map(point => point[axis]));
@@ -41,7 +45,7 @@ function fitView() {
   view.centre = low.map((value, axis) => (value + high[axis]) / 2);
   const around = points.map(point => seen(point, d));
   const across = axis => Math.max(...around.map(point => Math.abs(point[axis]))) || 0;
-  view.width = 2.5 * Math.max(across(0), 0.1 * across(1), 1e-6); view.height = 2.5 * Math.max(across(1), 0.1 * across(0), 1e-6);
+  view.width = 2.5 * Math.max(across(0), 0.1 * across(1), 1e-6); view.height = 2.9 * Math.max(across(1), 0.1 * across(0), 1e-6);
   view.zoom = 1;
   view.selected = null;
 }
@@ -70,6 +74,7 @@ function draw() {
   view.boxes = boxes(width, height);
   const [, , w, h] = view.boxes[0];
   view.scale = view.zoom * Math.min(w / view.width, h / view.height);
+  follow(w, h);
   lab.lanes.forEach((lane, k) => {
     paper.save();
     const [left, top, boxWidth, boxHeight] = view.boxes[k];
@@ -93,6 +98,18 @@ function drawNames() {
     paper.fillStyle = colourOf(k); drawMarker(paper, k, left + 14, y, 5);
     paper.fillStyle = lane.world.blownUp ? soft() : ink(); paper.fillText(nameOf(lane) + (lane.world.blownUp ? " ✕" : ""), left + 26, y);
   });
+}
+
+// What nothing holds may fall out of the picture: then the picture goes along.
+function follow(width, height) {
+  const {system} = lab.scene, {d} = system;
+  const free = lab.lanes.filter(({world}) => !world.blownUp);
+  if (system.fixed.length || !free.length || lab.grabbed) return;
+  const mean = new Array(d).fill(0);
+  for (const {world: {memory: {F, at}}} of free) for (let e = 0; e < at.n * d; e++) mean[e % d] += F[at.x + e] / at.n / free.length;
+  const [right, up] = seen(mean, d);
+  const beyond = Math.max(Math.abs(right) * view.scale / (0.12 * width), Math.abs(up) * view.scale / (0.08 * height));
+  if (beyond > 1 && beyond < Infinity) view.centre = view.centre.map((c, axis) => c + (1 - 1 / beyond) * (mean[axis] - c));
 }
 
 function drawLane({world: {memory: {F, I, at}, natural}, recording}, k) {
