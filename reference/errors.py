@@ -23,12 +23,17 @@ class Fault(Exception):  # noqa: N818 - not ours
 
 
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> InputError:
-    """The error for a name nobody has: names the nearest one, or all of them.
+    """The error for a name nobody has: names those that begin so, the nearest one, or all of them.
 
     >>> print(unknown_name("scheme", "huen", ["euler", "heun"]))
     unknown scheme 'huen': did you mean 'heun'?
+    >>> print(unknown_name("engine", "mujoco", ["mujoco_flex", "mujoco_rope", "pymunk_springs"]))
+    unknown engine 'mujoco': expected one of mujoco_flex, mujoco_rope
     """
     names = sorted(known)
+    begun = [each for each in names if each.startswith(f"{name}_")]
+    if len(begun) > 1:
+        return InputError(f"unknown {kind} {name!r}: expected one of {', '.join(begun)}")
     near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
     hint = f"did you mean {near[0]!r}?" if near else f"expected one of {', '.join(names)}"
     return InputError(f"unknown {kind} {name!r}: {hint}")

@@ -19,6 +19,9 @@ def write_anew(file: Path, content: bytes) -> None:
             new.write(content)
         os.chmod(name, 0o644)
         os.replace(name, file)
+    except OSError as error:
+        os.unlink(name)
+        raise OSError(error.errno, error.strerror, str(file)) from None  # a full disk names no file by itself
     except BaseException:
         os.unlink(name)
         raise

@@ -185,8 +185,12 @@ def _values(text: str) -> Sequence[float]:
         return [_finite(value) for value in text.split(",")]
     low, high, number, *spacing = text.split(":")
     ends = (_finite(low), _finite(high))
-    if spacing not in ([], ["log"]) or int(number) < 1 or (spacing and min(ends) <= 0):
+    if spacing not in ([], ["log"]):
         raise ValueError(text)
+    if int(number) < 1:
+        raise InputError(f"COUNT = {int(number)}: expected at least 1")
+    if spacing and min(ends) <= 0:
+        raise InputError(f"from {ends[0]:g} to {ends[1]:g} by equal factors: expected both ends > 0 with :log")
     if int(number) > MOST_VALUES:
         raise InputError(f"{int(number):,} values: expected at most {MOST_VALUES:,}")
     space = np.geomspace if spacing else np.linspace

@@ -64,6 +64,7 @@ from reference.drives import Ramp, Sine
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
 from reference.files.regular_file import check_file
+from reference.files.toml_message import plain
 from reference.nonlinear import KINDS, ONE_SIDED, NonlinearSprings
 from reference.obstacles import KINDS as OBSTACLES
 from reference.obstacles import Obstacle, obstacle_of
@@ -260,7 +261,7 @@ def load(path: Path, settings: Mapping[str, Any], dt: float | None = None, durat
     try:
         content = msgspec.toml.decode(text, type=SceneFile)
     except msgspec.ValidationError as error:
-        raise InputError(f"scene file {path}{_line(text, str(error))}: {_plain(str(error))}") from None
+        raise InputError(f"scene file {path}{_line(text, str(error))}: {plain(str(error), SceneFile)}") from None
     except (msgspec.DecodeError, RecursionError) as error:
         raise InputError(f"scene file {path}: {error}") from None
     try:
@@ -344,12 +345,6 @@ def _within(table: str, make: Callable[[], T]) -> T:
         return make()
     except InputError as error:
         raise InputError(f"{table}.{error}") from None
-
-
-def _plain(message: str) -> str:
-    """The validator's message as ours are: key path first."""
-    what, _, where = message.partition(" - at `$.")
-    return f"{where.rstrip('`')}: {what[0].lower()}{what[1:]}" if where else what[0].lower() + what[1:]
 
 
 def _line(text: str, message: str) -> str:

@@ -7,6 +7,9 @@ from collections.abc import Iterable
 from reference.changes import Change, Drive
 from reference.errors import InputError
 
+#: What has an option of its own, and is often taken for a parameter.
+OPTIONS = ("dt", "duration")
+
 
 def parse_settings(words: Iterable[str]) -> dict[str, str]:
     """KEY=VALUE as a dictionary. Raises InputError for a word of another form."""
@@ -15,6 +18,8 @@ def parse_settings(words: Iterable[str]) -> dict[str, str]:
         key, equals, value = word.partition("=")
         if not (key and equals and value):
             raise InputError(f"--set {word!r}: expected KEY=VALUE")
+        if key in OPTIONS:
+            raise InputError(f"--set {word!r}: {key} is no parameter of a scene: expected --{key} {value}")
         settings[key] = value
     return settings
 

@@ -99,6 +99,19 @@ def out_option(default: Path | None, text: str | None = None) -> Decorator:
     return click.option("--out", type=folder, default=default, show_default=default is not None, help=text)
 
 
+def _refuse_stepper(scene: str) -> None:
+    """Raises InputError for a stepper in a scene's place."""
+    from reference.files.setup import is_file
+    from reference.scenes import scenes
+
+    if is_file(scene) or scene in scenes():
+        return
+    from experiments.runs.steppers import all_steppers
+
+    if scene in all_steppers():
+        raise InputError(f"scene {scene!r}: that is a stepper: expected a scene; identify takes STEPPER SCENE")
+
+
 def setup_options(command: Command) -> Command:
     """Add SCENE, --dt, --duration, --set, --change, --ramp and --sine.
 
@@ -122,6 +135,7 @@ def setup_options(command: Command) -> Command:
     ) -> Any:
         from reference.files.setup import setup_for
 
+        _refuse_stepper(scene)
         return command(setup=setup_for(scene, dt, duration, settings, changes, (*ramps, *sines)), **others)
 
     decorated: Command = with_setup

@@ -78,5 +78,8 @@ def sweep_command(
         document = {"runs": done, "run_now": runner.done, "seconds": seconds, "outcomes": endings}
         click.echo(json.dumps(document, indent=2))
         return
-    show_table("", ["stepper", "runs", "most frequent reason"], [found.row for found in tallies.values()])
+    columns = ["stepper", "runs", "most frequent reason"]
+    # a reason is of what crashed, timed out or was refused: often there is none
+    known = columns if any(found.reasons for found in tallies.values()) else columns[:2]
+    show_table("", known, [found.row[: len(known)] for found in tallies.values()])
     click.echo(f"{done} runs, {runner.done} of them now, in {seconds:.3g} s; `springlab results` shows them")

@@ -1,5 +1,7 @@
 """How Sphinx makes the site. Nothing in it is asked for from outside."""
 
+from typing import Any
+
 project = "springlab"
 author = "the springlab developers"
 copyright = "the springlab developers; BSD-3-Clause"
@@ -42,3 +44,10 @@ default_role = "code"
 copybutton_exclude = ".linenos, .gp, .go"
 copybutton_prompt_text = r">>> |\.\.\. "
 copybutton_prompt_is_regexp = True
+
+
+def setup(app: Any) -> None:
+    """Records of the ground are shown as they are."""
+    from pygments.lexers.special import TextLexer
+
+    app.add_lexer("csv", TextLexer)

@@ -294,7 +294,7 @@ def test_masses_one_by_one(tmp_path: Path) -> None:
         ("total_mass = 0.2", "masses = [1.0, 2.0]", "masses has shape"),
         ("fixed = [0, 2]", "fixed = [4]", "fixed[0] = 4: expected a mass from 0 to 3"),
         ("stiffness = 50.0", "", "mesh: object missing required field `stiffness`"),
-        ("stiffness = 50.0", "stiffnes = 50.0", "unknown field `stiffnes`"),
+        ("stiffness = 50.0", "stiffnes = 50.0", "unknown key 'stiffnes'"),
         ("blanket.obj", "sheet.obj", "sheet.obj: no such file"),
         ("[mesh]", "[system]\n[mesh]", "system: object missing required field"),
         ("dt = 2e-4", 'scene = "string"', 'expected either scene = "..." or a table [system] or a table [mesh]'),

@@ -63,7 +63,7 @@ def test_of_a_mesh_and_of_a_named_scene(tmp_path: Path) -> None:
         ("tension_only = 1", "line 7: system.tension_only: expected"),
         ("breaking_force = -1", "line 7: breaking_force = -1: expected a number > 0 [N]"),
         ("largest_force = [1, 2, 3]", "line 7: largest_force has shape (3,)"),
-        ("hardenin = 1", "line 7: system: object contains unknown field `hardenin`"),
+        ("hardenin = 1", "line 7: system: unknown key 'hardenin'"),
     ],
 )
 def test_a_mistake_is_told_with_its_line(tmp_path: Path, line: str, said: str) -> None:
