@@ -248,6 +248,7 @@ def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
     assert kinds == ["bounded", "growing"]
 
 
+@pytest.mark.rotating(3)
 def test_engines_do_with_energy_what_their_schemes_do(engine: Engine, on: Bench) -> None:
     """An engine is identified, and its energy is of its scheme's kind; theirs differ by chaos, from rounding on."""
     row = measure(EngineStepper(engine), on)

@@ -68,6 +68,7 @@ def test_slopes_show_mistakes(scheme: Scheme, benches: list[Bench]) -> None:
         check_order(SchemeStepper(scheme), benches)
 
 
+@pytest.mark.rotating(3)
 def test_an_engine_has_the_errors_of_its_scheme(engine: Engine, benches: list[Bench]) -> None:
     """It is identified, has that scheme's order, and differs from it by identification's tolerance at every dt."""
     row = measure(EngineStepper(engine), benches)

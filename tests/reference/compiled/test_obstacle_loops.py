@@ -55,6 +55,7 @@ def check_same_bits(system: MassSpringSystem, state: State, scheme: str = "heun"
     assert end.positions.tolist() != unhindered.positions.tolist()
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", SYSTEMS)
 def test_the_loops_do_what_the_function_does_to_the_bit(name: str) -> None:
     """Under kick-drift, of one stage; and fixed masses stay where they are, inside an obstacle too."""
@@ -77,6 +78,7 @@ def test_threads_change_no_bit() -> None:
     check_same_bits(system, advance(system, catalogue.find("kick_drift"), DT, STEPS, threads=2), "kick_drift")
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", ["circle", "sphere and plane", "fixed inside"])
 def test_a_sweep_does_the_same_to_the_bit(name: str) -> None:
     """More than a block of systems, of which the fourth and the last are looked at.

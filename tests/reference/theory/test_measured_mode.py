@@ -41,6 +41,7 @@ def check_measured_as_predicted(scheme: Scheme, run: Scheme, case: Mapping[str, 
         assert abs(measured.dt - predicted.dt) < TOLERANCE * predicted.dt
 
 
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("case", CASES, ids=str)
 @pytest.mark.parametrize("scheme", BY_THEORY, ids=label)
 def test_schemes_blow_up_where_predicted(scheme: Scheme, case: Mapping[str, float]) -> None:
