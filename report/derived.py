@@ -125,3 +125,18 @@ def limits(windows: Windows) -> str:
     words = "any length" if first[1] >= FAR else f"{first[1]:.6g}"
     again = [f"from {low:.6g} to {high:.6g}" if high < FAR else f"from {low:.6g} on" for low, high in others[:TOLD]]
     return words + (f", and again {', '.join(again)}" if again else "")
+
+
+def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
+    """Everything there is to say, under headings; what there is nothing of is left out."""
+    from reference.derivation.updates import in_words
+
+    found = [
+        ("Derived: a step of the damped oscillator", matrix_lines(explanation)),
+        ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
+        ("Derived: the Butcher tableau", tableau_lines(explanation)),
+        ("What follows", [f"- {line}." for line in property_lines(explanation)]),
+        ("What cannot be told, and why", [f"- {reason}." for reason in explanation.reasons]),
+        ("What it should not do", [f"- {remark}." for remark in explanation.remarks]),
+    ]
+    return [(title, lines) for title, lines in found if lines]

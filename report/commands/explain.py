@@ -49,19 +49,11 @@ def explain_command(stepper: str, as_json: bool, plot: Path | None) -> None:
 
 
 def _show(explanation: Explanation) -> None:
-    from reference.derivation.updates import in_words
-    from report.derived import matrix_lines, name_line, property_lines, tableau_lines
-
-    def show(title: str, lines: list[str], indent: str = "    ") -> None:
-        if lines:
-            click.echo(f"\n{title}")
-            for line in lines:
-                click.echo(f"{indent}{printable(line)}")
+    from report.derived import name_line, sections
 
     click.echo(printable(f"{name_line(explanation)}."))
-    show("Derived: a step of the damped oscillator", matrix_lines(explanation))
-    show("Derived: the update formulas", in_words(explanation.updates) if explanation.updates else [])
-    show("Derived: the Butcher tableau", tableau_lines(explanation))
-    show("What follows", [f"{line}." for line in property_lines(explanation)], indent="- ")
-    show("What cannot be told, and why", [f"{reason}." for reason in explanation.reasons], indent="- ")
-    show("What it should not do", [f"{remark}." for remark in explanation.remarks], indent="- ")
+    for title, lines in sections(explanation):
+        click.echo(f"\n{title}")
+        for line in lines:
+            indent = "" if line.startswith("- ") else "    "
+            click.echo(f"{indent}{printable(line)}")

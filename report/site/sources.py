@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import shutil
+from collections.abc import Iterable
 from pathlib import Path, PurePosixPath
 
 from reference.errors import InputError
@@ -26,6 +27,9 @@ FILES = {
 #: Pictures and whole pages that are shown or linked to, copied as they are.
 COPIED = {"report/pictures": "pictures", "report/sample": "sample"}
 
+#: The first page, and the last page of the reference that it lists.
+INDEX, LAST = PurePosixPath("index.md"), "a-million-runs"
+
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 
 
@@ -36,9 +40,18 @@ def write_sources(folder: Path) -> None:
         target = folder / place
         target.parent.mkdir(parents=True, exist_ok=True)
         if source.suffix == ".md":
-            target.write_text(moved(source.read_text(encoding="utf-8"), source, place, places), encoding="utf-8")
+            text = moved(source.read_text(encoding="utf-8"), source, place, places)
+            text = with_all(text, places.values()) if place == INDEX else text
+            target.write_text(text, encoding="utf-8")
         else:
             shutil.copyfile(source, target)
+
+
+def with_all(index: str, places: Iterable[PurePosixPath]) -> str:
+    """The first page's text, with pages that it does not list behind the last of the reference."""
+    pages = sorted(place.stem for place in places if place.suffix == ".md" and place != INDEX and len(place.parts) == 1)
+    missing = [page for page in pages if not re.search(rf"^{re.escape(page)}$", index, re.MULTILINE)]
+    return re.sub(rf"^{LAST}$", "\n".join([LAST, *missing]), index, flags=re.MULTILINE)
 
 
 def _places() -> dict[Path, PurePosixPath]:

@@ -6,7 +6,8 @@
 'kick_drift'
 
 Every function takes a scene: its name, a TOML file, or what `scene` or `system` gave; parameters of a named scene by
-their names, as above. A stepper is a name of `schemes` or `engines`. All quantities are in SI units. Answers are
+their names, as above. A stepper is a name of `schemes` or `engines`, or
+a file of your own, as "my_step.py". All quantities are in SI units. Answers are
 frozen, show themselves in a notebook, and have their numbers as plain arrays, as `document` (what the commands print
 with `--json`), and by `to_pandas()`.
 
@@ -23,6 +24,7 @@ check_rooms()
 from reference.changes import Change  # noqa: E402 - the check comes first
 from reference.drives import Ramp, Sine  # noqa: E402
 from reference.errors import InputError, SolverError  # noqa: E402
+from springlab.deriving import Explained, explain  # noqa: E402
 from springlab.listings import engines, experiments, scenes, schemes  # noqa: E402
 from springlab.naming import Identified, identify  # noqa: E402
 from springlab.pages import Page, report  # noqa: E402
@@ -36,6 +38,7 @@ __all__ = [
     "Change",
     "Compared",
     "Comparison",
+    "Explained",
     "Identified",
     "InputError",
     "Modes",
@@ -53,6 +56,7 @@ __all__ = [
     "compare",
     "engines",
     "experiments",
+    "explain",
     "identify",
     "modes",
     "report",

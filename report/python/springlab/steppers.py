@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.errors import InputError
@@ -10,12 +12,12 @@ from reference.errors import InputError
 if TYPE_CHECKING:
     from reference.stepper import Stepper
 
-#: What is taken as a stepper: a name, as `schemes()` and `engines()` list them.
-AnyStepper = str
+#: What is taken as a stepper: a name, as `schemes()` and `engines()` list them, or a file of one's own.
+AnyStepper = str | Path
 
 
 def stepper_of(given: Any, time_limit: float | None = None) -> Stepper:
-    """The stepper that is meant. An own file, or a function, would come in here.
+    """The stepper that is meant. What an own file does that a step should not is warned of.
 
     Args:
         time_limit: how long an engine may take [s].
@@ -28,12 +30,17 @@ def stepper_of(given: Any, time_limit: float | None = None) -> Stepper:
 
     from engines.process.isolation import EngineStepper
     from experiments.runs.steppers import find_steppers
+    from reference.cache import remarks
 
     if time_limit is not None and not (isfinite(time_limit) and time_limit > 0):
         raise InputError(f"time_limit = {time_limit:g}: expected a finite number > 0 [s]")
-    if not isinstance(given, str):
-        raise InputError(f"stepper {given!r}: expected a name of schemes() or engines()")
-    (found,) = find_steppers([given])
+    if not isinstance(given, str | Path):
+        raise InputError(f"stepper {given!r}: expected a name of schemes() or engines(), or a file")
+    known = set(remarks)
+    (found,) = find_steppers([str(given)])
+    for remark in [remark for remark in remarks if remark not in known]:
+        del remarks[remark]  # it is told here, and not once more at the end
+        warnings.warn(remark, stacklevel=4)
     if time_limit is not None and isinstance(found, EngineStepper):
         return replace(found, time_limit=time_limit)
     return found

@@ -95,6 +95,26 @@ def test_other_answers_have_the_commands_numbers() -> None:
     assert limits.measured["kick_drift"] == pytest.approx(limits.predicted["kick_drift"], rel=1e-3)
 
 
+def test_what_is_derived_is_told_in_words_and_numbers() -> None:
+    """Heun's tableau and step, as the command has them; its page is drawn."""
+    found = lab.explain("heun")
+    assert found.document == said("explain", "heun")
+    assert (found.identified_as, found.order) == ("heun", 2)
+    assert "Butcher tableau" in str(found)
+    assert found._repr_html_().startswith("<pre>")
+    assert found.plot().alt
+
+
+def test_a_file_of_ones_own_is_a_stepper_and_what_it_should_not_do_is_warned_of(tmp_path: Path) -> None:
+    """Heun, which prints besides nothing; and one that changes what it is given."""
+    good, bad = tmp_path / "good.py", tmp_path / "bad.py"
+    good.write_text("def step(f, y, t, dt):\n    k = f(y, t)\n    return y + dt / 2 * (k + f(y + dt * k, t))\n")
+    bad.write_text("def step(f, y, t, dt):\n    y += dt * f(y, t)\n    return y\n")
+    assert lab.identify(good, **QUICK).identified_as == "heun"
+    with pytest.warns(UserWarning, match="bad"):
+        lab.identify(str(bad), **QUICK)
+
+
 def test_every_answer_is_shown_as_a_table_and_drawn(compared: lab.Comparison, simulated: lab.Simulation) -> None:
     """A notebook has tables whose columns have headings, and plots with alternative text."""
     identified = lab.identify("heun", **QUICK)

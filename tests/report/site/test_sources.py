@@ -7,7 +7,7 @@ from pathlib import Path, PurePosixPath
 import pytest
 
 from reference.errors import InputError
-from report.site.sources import ROOT, moved, write_sources
+from report.site.sources import ROOT, moved, with_all, write_sources
 
 PLACES = {
     ROOT / "README.md": PurePosixPath("readme.md"),
@@ -39,6 +39,12 @@ def test_a_link_that_leads_nowhere_is_refused() -> None:
     """By the page it stands on."""
     with pytest.raises(InputError, match=r"^README.md: \(report/docs/strat.md\): expected a file that is there$"):
         moved("[a](report/docs/strat.md)", ROOT / "README.md", PurePosixPath("readme.md"), PLACES)
+
+
+def test_a_page_that_nobody_lists_is_listed() -> None:
+    """Behind the others of the reference; those that are listed, and notebooks, stay as they are."""
+    places = [PurePosixPath(name) for name in ("index.md", "new.md", "start.md", "notebooks/x.md", "a.svg")]
+    assert with_all("start\n\na-million-runs\n```", places) == "start\n\na-million-runs\nnew\n```"
 
 
 def test_every_page_of_the_docs_is_on_the_site(tmp_path: Path) -> None:
