@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).parents[1] / "templates"
 
 #: What computes, without looking at a page: this also runs in a worker, and in Node.
-PHYSICS = ("memory.js", "stepping.js", "eigen.js", "rest.js", "limits.js")
+PHYSICS = ("memory.js", "stepping.js", "eigen.js", "rest.js", "contacts.js", "limits.js")
 
 #: What shows it, in the order in which it is read.
 SHOWN = ("lab.js", "view.js", "plots.js", "link.js", "lessons.js", "page.js")

@@ -22,6 +22,7 @@ from reference.jit import text_of
 from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.schemes.catalogue import Scheme, schemes
 from reference.spring_law import elastic_energy, force_by_rate, force_by_stretch, spring_force
+from reference.theory.keeps_to_surfaces import keeps_to_surfaces
 from reference.theory.runge_kutta import stability_polynomial
 from report.browser.javascript import Translation, definitions, of_expression, plain_function
 from report.site.linear_form import NotLinear, equations
@@ -116,6 +117,7 @@ def page_scheme(scheme: Scheme) -> PageScheme:
         "order": str(scheme.order),
         "summary": json.dumps(scheme.summary),
         "equations": json.dumps(_equations(scheme)),
+        "keeps": json.dumps(keeps_to_surfaces(scheme)),
         "polynomial": json.dumps(stability_polynomial(scheme)),
         **own,
     }

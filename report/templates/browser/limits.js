@@ -66,12 +66,18 @@ function stableAlong(polynomial, rate) {
 
 // Of all modes of a rest: the limit [s] of a scheme, 0 where every step lets something grow, Infinity where none does.
 // `about` is true where only the fastest moves were looked at; `mode` is the fastest move.
-function limitOf(name, linear, known = {}) {
+function limitOf(name, linear, known = {}, system = null) {
   const scheme = schemes[name];
   known.top = known.top || largestEigenpair(scaled(linear, "stiffness"), linear.size, alongStart(linear));
   const w2 = known.top.value, fastest = Math.sqrt(Math.max(w2, 0));
   if (!(fastest > 0)) return {limit: Infinity, reason: "nothing moves", omega: 0};
-  const moving = linear.free.length * linear.memory.at.d, told = {omega: fastest, about: linear.contacts.some(contact => contact.curved)};
+  const moving = linear.free.length * linear.memory.at.d, told = {omega: fastest, about: linear.contacts.length > 0 && !scheme.keeps};
+  const curved = linear.contacts.some(contact => contact.curved);
+  if (linear.contacts.length && system && (curved || !scheme.keeps) && 2 * moving <= STEP_UP_TO) {
+    const limit = limitOnObstacles(system, linear, scheme, fastest);
+    return {omega: fastest, about: false, limit, reason: limit === null ? "no rest" : ""};
+  }
+  told.about = told.about || curved;
   if (!scheme.linear) {
     if (2 * moving > STEP_UP_TO) return {...told, limit: null, reason: "too large"};
     const grows = h => growthOfStep(linear, h, stepInPlace(scheme, linear, h)), first = firstBeyond(grows, fastest);
@@ -193,12 +199,12 @@ function growthOfStep(linear, h, step) {
 }
 
 // The limits of some schemes for a system as it is set, and which springs the fastest move strains most.
-function answerLimits({id, memory, rest, contacts, names}) {
+function answerLimits({id, memory, system, rest, contacts, names}) {
   const {F, at} = memory, known = {};
   const found = equilibrium(memory, rest, contacts);
   if (!(found.off < 1e-6)) return {id, limits: Object.fromEntries(names.map(name => [name, {limit: null, reason: "no rest"}])), mode: null};
   const linear = linearise(memory, found.x, contacts);
-  const limits = Object.fromEntries(names.map(name => [name, limitOf(name, linear, known)]));
+  const limits = Object.fromEntries(names.map(name => [name, limitOf(name, linear, known, system)]));
   if (!known.top || !(known.top.value > 0)) return {id, limits, mode: null};
   const y = known.top.vector, out = new Float64Array(linear.size), share = new Float64Array(at.s);
   const move = y.map((value, e) => value * linear.root[e]);

@@ -34,15 +34,30 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
   const memory = memoryOf(asked.system);
   for (const [name, value] of Object.entries(asked.set || {})) setParameter(memory, name, value);
   const rest = equilibrium(memory, asked.rest, asked.contacts), linear = linearise(memory, rest.x, asked.contacts);
+  const known = {};
   if (asked.ask === "limits") {
-    const known = {};
-    const limits = Object.fromEntries(asked.schemes.map(name => [name, limitOf(name, linear, known)]));
+    const limits = Object.fromEntries(asked.schemes.map(name => [name, limitOf(name, linear, known, asked.system)]));
     return {off: rest.off, limits, rest: Array.from(rest.x)};
   }
-  if (asked.ask === "grown") return asked.cases.map(one => grown({...asked.system}, memory, rest.x, one));
+  if (asked.ask === "grown") return asked.schemes.flatMap(name => {
+    const {limit} = limitOf(name, linear, known, asked.system);
+    const steps = limit > 0 && limit < Infinity ? stepsToSee(linear, name, limit) : 0;
+    if (!(steps > 0 && steps < asked.most)) return [];
+    const run = part => grown(asked.system, memory, rest.x, name, part * limit, steps, asked.size);
+    return [[name, run(0.98), run(1.02)]];
+  });
   throw Error(asked.ask);
 });
-function grown(system, memory, rest, {scheme, dt, steps, size}) {
+// How many steps of 1.02 times the limit make the worst perturbation a hundred thousand times as large.
+function stepsToSee(linear, name, limit) {
+  const scheme = schemes[name], h = 1.02 * limit, apply = scheme.linear ? stepLinear : stepInPlace;
+  const top = largestEigenpair(scaled(linear, "stiffness"), linear.size, alongStart(linear));
+  const g = dot(top.vector, scaled(linear, "damping")(top.vector, new Float64Array(linear.size)));
+  const small = 2 * linear.free.length * linear.memory.at.d <= STEP_UP_TO;
+  const growth = small ? growthOfStep(linear, h, apply(scheme, linear, h)) : growthOfMode(scheme, h, top.value, g);
+  return Math.ceil(Math.log(1e5) / Math.log(growth));
+}
+function grown(system, memory, rest, scheme, dt, steps, size) {
   const {at, I} = memory, noise = pseudoRandom(at.n * at.d, 7);
   const positions = rest.map((x, e) => I[at.fixed + Math.floor(e / at.d)] ? x : x + size * noise[e]);
   const world = startWorld({...system, positions: Array.from(positions), velocities: 0, obstacles: []}, scheme, dt);

@@ -27,16 +27,19 @@ CASES: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
     ("strip", {}, ("euler", "kick_drift", "rk4")),
     ("bridge", {}, ("kick_drift", "velocity_verlet", "rk4")),
     ("drop", {"across": 2, "high": 2, "deep": 2}, ("kick_drift",)),
+    ("barrier", {"masses": 4, "circle_x": 0.2, "circle_y": -0.2, "radius": 0.15}, ("heun", "kick_drift")),
 ]
 
 #: With `--full`, the scenes as the page shows them.
 FULL: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
     (name, {}, ("kick_drift", "rk4"))
-    for name in ("oscillator", "cloth", "jello", "drop", "flag", "falling_cloth", "tablecloth", "soil")
+    for name in ("oscillator", "cloth", "jello", "flag", "falling_cloth", "tablecloth", "soil")
 ]
+FULL += [("drop", {}, ("kick_drift",)), ("barrier", {}, ("heun", "kick_drift", "rk4"))]
 
-#: What is asked of the page's limits, as a part of them.
-AGREEMENT = 1e-6
+#: What is asked of the page's limits, as a part of them; and where surfaces curve, which both theory and the page
+#: difference, each with perturbations of its own.
+AGREEMENT, DIFFERENCED = 1e-6, 1e-5
 
 
 def at_rest(system: MassSpringSystem) -> Equilibrium:
@@ -54,7 +57,9 @@ def agrees(found: Mapping[str, Any], scheme: str, rest: Equilibrium) -> bool:
     predicted = stability_limit(find(scheme), rest)
     if predicted.dt is None:
         return found["limit"] == 0 if predicted.growth is not None else found["limit"] is None
-    return found["limit"] is not None and abs(found["limit"] / predicted.dt - 1) < AGREEMENT
+    curved = rest.contacts is not None and not rest.contacts.flat(rest.system)
+    most = DIFFERENCED if curved else AGREEMENT
+    return found["limit"] is not None and abs(found["limit"] / predicted.dt - 1) < most
 
 
 def test_limits_are_those_of_the_theory_room(request: pytest.FixtureRequest) -> None:
@@ -94,26 +99,24 @@ def test_the_rest_is_found_anew_when_parameters_change() -> None:
 def test_runs_grow_beyond_the_limit_and_stay_below_it(request: pytest.FixtureRequest) -> None:
     """A perturbation of 1e-6 of a spring's length at rest grows over 1.02 times the limit, and not under 0.98 times it.
 
-    That is a thousandfold, or within a hundredfold: a mode of a step that is not symmetric may rise a little at first.
-    Without damping the growth at 1.02 times the limit is exp(acosh(2 1.02^2 - 1)) - 1 = 0.5 a step of kick-drift and
-    at least 0.06 of rk4; with the drag of the scenes it is less by dt Cd / m, which is below 0.02.
+    Over it a run is as long as theory needs for a growth by 1e5, a thousandfold is asked for, as a part of the
+    perturbation is in the mode that grows; below it, within a hundredfold: a mode of a step that is not symmetric may
+    rise a little at first. Where that takes more steps than `most`, as with Euler on a string with a little drag, whose
+    growth at 1.02 times the limit is 0.01 (dt w)^2 = 1e-8 a step, there is nothing to be seen.
     """
     full = request.config.getoption("--full")
-    names = ("spring", "oscillator", "string", "chain", "cloth", "strip")
-    names = (*names, "jello", "flag", "bridge", "soil") if full else names
-    cases, questions = [], []
+    names = ("spring", "oscillator", "string", "cloth", "strip")
+    names = (*names, "chain", "jello", "flag", "bridge", "soil", "string_40") if full else names
+    questions = []
     for name in names:
-        system = find_scene(name).system({})
+        settings = {"masses": 40} if name == "string_40" else {}
+        system = find_scene(name.partition("_")[0]).system(settings)
         schemes = [scheme for scheme in page_schemes() if full or scheme in ("kick_drift", "velocity_verlet", "rk4")]
-        (found,) = ask([asked_of_page(system, ask="limits", schemes=schemes)])
         size = 1e-6 * float(system.rest_lengths.min())
-        for scheme in schemes:
-            limit = found["limits"][scheme]["limit"]
-            if limit:
-                runs = [{"scheme": scheme, "dt": part * limit, "steps": 1500, "size": size} for part in (0.98, 1.02)]
-                cases.append((name, scheme))
-                questions.append(asked_of_page(system, ask="grown", cases=runs))
-    assert cases
-    for case, (below, beyond) in zip(cases, ask(questions), strict=True):
-        assert below < 100, (case, below)
-        assert beyond > 1000, (case, beyond)
+        questions.append(asked_of_page(system, ask="grown", schemes=schemes, size=size, most=20_000))
+    for name, answer in zip(names, ask(questions), strict=True):
+        seen = {scheme: (below, beyond) for scheme, below, beyond in answer}
+        assert {"kick_drift", "velocity_verlet", "rk4"} <= seen.keys(), name
+        for scheme, (below, beyond) in seen.items():
+            assert below < 100, (name, scheme, below)
+            assert beyond > 1000, (name, scheme, beyond)
