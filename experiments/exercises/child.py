@@ -13,7 +13,7 @@ import platform
 import struct
 import sys
 import traceback
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from types import ModuleType, SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +32,17 @@ NAME = "<submission>"
 
 #: Where Python's own modules are.
 LIBRARY = os.path.dirname(os.__file__)
+
+#: What stands beside this file and is loaded before the sandbox is closed; a submission does not find it.
+BESIDE = (
+    "sandbox_layers",
+    "allowed_calls",
+    "library_finder",
+    "returned",
+    "source_edits",
+    "expression_edits",
+    "source_search",
+)
 
 #: What is said before anything else: the sandbox stands and the submission is about to be read, or it does not stand.
 READY, CLOSED = b"springlab: ready\n", b"springlab: closed\n"
@@ -186,13 +197,22 @@ def main() -> None:
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
     layers = importlib.import_module("sandbox_layers")
     wanted = layers.wanted()
+    search = importlib.import_module("source_search").search if task.get("search") else None
     library = importlib.import_module("library_finder").LibraryFinder(os.open(LIBRARY, os.O_RDONLY), LIBRARY)
     calls = importlib.import_module("allowed_calls").filter_of(platform.machine(), os.getpid())
     active = layers.apply(task["readable"], task["seconds"], task["memory"], task["parent"], calls)
     sys.path[:] = [path for path in sys.path if path not in task["hidden"]][1:]
     if not os.access(LIBRARY, os.R_OK):
         sys.meta_path.append(library)
-    for name in ("sandbox_layers", "allowed_calls", "library_finder", "returned"):
+    for name in (
+        "sandbox_layers",
+        "allowed_calls",
+        "library_finder",
+        "returned",
+        "source_edits",
+        "expression_edits",
+        "source_search",
+    ):
         sys.modules.pop(name, None)
     np.seterr(all="ignore")
     missing = [name for name in wanted if name not in active]
@@ -200,7 +220,7 @@ def main() -> None:
     os.write(task["mark"], (READY if stands else CLOSED) + pack({"layers": active, "missing": missing}))
     os.close(task["mark"])
     if stands:
-        os.write(out, pack(answered(task)))
+        os.write(out, pack(answered(task, search)))
     os._exit(0)  # at once: threads and exit functions of the submission have nothing more to say
 
 
@@ -213,17 +233,20 @@ def preload() -> None:
             continue
 
 
-def answered(task: Mapping[str, Any]) -> dict[str, Any]:
-    """What the submission answers, or what reading it raised."""
+def answered(task: Mapping[str, Any], search: Callable[..., Any] | None = None) -> dict[str, Any]:
+    """What the submission answers, or what reading it raised; and what a search for small changes finds."""
     module = ModuleType("submission")
     module.__file__ = os.path.join(task["folder"], "submission.py")  # files of the exercise are beside it
     sys.modules["submission"] = module
     try:
         exec(compile(task["source"], NAME, "exec"), module.__dict__)
         names = [name for name in module.__dict__ if not name.startswith("_")]
-        return {"names": names, "answers": [ask(module, question) for question in task["questions"]]}
+        found = {"names": names, "answers": [ask(module, question) for question in task["questions"]]}
     except BaseException as error:
         return {"error": story(error)}
+    if search is not None:
+        found["search"] = search({"source": task["source"], **task["search"]}, fresh, changed)
+    return found
 
 
 if __name__ == "__main__":

@@ -124,6 +124,7 @@ class Exercise:
         aside: makes questions by which other schemes are told that answer all others rightly. From them nothing else
             follows: a right program may answer them in several ways.
         told_aside: those schemes.
+        searched: whether small changes of a wrong program are looked for that make it right.
         diagnose: what is wrong with an answer by itself, as the name, words and hint of a finding; None where it may
             be right.
     """
@@ -142,6 +143,7 @@ class Exercise:
     diagnose: Callable[[Question, Any], tuple[str, str, str] | None] | None = None
     aside: Callable[[np.random.Generator], Sequence[Question]] | None = None
     told_aside: Sequence[Mistake] = ()
+    searched: bool = True
     folder: Path = Path()
 
     @property

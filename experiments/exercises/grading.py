@@ -7,11 +7,12 @@ import os
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from io import StringIO
 from pathlib import Path
 from time import perf_counter
 
+from experiments.exercises.closer_look import CloserLook, Effort, look_closer
 from experiments.exercises.exercise import Exercise
 from experiments.exercises.findings import clean
 from experiments.exercises.judge import Verdict, judge, not_asked
@@ -23,7 +24,8 @@ from reference.errors import InputError
 from reference.files.csv_cell import cell
 from reference.printable import printable
 
-#: The columns of a table of grades; `departs` is the first difference.
+#: The columns of a table of grades; `departs` is the first difference; students are told what is `seen` and where to
+#: `look_at`, teachers the `change`.
 COLUMNS = (
     "file",
     "exercise",
@@ -35,9 +37,16 @@ COLUMNS = (
     "finding",
     "words",
     "departs",
+    "seen",
+    "look_at",
+    "change",
     "seconds",
     "digest",
 )
+
+
+#: How long is searched unless told otherwise; and in a class, where many wait.
+EFFORT, EFFORT_IN_CLASS = Effort(), Effort(0.8, 0.4)
 
 
 @dataclass(frozen=True)
@@ -47,11 +56,13 @@ class Grade:
     Attributes:
         public: of the check that students can run.
         hidden: of the other, None where it has not run.
+        closer: what else was seen of one that is wrong.
     """
 
     public: Verdict
     hidden: Verdict | None
     seconds: float
+    closer: CloserLook = field(default_factory=CloserLook)
 
     @property
     def verdict(self) -> Verdict:
@@ -65,11 +76,16 @@ class Grade:
         return sum(100 * sum(passed) / max(1, len(passed)) for passed in parts) / len(parts)
 
 
-def grade(submission: Submission, key: str | None = None, limits: Limits | None = None) -> Grade:
+def grade(
+    submission: Submission, key: str | None = None, limits: Limits | None = None, effort: Effort | None = EFFORT
+) -> Grade:
     """Run the public check, and with a key the hidden one, in a process of its own: the first knows no hidden question.
 
     Where all answers depend on the student's seed the two are the same, and run once. Where the public check comes to a
     bad end the hidden one is not run.
+
+    Args:
+        effort: how long is searched for what would make a wrong one right; None for no closer look.
 
     Raises:
         NotGradedError: where it is not the submission's fault that there is no grade, twice over.
@@ -81,7 +97,11 @@ def grade(submission: Submission, key: str | None = None, limits: Limits | None 
     if key is not None and not exercise.seeded:
         bad = public.outcome in ("timed out", "crashed")
         hidden = not_asked(exercise, seed, key, public) if bad else _judged(submission, seed, key, limits)
-    return Grade(public, hidden, perf_counter() - begin)
+    found = Grade(public, hidden, perf_counter() - begin)
+    if found.verdict.right or effort is None:
+        return found
+    closer = look_closer(exercise, submission.source, seed, found.verdict, limits, effort)
+    return replace(found, closer=closer, seconds=perf_counter() - begin)
 
 
 def _judged(submission: Submission, seed: str, key: str | None, limits: Limits | None) -> Verdict:
@@ -107,9 +127,18 @@ def row_of(submission: Submission, given: Grade, key: str | None) -> dict[str, s
         finding=verdict.name,
         words=" ".join(f.words for f in verdict.findings),
         departs=str(verdict.first_difference or ""),
+        seen=" ".join(f.words for f in given.closer.findings),
+        look_at=places(given.closer),
+        change="; or: ".join(r.change for r in given.closer.told) if key is not None else "",
         seconds=f"{given.seconds:.2f}",
         digest=submission.digest(key),
     )
+
+
+def places(closer: CloserLook) -> str:
+    """Where in its text a submission is one or two small changes from being right: lines and kinds."""
+    told = [" and ".join(f"line {line}: {family}" for line, family in r.places) for r in closer.told]
+    return "; or ".join(dict.fromkeys(told))
 
 
 def _row(name: str, **values: str) -> dict[str, str]:
@@ -190,7 +219,7 @@ def _graded(
     if done is not None and done["digest"] == submission.digest(key):
         return done
     try:
-        return row_of(submission, grade(submission, key, limits), key)
+        return row_of(submission, grade(submission, key, limits, EFFORT_IN_CLASS), key)
     except NotGradedError as error:
         return _row(name, outcome="not graded", finding="not_graded", words=str(error))
     except Exception as error:  # the checker's own fault: the class goes on

@@ -18,6 +18,9 @@ from experiments.exercises.sandbox_errors import NotGradedError
 #: An answer is no longer than that [bytes]; no more names, no longer words than that.
 LONGEST, MOST_NAMES, LONGEST_WORDS = 2**23, 10_000, 2_000
 
+#: Of a search, so many groups of questions, and repairs of each.
+MOST_GROUPS, MOST_REPAIRS = 8, 64
+
 #: What a question's answer may hold beside its values.
 FLAGS = ("modified", "overwritten")
 
@@ -34,6 +37,7 @@ class Reply:
         layers: of the sandbox, those that were active.
         names: what the submission defines.
         missing: layers that should have been active, and were not.
+        search: for each group of questions, the changes that were found, by numbers; see `source_search`.
     """
 
     ended: str
@@ -43,6 +47,7 @@ class Reply:
     layers: Sequence[str] = ()
     names: Sequence[str] = ()
     missing: Sequence[str] = ()
+    search: Sequence[Mapping[str, Any]] = ()
 
 
 def read(mark: bytes, data: bytes, count: int) -> Reply:
@@ -66,7 +71,8 @@ def read(mark: bytes, data: bytes, count: int) -> Reply:
         _check(reply, count)
     except (ValueError, UnicodeError):
         return Reply("crashed", "what it answered is not readable")
-    return Reply("done", "", reply.get("answers", ()), reply.get("error"), layers, reply.get("names", ()), missing)
+    answers, names, found = (reply.get(name, ()) for name in ("answers", "names", "search"))
+    return Reply("done", "", answers, reply.get("error"), layers, names, missing, found)
 
 
 def standing(mark: bytes) -> tuple[list[str], list[str]]:
@@ -82,7 +88,7 @@ def standing(mark: bytes) -> tuple[list[str], list[str]]:
 
 def _check(reply: Any, count: int) -> None:
     """Raises ValueError unless everything in it is as `child` writes it."""
-    _is_dict(reply, set(), {"names", "answers", "error"})
+    _is_dict(reply, set(), {"names", "answers", "error", "search"})
     _expect(("error" in reply) != ("answers" in reply) and ("names" in reply) == ("answers" in reply))
     _are_words(reply.get("names", []))
     answers = reply.get("answers", [])
@@ -91,6 +97,18 @@ def _check(reply: Any, count: int) -> None:
         _is_answer(answer)
     if "error" in reply:
         _is_error(reply["error"])
+    _expect(isinstance(reply.get("search", []), list) and len(reply.get("search", [])) <= MOST_GROUPS)
+    for found in reply.get("search", []):
+        _is_search(found)
+
+
+def _is_search(found: Any) -> None:
+    """Numbers of changes, one or two to a repair; how many were tried, and whether that was all."""
+    _is_dict(found, {"repairs", "tried", "singles_done", "pairs_done"}, set())
+    _expect(type(found["tried"]) is int and all(isinstance(found[n], bool) for n in ("singles_done", "pairs_done")))
+    _expect(isinstance(found["repairs"], list) and len(found["repairs"]) <= MOST_REPAIRS)
+    for repair in found["repairs"]:
+        _expect(isinstance(repair, list) and len(repair) in (1, 2) and all(type(i) is int and i >= 0 for i in repair))
 
 
 def _is_answer(answer: Any) -> None:

@@ -60,6 +60,7 @@ def run(
     questions: Sequence[Mapping[str, Any]],
     limits: Limits | None = None,
     files: Mapping[str, str] | None = None,
+    search: Mapping[str, Any] | None = None,
 ) -> Reply:
     """Put questions to a submission.
 
@@ -67,6 +68,7 @@ def run(
         source: its text.
         questions: each with function, arguments, steps and parts.
         files: what it finds in its folder, by name: what the student was given.
+        search: what small changes of it are searched for (`source_search.search`).
 
     Raises:
         NotGradedError: where it is not the submission's fault that there is no answer.
@@ -81,6 +83,7 @@ def run(
         "seconds": limits.seconds,
         "memory": limits.memory,
         "exposed": limits.exposed,
+        "search": dict(search or {}),
         "parent": os.getpid(),
     }
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from experiments.exercises.closer_look import CloserLook
 from experiments.exercises.grading import Grade
 from experiments.exercises.judge import Verdict
 from experiments.exercises.submission import Submission
@@ -63,4 +64,36 @@ def paragraphs(submission: Submission, given: Grade) -> list[str]:
     said += [why] if why else []
     if verdict.first_difference is not None:
         said.append(f"First difference: {verdict.first_difference}.")
-    return said
+    said += [f"- {finding.words} ({finding.hint})" for finding in given.closer.findings]
+    return [*said, *_of_the_text(given.closer)]
+
+
+#: What a change is of, to the student, without the change.
+FAMILIES = {
+    "operator": "the operator",
+    "sign": "the sign",
+    "factor": "a factor or a number",
+    "index": "the index",
+    "name": "which value is meant",
+    "condition": "the condition",
+    "copy": "what is a copy, and what the same array",
+    "order": "the order",
+    "left out": "something is left out",
+    "too much": "something too much",
+    "axis": "the axis",
+}
+
+
+def _of_the_text(closer: CloserLook) -> list[str]:
+    """Where to look in the text: only what was tried and made it right."""
+    if not closer.told:
+        short = "" if closer.complete else " The time for trying was used up."
+        return [f"{closer.tried} small changes of your text were tried, and none makes it right.{short}"] * bool(
+            closer.tried
+        )
+    one = len(closer.told[0].places) == 1
+    said = [f"{'One small change' if one else 'Two small changes'} of your text would make it right. Look at"]
+    for repair in closer.told:
+        place = " and ".join(f"line {line} ({FAMILIES[family]})" for line, family in repair.places)
+        said.append(f"- {place}")
+    return list(dict.fromkeys(said))

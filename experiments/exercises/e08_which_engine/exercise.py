@@ -109,6 +109,7 @@ EXERCISE = Exercise(
     keyed=True,
     files=files,
     canonical=as_in_the_text,
+    searched=False,
     diagnose=diagnose,
     mistakes=(
         *ALIKE,

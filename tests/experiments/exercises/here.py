@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises import child
+from experiments.exercises import child, source_search
 from experiments.exercises.reply import Reply, read
 
 #: What the sandbox says of itself.
@@ -19,12 +19,19 @@ MARK = child.READY + child.pack({"layers": ["limits"], "missing": []})
 
 
 def run(
-    source: str, questions: Sequence[Mapping[str, Any]], limits: object = None, files: Mapping[str, str] | None = None
+    source: str,
+    questions: Sequence[Mapping[str, Any]],
+    limits: object = None,
+    files: Mapping[str, str] | None = None,
+    search: Mapping[str, Any] | None = None,
 ) -> Reply:
     """What `sandbox.run` gives, by way of the same bytes."""
     with tempfile.TemporaryDirectory() as folder, redirect_stdout(io.StringIO()), np.errstate(all="ignore"):
         for name, text in (files or {}).items():
             (Path(folder) / name).write_text(text, encoding="utf-8")
         asked = child.unpack(child.pack(list(questions)))
-        data = child.pack(child.answered({"source": source, "questions": asked, "folder": folder}))
+        task = {"source": source, "questions": asked, "folder": folder}
+        if search:
+            task["search"] = child.unpack(child.pack(search))
+        data = child.pack(child.answered(task, source_search.search if search else None))
     return read(MARK, data, len(questions))

@@ -23,6 +23,10 @@ GOOD: dict[str, Any] = {
 }
 
 
+#: What a search for small changes leaves.
+FOUND: dict[str, Any] = {"repairs": [[3], [1, 2]], "tried": 4, "singles_done": True, "pairs_done": False}
+
+
 #: What the sandbox says of itself before.
 MARK = child.READY + child.pack({"layers": ["limits", "landlock", "seccomp"], "missing": []})
 
@@ -36,6 +40,7 @@ def test_what_the_child_writes_is_read() -> None:
     """Answers, names, layers."""
     found = read(MARK, packed(GOOD), 2)
     assert (found.ended, len(found.answers), found.names) == ("done", 2, ["step"])
+    assert read(MARK, packed({**GOOD, "search": [FOUND]}), 2).search == [FOUND]
     failed = {"error": {"type": "SyntaxError", "words": "bad", "line": None}}
     assert read(MARK, packed(failed), 2).error == failed["error"]
 
@@ -61,6 +66,13 @@ def answers(**changed: Any) -> dict[str, Any]:
         {**GOOD, "answers": GOOD["answers"][:1]},
         {**GOOD, "answers": GOOD["answers"] * 2},
         {**GOOD, "error": {"type": "E", "words": "w", "line": 1}},
+        {**GOOD, "search": {}},
+        {**GOOD, "search": [{**FOUND, "repairs": [[1, 2, 3]]}]},
+        {**GOOD, "search": [{**FOUND, "repairs": [["1"]]}]},
+        {**GOOD, "search": [{**FOUND, "repairs": [[-1]]}]},
+        {**GOOD, "search": [{**FOUND, "repairs": [[0]] * 100}]},
+        {**GOOD, "search": [{**FOUND, "change": "x"}]},
+        {**GOOD, "search": [FOUND] * 20},
         answers(again=[1, 2]),
         answers(again=None),
         answers(values=None),

@@ -1,0 +1,173 @@
+"""A closer look at a wrong submission: how it behaves in special cases, and which small changes of it make it right.
+
+Both are looked for in one more process of the sandbox. Nothing is told that was not seen: answers that are right where
+one thing is changed in the questions; a program that is right in all questions of two checks, with one or two places
+changed in its text. The student is told the line and the kind of the change, the teacher the change.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from experiments.exercises import behaviour, sandbox
+from experiments.exercises.answer_catalogue import catalogue_of
+from experiments.exercises.exercise import Exercise, Question
+from experiments.exercises.findings import Finding
+from experiments.exercises.judge import Verdict
+from experiments.exercises.sandbox_errors import NotGradedError
+from experiments.exercises.source_edits import Edit, edits_of, without_main
+from experiments.exercises.source_search import fields_given
+
+#: The key of the second check that a changed program has to pass.
+SECOND = "a closer look"
+
+#: Answers of a changed program are right to this part of their scale.
+TOLERANCE = 1e-7
+
+#: How many lines a student is told at most, and how long a change is in a table.
+MOST_PLACES, LONGEST_CHANGE = 3, 160
+
+#: Outcomes, and findings, of which no change of the text is looked for.
+NOT_SEARCHED = ("right", "another scheme", "timed out", "crashed")
+NOT_FOR = ("not_written_yet", "syntax", "missing_module", "missing_function", "reaches_out", "random_or_time")
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How long is searched, of processor time [s]: single changes, and pairs of them."""
+
+    singles: float = 2.5
+    pairs: float = 1.5
+
+
+@dataclass(frozen=True)
+class Repair:
+    """A change that makes the program right.
+
+    Attributes:
+        places: line and kind of each change. function: whose questions it was looked for.
+        change: the lines before and after.
+        cost: how far from the text.
+    """
+
+    function: str
+    places: tuple[tuple[int, str], ...]
+    change: str
+    cost: float
+
+
+@dataclass(frozen=True)
+class CloserLook:
+    """What was seen.
+
+    Attributes:
+        findings: of its behaviour.
+        repairs: cheapest first. tried: how many changes were.
+        complete: whether all were tried that were to be; else the time was used up.
+    """
+
+    findings: tuple[Finding, ...] = ()
+    repairs: tuple[Repair, ...] = ()
+    tried: int = 0
+    complete: bool = True
+
+    @property
+    def lines(self) -> list[int]:
+        """The lines that are told, likeliest first."""
+        return list(dict.fromkeys(line for repair in self.told for line, _ in repair.places))
+
+    @property
+    def told(self) -> tuple[Repair, ...]:
+        """One repair for each place, of each function the cheapest few."""
+        told: dict[tuple[str, tuple[int, ...]], Repair] = {}
+        for repair in self.repairs:
+            told.setdefault((repair.function, tuple(line for line, _ in repair.places)), repair)
+        by_function: dict[str, list[Repair]] = {}
+        for repair in told.values():
+            by_function.setdefault(repair.function, []).append(repair)
+        return tuple(repair for group in by_function.values() for repair in group[:MOST_PLACES])
+
+
+def look_closer(
+    exercise: Exercise,
+    source: str,
+    seed: str,
+    verdict: Verdict,
+    limits: sandbox.Limits | None = None,
+    effort: Effort | None = None,
+) -> CloserLook:
+    """Look at a submission that is not right."""
+    if verdict.outcome in NOT_SEARCHED or any(f.name in NOT_FOR for f in verdict.findings) or not exercise.searched:
+        return CloserLook()
+    effort = effort or Effort()
+    catalogue = catalogue_of(exercise, seed, None)
+    cases = behaviour.cases(catalogue) if verdict.outcome != "error" else []
+    groups = _groups(exercise, seed, verdict)
+    task = {
+        "groups": [[_told(exercise, q) for q in group] for group in groups],
+        "seconds": effort.singles,
+        "pair_seconds": effort.pairs,
+    }
+    asked = [question.asked() for question in [*catalogue.questions, *(case.question for case in cases)]]
+    files = exercise.files(seed) if exercise.files else {}
+    try:
+        reply = sandbox.run(source, asked, limits, files, task)
+    except NotGradedError:
+        return CloserLook(complete=False)
+    if reply.ended != "done" or reply.error is not None:
+        return CloserLook(complete=False)
+    seen = behaviour.seen(catalogue, cases, reply.answers) if cases else ()
+    repairs = [r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)]
+    searched = [found["singles_done"] and (bool(found["repairs"]) or found["pairs_done"]) for found in reply.search]
+    tried = sum(found["tried"] for found in reply.search)
+    return CloserLook(tuple(seen), tuple(repairs), tried, all(searched) and len(searched) == len(groups))
+
+
+def _groups(exercise: Exercise, seed: str, verdict: Verdict) -> list[list[Question]]:
+    """The questions of each function that has a wrong answer, of the public check and of another one."""
+    public = catalogue_of(exercise, seed, None).questions
+    checks = [public] if exercise.seeded else [public, catalogue_of(exercise, seed, SECOND).questions]
+    wrong = {q.function for q, passed in zip(public, verdict.passed, strict=False) if not passed}
+    names = [name for name in exercise.solutions if name in wrong] or list(exercise.solutions)
+    return [[q for check in checks for q in check if q.function == name] for name in names]
+
+
+def _told(exercise: Exercise, question: Question) -> dict[str, Any]:
+    """A question with its right answer, for the search."""
+    plain = Exercise("", 0, "", exercise.solutions, exercise.questions, ())
+    right = plain.answer(question, {})
+    scales = [max(float(np.abs(step[p]).max(initial=0.0)) for step in right) or 1.0 for p in range(len(question.parts))]
+    unordered = exercise.canonical is not None
+    return {**question.asked(), "right": right, "scales": scales, "tolerance": TOLERANCE, "pairs": unordered}
+
+
+def _repairs(source: str, group: Sequence[Question], found: Mapping[str, Any]) -> list[Repair]:
+    """The changes with these numbers; none where there is no such number."""
+    tree = without_main(ast.parse(source))
+    edits = edits_of(tree, fields_given([question.asked() for question in group]))
+    made = []
+    for numbers in found["repairs"]:
+        if max(numbers) < len(edits):
+            chosen = [edits[i] for i in numbers]
+            places = tuple(sorted((edit.line, edit.family) for edit in chosen))
+            change = _change(tree, chosen)
+            made.append(Repair(group[0].function, places, change, sum(edit.cost for edit in chosen)))
+    return sorted(made, key=lambda repair: repair.cost)
+
+
+def _change(tree: ast.Module, edits: Sequence[Edit]) -> str:
+    """The lines that are other, before and after."""
+    before = ast.unparse(tree).splitlines()
+    if len(edits) == 1:
+        with edits[0].applied():
+            after = ast.unparse(ast.fix_missing_locations(tree)).splitlines()
+    else:
+        with edits[0].applied(), edits[1].applied():
+            after = ast.unparse(ast.fix_missing_locations(tree)).splitlines()
+    gone, new = [s.strip() for s in before if s not in after], [s.strip() for s in after if s not in before]
+    return f"{' / '.join(gone) or 'nothing'} -> {' / '.join(new) or 'another order'}"[:LONGEST_CHANGE]

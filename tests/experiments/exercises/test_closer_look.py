@@ -1,0 +1,205 @@
+"""What else is seen of wrong programs: how they behave, and which small change of their own text makes them right."""
+
+from __future__ import annotations
+
+import ast
+import doctest
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from experiments.exercises import expression_edits, sandbox, source_edits
+from experiments.exercises.closer_look import SECOND, CloserLook, Effort, _groups, _told, look_closer
+from experiments.exercises.exercise import find
+from experiments.exercises.grading import Grade, grade, row_of
+from experiments.exercises.judge import judge
+from experiments.exercises.source_edits import edits_of, without_main
+from experiments.exercises.source_search import fields_given
+from experiments.exercises.submission import Submission
+from experiments.exercises.words import paragraphs
+from tests.experiments.exercises import here
+from tests.experiments.exercises.corpus import solution
+from tests.experiments.exercises.mutants import mutants
+
+MODELS = Path(__file__).parent / "models"
+
+#: Enough for every change of these programs, whatever the machine.
+PATIENT = Effort(60.0, 0.0)
+
+
+@pytest.fixture
+def trusted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Programs run in this process."""
+    monkeypatch.setattr(sandbox, "run", here.run)
+
+
+def model(number: int) -> str:
+    """A model solution."""
+    return next(MODELS.glob(f"e{number:02}_*.py")).read_text(encoding="utf-8")
+
+
+def looked(number: int, text: str, effort: Effort = PATIENT) -> CloserLook:
+    """What is seen of a wrong program."""
+    verdict = judge(find(str(number)), text, "example")
+    assert not verdict.right
+    return look_closer(find(str(number)), text, "example", verdict, effort=effort)
+
+
+def changed(number: int, old: str, new: str) -> tuple[int, str]:
+    """A model solution with other words: the line, and the text."""
+    text = model(number)
+    assert text.count(old) == 1
+    return text[: text.index(old)].count("\n") + 1, text.replace(old, new)
+
+
+@pytest.mark.parametrize(
+    ("number", "old", "new", "family"),
+    [
+        (1, "v + dt * force", "v - dt * force", "sign"),
+        (2, "(y1 + y2) / 2", "(y1 + y2) / 3", "factor"),
+        (3, "pull[1:]", "pull[:-1]", "index"),
+        (3, "string.stiffness[:, None]", "string.masses[:, None]", "name"),
+        (3, "axis=1", "axis=0", "axis"),
+        (4, "x + dt * v, v + dt * a", "v + dt * a, x + dt * v", "order"),
+        (7, "< circle.radius", "> circle.radius", "condition"),
+        (3, "(length - string.rest_lengths[:, None])", "np.abs(length - string.rest_lengths[:, None])", "too much"),
+        (3, " - string.drag * v", "", "left out"),
+        (3, "gap = np.vstack([string.anchor,", "x -= string.anchor\n    gap = np.vstack([0 * string.anchor,", "copy"),
+    ],
+)
+def test_one_slip_is_led_to_its_line_and_kind(trusted: None, number: int, old: str, new: str, family: str) -> None:
+    """A model solution with one thing wrong: the line is among those that are told, with the kind of the change."""
+    line, text = changed(number, old, new)
+    told = looked(number, text).told
+    assert (line, family) in {place for repair in told for place in repair.places}
+
+
+def test_two_slips_are_both_found(trusted: None) -> None:
+    """Neither change alone makes it right."""
+    text = model(3).replace("axis=1", "axis=0").replace("- string.drag", "+ string.drag")
+    told = looked(3, text, Effort(60.0, 60.0)).told
+    assert told
+    assert all(len(repair.places) == 2 for repair in told)
+    assert {family for _, family in told[0].places} == {"axis", "sign"}
+
+
+def sampled(full: bool) -> list[tuple[int, str]]:
+    """Mutants of model solutions, one change each: one of a few exercises, or all."""
+    chosen = []
+    for number in (1, 2, 3, 4, 5, 6, 7, 9, 10) if full else (1, 2, 3, 7):
+        texts = [text for _, text in mutants(model(number)) if f"EXERCISE = {number}\n" in text]
+        chosen += [(number, text) for text in (texts if full else texts[len(texts) // 2 :: len(texts)])]
+    return chosen
+
+
+def test_mutants_fail_and_what_is_told_of_them_was_tried(trusted: None, request: pytest.FixtureRequest) -> None:
+    """Each repair that is told makes the program right, in the public check and in a hidden one it was not tried on.
+
+    Most are led to the line that was changed; the others are told no line, or one where a change mends them too.
+    """
+    wrong = led = 0
+    for number, text in sampled(request.config.option.full):
+        exercise = find(str(number))
+        if all(judge(exercise, text, "example", key).right for key in (None, "k")):
+            continue  # the change makes no difference
+        verdict = judge(exercise, text, "example")
+        closer = look_closer(exercise, text, "example", verdict, effort=Effort(2.0, 0.0))
+        lines, before = text.splitlines(), ast.unparse(ast.parse(model(number))).splitlines()
+        own = {i + 1 for i, (a, b) in enumerate(zip(lines, before, strict=False)) if a != b}
+        wrong, led = wrong + 1, led + bool(own & set(closer.lines))
+        if closer.told and len({r.function for r in closer.told}) == 1:
+            mended = mended_by(number, text, closer)
+            assert all(judge(exercise, mended, "example", key).right for key in (None, "k")), (number, closer.told[0])
+    assert led >= (0.75 if request.config.option.full else 0.5) * wrong
+
+
+def mended_by(number: int, text: str, closer: CloserLook) -> str:
+    """The text with the first repair that is told."""
+    exercise = find(str(number))
+    verdict = judge(exercise, text, "example")
+    (group,) = (g for g in _groups(exercise, "example", verdict) if g[0].function == closer.told[0].function)
+    tree = without_main(ast.parse(text))
+    for edit in edits_of(tree, fields_given([question.asked() for question in group])):
+        if ((edit.line, edit.family),) == closer.told[0].places and edit.cost == closer.told[0].cost:
+            with edit.applied():
+                mended = ast.unparse(ast.fix_missing_locations(tree))
+            if judge(exercise, mended, "example").right:
+                return mended
+    raise AssertionError(closer.told[0])
+
+
+def test_a_right_change_of_one_check_has_to_hold_in_another() -> None:
+    """What is searched on are two checks: a number typed in that fits one does not fit the other."""
+    verdict = judge(find("3"), model(3).replace("9.81", "9.81"), "")
+    groups = _groups(find("3"), "", verdict)
+    assert [len({q.about for q in group}) > 4 for group in groups] == [True]
+    assert SECOND
+    assert {"right", "scales", "tolerance"} <= set(_told(find("3"), groups[0][0]))
+
+
+def names_of(found: CloserLook) -> list[str]:
+    """What was seen of its behaviour."""
+    return [finding.name for finding in found.findings]
+
+
+def test_behaviour_is_told_as_it_was_seen(trusted: None) -> None:
+    """A factor of a thousand; a field that changes nothing; what is right where nothing is dragged; always the same."""
+    quick = Effort(0.0, 0.0)
+    assert "constant_factor" in names_of(looked(3, model(3).replace("return total", "return 1000 * total"), quick))
+    ignored = looked(3, model(3).replace("string.masses *", "0.05 *"), quick)
+    assert "not_used" in names_of(ignored)
+    assert "masses" in ignored.findings[0].words
+    dragged = looked(3, model(3).replace("- string.drag * v", "- string.drag * v**3"), quick)
+    assert names_of(dragged) == ["right_where"]
+    assert names_of(looked(3, model(3).replace("return total", "return 0 * total"), quick)) == ["always_the_same"]
+
+
+def test_a_cap_is_told_as_a_cap(trusted: None) -> None:
+    """Without time nothing is tried, and that is not told as nothing found."""
+    line, text = changed(3, "axis=1", "axis=0")
+    none, all_ = looked(3, text, Effort(0.0, 0.0)), looked(3, text)
+    assert (none.complete, none.repairs) == (False, ())
+    assert line in all_.lines
+
+
+def test_students_are_told_the_place_and_teachers_the_change() -> None:
+    """In the sandbox: the words have the line and the kind, and not what to write; the table has it, with a key."""
+    line, text = changed(3, "- string.rest_lengths", "+ string.rest_lengths")
+    submission = Submission("own.py", text, find("3"))
+    given: Grade = grade(submission, None)
+    assert line in given.closer.lines
+    said = "\n".join(paragraphs(submission, given))
+    assert f"line {line}" in said
+    change = given.closer.told[0].change
+    assert change not in said
+    assert row_of(submission, given, None)["change"] == ""
+    assert change[:100] in row_of(submission, given, "k")["change"]
+
+
+def test_right_programs_are_not_looked_at(trusted: None, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither are those that only chose another scheme."""
+    looked_at: list[Any] = []
+    monkeypatch.setattr("experiments.exercises.grading.look_closer", lambda *a: looked_at.append(a) or CloserLook())
+    assert grade(Submission("own.py", solution("loops", 3), find("3")), "k").closer == CloserLook()
+    assert looked_at == []
+
+
+@pytest.mark.parametrize("module", [source_edits, expression_edits], ids=lambda m: m.__name__.split(".")[-1])
+def test_the_worked_examples_are_true(module: Any) -> None:
+    """What the docstrings show is what comes out."""
+    assert doctest.testmod(module).failed == 0
+
+
+def test_a_tree_is_what_it_was_after_every_change() -> None:
+    """Each change is taken back, so that thousands can be tried on one tree; each has a line of the text."""
+    tree = ast.parse(solution("loops", 4))
+    before = ast.dump(tree, include_attributes=True)
+    edits: Sequence[source_edits.Edit] = edits_of(tree)
+    assert len(edits) > 500
+    for edit in edits:
+        with edit.applied():
+            pass
+        assert 1 <= edit.line <= before.count("lineno")
+    assert ast.dump(tree, include_attributes=True) == before
