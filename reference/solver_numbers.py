@@ -74,7 +74,7 @@ def numbers_of(system: MassSpringSystem, state: State, order: str, single: bool)
         v=rounded(state.velocities),
         inverse=inverse,
         weight=rounded(np.where(system.fixed[:, None], 0.0, system.gravity)),
-        drag=(kind(system.drag) * inverse)[:, None],
+        drag=rounded(np.where(system.fixed, 0.0, system.drag / system.masses))[:, None],
         ends=np.ascontiguousarray(system.springs),
         rest=rounded(system.rest_lengths),
         stiffness=rounded(system.stiffness),

@@ -1,0 +1,1 @@
+"""Newton: particles joined by springs, under its solvers of particles."""

@@ -1,0 +1,1 @@
+"""Rapier: spring joints between bodies that cannot turn."""
