@@ -1,10 +1,12 @@
 """In which order a solver goes through the springs of a system: where it stops early, the order is part of the scheme.
 
-made         as they are numbered
-reversed     the last made first
-colours      springs that share no moving mass are of one colour; colour after colour, each in the order made
-colours_back the same, made backwards: the last spring is given the first colour
-island       as Box2D 2 walks from body to body: the newest first, along the newest joints first
+Those of ORDERS are
+
+    made        as they are numbered
+    reversed    the last made first
+    colours     springs that share no moving mass are of one colour; colour after colour, each in the order made
+    fixed_last  the same of springs between moving masses; then those to fixed ones, as they are numbered
+    island      as Box2D 2 walks from body to body: the newest first, along the newest joints first
 """
 
 from __future__ import annotations
@@ -14,7 +16,7 @@ import numpy as np
 from reference.errors import unknown_name
 from reference.system import IntArray, MassSpringSystem
 
-ORDERS = ("made", "reversed", "colours", "colours_back", "island")
+ORDERS = ("made", "reversed", "colours", "fixed_last", "island")
 
 
 def in_order(system: MassSpringSystem, order: str) -> IntArray:
@@ -29,10 +31,12 @@ def in_order(system: MassSpringSystem, order: str) -> IntArray:
     made = np.flatnonzero(moves)
     if order == "island":
         return np.array(_island(system), dtype=np.int64)
-    if order in ("reversed", "colours_back"):
+    if order == "reversed":
         made = made[::-1]
-    if order in ("colours", "colours_back"):
-        made = made[np.argsort(_colours(system, made), kind="stable")]
+    if order in ("colours", "fixed_last"):
+        last = system.fixed[system.springs[made]].any(axis=1) & (order == "fixed_last")
+        first = made[~last]
+        made = np.concatenate([first[np.argsort(_colours(system, first), kind="stable")], made[last]])
     return np.ascontiguousarray(made, dtype=np.int64)
 
 

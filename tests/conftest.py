@@ -11,6 +11,7 @@ import hypothesis
 import pytest
 
 from engines.engine import Engine, find, registry, version
+from engines.process.packages import APART
 from reference.errors import InputError
 from tests.parts import PARTS, kept, part, todays
 
@@ -117,4 +118,7 @@ def engine(request: pytest.FixtureRequest) -> Engine:
     found = find(request.param)
     if version(found) is None:
         pytest.skip(f"{found.package} is not installed")
+    asked = request.config.option.full or found.name in request.config.getoption("--engine")
+    if found.package in APART and not asked:
+        pytest.skip(f"{found.name} has an environment of its own: tested with --full, or --engine {found.name}")
     return found

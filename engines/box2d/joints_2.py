@@ -46,8 +46,9 @@ class Box2d2Joints:
     def semantics(self) -> str:
         """What its numbers mean."""
         return (
-            "k [N/m] and c [N s/m] are given as frequency (k/m)^(1/2)/(2 pi) and damping ratio c/(2 (k m)^(1/2)), m the "
-            "effective mass; one mass is stepped by backward Euler; drag is linearDamping Cd/m, explicit"
+            "stiffness k [N/m] and damping c [N s/m] are told as the frequency (k/m)^(1/2)/(2 pi) and the damping "
+            "ratio c/(2 (k m)^(1/2)), m the effective mass; one mass is stepped by backward Euler; drag is "
+            "linearDamping Cd/m, explicit"
         )
 
     def start(self, system: MassSpringSystem, dt: float) -> Box2d2Simulation:

@@ -13,6 +13,7 @@ import numpy as np
 
 from engines.box2d.common import ABLE, check, moving
 from engines.engine import Precision, changed
+from reference.errors import Unsupported
 from reference.spring_frequencies import frequencies
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -53,8 +54,9 @@ class Box2d3Joints:
     def semantics(self) -> str:
         """What its numbers mean."""
         return (
-            "k [N/m] and c [N s/m] are given as hertz (k/m)^(1/2)/(2 pi) and damping ratio c/(2 (k m)^(1/2)), m the "
-            "effective mass; a sub-step damps twice as much as backward Euler's; drag is linearDamping Cd/m, implicit"
+            "stiffness k [N/m] and damping c [N s/m] are told as hertz (k/m)^(1/2)/(2 pi) and the damping ratio "
+            "c/(2 (k m)^(1/2)), m the effective mass; a sub-step damps twice as much as backward Euler's; drag is "
+            "linearDamping Cd/m, implicit"
         )
 
     def start(self, system: MassSpringSystem, dt: float) -> Box2d3Simulation:
@@ -98,7 +100,12 @@ class Box2d3Simulation:
         return x, v
 
     def change(self, parameter: str, value: Value) -> None:
-        """Every parameter can change between two steps; the joints keep their impulses."""
+        """Every parameter but the rest length can change between two steps; the joints keep their impulses.
+
+        A joint whose length is set forgets its impulse, which no scheme does.
+        """
+        if parameter == "rest_length":
+            raise Unsupported("Box2D 3 forgets the impulse of a joint whose rest length is changed")
         system = changed(self._engine, self._system, parameter, value)
         check(self._engine, system)
         self._system = system
@@ -133,10 +140,8 @@ class Box2d3Simulation:
 
     def _write_joints(self) -> None:
         _, hertz, ratio = frequencies(self._system)
-        lib, lengths = self._lib, self._system.rest_lengths
+        lib = self._lib
         for j, joint in self._joints.items():
-            if lib.b2DistanceJoint_GetLength(joint) != np.float32(lengths[j]):
-                lib.b2DistanceJoint_SetLength(joint, float(lengths[j]))  # which forgets the joint's impulse
             lib.b2DistanceJoint_SetSpringHertz(joint, float(hertz[j]))
             lib.b2DistanceJoint_SetSpringDampingRatio(joint, float(ratio[j]))
 

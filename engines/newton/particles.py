@@ -63,7 +63,7 @@ class NewtonParticles:
     def semantics(self) -> str:
         """What its numbers mean."""
         how = "explicit" if self.solver == "SolverSemiImplicit" else "implicit, as far as the iterations go"
-        return f"spring_ke is k [N/m] and spring_kd c [N s/m] of each spring, {how}; there is no drag"
+        return f"stiffness spring_ke is k [N/m] and damping spring_kd c [N s/m] of each spring, {how}; there is no drag"
 
     def start(self, system: MassSpringSystem, dt: float) -> NewtonSimulation:
         """The system as particles and springs. Raises Unsupported beyond the capabilities, or for XPBD without k."""

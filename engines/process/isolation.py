@@ -12,12 +12,14 @@ import numpy as np
 from engines.engine import Engine, Precision, absence, precision, version
 from engines.line import started
 from engines.process.available import interpreter
+from engines.process.packages import APART
 from engines.process.supervisor import supervisor
 from engines.process.worker_main import one_line
 from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step
 from reference.errors import Fault, InputError, Unsupported
 from reference.outcome import Outcome, outcome_of
+from reference.scenes import find
 from reference.state import State, Trajectory
 from reference.system import BREAK, HELD, MassSpringSystem
 
@@ -57,7 +59,39 @@ def isolated(
     """
     if python is None:
         python = interpreter_for(arguments)
+        late = None if python is None else _started_up(arguments, python, memory_limit)
+        if late is not None:
+            return late
     return supervisor(python).run(function, arguments, time_limit, memory_limit)
+
+
+#: The engines, of environments of their own, that have made their first step once, by name.
+_STARTED: set[str] = set()
+
+
+def _started_up(arguments: Sequence[Any], python: Path, memory_limit: float) -> Outcome | None:
+    """Let an engine make its first step, within the time its package has for that: importing, compiling kernels.
+
+    Returns:
+        How that ended, if not well.
+    """
+    for argument in arguments:
+        package, start = getattr(argument, "package", None), getattr(argument, "start", None)
+        if not isinstance(package, str) or package not in APART or not callable(start) or argument.name in _STARTED:
+            continue
+        ended = supervisor(python).run(first_step, (argument,), APART[package].start_up, memory_limit)
+        if isinstance(ended, Outcome):
+            return Outcome(ended.ending, f"starting {package}: {ended.reason}")
+        _STARTED.add(argument.name)
+    return None
+
+
+def first_step(engine: Engine) -> float:
+    """One step of a string of one mass; where the mass then is [m]."""
+    system = find("string").system({"masses": 1})
+    simulation = engine.start(system, 1e-3)
+    simulation.step()
+    return float(simulation.state()[0][-1, -1])
 
 
 def interpreter_for(arguments: Sequence[Any]) -> Path | None:

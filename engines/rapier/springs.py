@@ -49,8 +49,8 @@ class RapierSprings:
     def semantics(self) -> str:
         """What its numbers mean."""
         return (
-            "stiffness is k [N/m] and damping c [N s/m] of each spring joint, implicit; one mass is stepped by backward "
-            "Euler in each sub-step; drag is linear_damping Cd/m, implicit, once a step"
+            "stiffness is k [N/m] and damping c [N s/m] of each spring joint, implicit; one mass is stepped by "
+            "backward Euler in each sub-step; drag is linear_damping Cd/m, implicit, once a step"
         )
 
     def start(self, system: MassSpringSystem, dt: float) -> RapierSimulation:
@@ -80,7 +80,8 @@ class RapierSimulation:
         """Positions and velocities, body by body."""
         bodies = [self._world.rigid_bodies.get(handle) for handle in self._bodies]
         d = self._system.dimension
-        x, v = (np.array([tuple(q)[:d] for q in qs], dtype=float) for qs in zip(*((b.translation, b.linvel) for b in bodies)))
+        x = np.array([tuple(body.translation)[:d] for body in bodies], dtype=float)
+        v = np.array([tuple(body.linvel)[:d] for body in bodies], dtype=float)
         return x, v
 
     def change(self, parameter: str, value: Value) -> None:

@@ -11,6 +11,7 @@ catalogue by largest deviation has a cliff in it, and a name is given only to wh
     pushes          a motion in which schemes differ, where a system's own has none
     amplification   where the motion multiplies rounding: how much more may be rounding
     single_steps    steps one by one, where trajectories part by rounding
+    bits            trajectories of single precision, equal to the last bit
     naming          all of it together
 """
 

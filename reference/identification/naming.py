@@ -12,9 +12,10 @@ from dataclasses import dataclass, replace
 
 from reference.changes import Change
 from reference.identification.amplification import AMPLIFIED, amplified
+from reference.identification.bits import BITS, same_bits
 from reference.identification.pushes import Push, lacking, pushes
 from reference.identification.ranking import TOLERANCE, identify_run
-from reference.identification.result import Identification
+from reference.identification.result import Identification, Match
 from reference.identification.scale import fastest_rate_bound, precision_of
 from reference.identification.search import (
     FEWEST_STEPS,
@@ -140,7 +141,8 @@ class _Naming:
         if outcome.trajectory is None:
             return identify_run(stepper.name, outcome, self._system, {})
         if precision_of(stepper) == "single":
-            return self._by_single_steps(stepper, outcome.trajectory)
+            same = self._bit_for_bit(stepper, outcome.trajectory)
+            return self._by_single_steps(stepper, outcome.trajectory) if same is None else same
         found = self._known.identify(stepper.name, outcome, self._system)
         if not found.matches and found.ranking and found.ranking[0].scheme in self._known.whole:
             by_rounding = identify_by_rounding(
@@ -155,6 +157,20 @@ class _Naming:
         nothing = not by_steps.ranking and by_steps.compared == "single steps"
         words = "" if nothing else f"; by {by_steps.compared}, {by_steps.reason}"
         return found.without_name(found.reason + words)
+
+    def _bit_for_bit(self, stepper: Stepper, run: Trajectory) -> Identification | None:
+        """The scheme that a stepper claims to be, in single precision, where every bit of its run is that scheme's.
+
+        Its start is left out: what a stepper is given in double precision it rounds first.
+        """
+        for claim in getattr(stepper, "claims", ()):
+            known = stepper_named(claim)
+            if not known.scheme.parameters.get("single"):
+                continue
+            found = known.run(self._system, self._dt, self._steps, self._changes).trajectory
+            if found is not None and len(run) > 1 and same_bits(found, run):
+                return Identification(stepper.name, (Match(claim, 0.0, 0.0, len(run) - 1),), 0.0, compared=BITS)
+        return None
 
     def _told_apart(self, stepper: Stepper, found: Identification) -> Identification:
         """Of the schemes that match, the one that a pushed stepper is; or those that it still may be."""

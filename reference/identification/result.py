@@ -42,7 +42,7 @@ class Identification:
         told_apart_by: what was done to tell schemes apart that do the same on the system itself; empty where nothing
             was.
         compared: "trajectories"; or "single steps", each from a state of the stepper's own, perhaps "single steps away
-            from obstacles": errors are then of a step.
+            from obstacles": errors are then of a step; or "every bit of every step" (`bits`).
         same_without: of schemes that tie, what the system lacks that they differ in: "damping", "drag".
     """
 

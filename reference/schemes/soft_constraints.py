@@ -38,7 +38,7 @@ def soft_constraints_warm(
     it = numbers_of(motion.system, state, order, single)
     h = it.number(dt)
     it.v[:] = (it.v + h * it.weight) * np.clip(1 - h * it.drag, 0, 1)
-    impulses = kept(state, it)
+    impulses = kept(state, it) * (1 / h * h)  # for a dt that changes; in single precision that is not always 1
     effective, omega, ratio = as_oscillators(motion.system, it)
     it = replace(it, stiffness=effective * omega * omega, damping=2 * effective * ratio * omega)
     softness, bias, axes = soft_springs(it, it.x, h)
@@ -58,7 +58,7 @@ def soft_constraints_cold(
     substeps: int = 4,
     sweeps: int = 1,
     sweeps_after: int = 1,
-    order: str = "colours_back",
+    order: str = "fixed_last",
     single: bool = False,
 ) -> State:
     """Soft constraints from no impulse: in each sub-step sweeps, the masses move, and sweeps again (Rapier, PhysX 5).

@@ -6,15 +6,17 @@ it imports nothing heavy.
 
 from __future__ import annotations
 
+import site
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
 
 from engines.engine import Engine
 from engines.line import started
-from engines.process.isolation import isolated, run_engine
+from engines.process.isolation import interpreter_for, isolated, run_engine
 from reference.outcome import Outcome
 from reference.state import Array
 from reference.system import MassSpringSystem
@@ -61,6 +63,10 @@ def _look(engine: Engine, system: MassSpringSystem) -> Look:
 
 def result_of(task: Callable[..., T], *arguments: object) -> T:
     """What a task returns from a process of its own."""
+    python = interpreter_for(arguments)
+    if python is not None:
+        # an environment of its own sees two rooms of the lab: this process of it is shown the tests, too
+        isolated(site.addsitedir, str(Path(__file__).parents[2]), python=python)
     result = isolated(task, *arguments)
     assert not isinstance(result, Outcome), f"{result.ending}: {result.reason}"
     return result

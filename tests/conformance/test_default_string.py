@@ -10,7 +10,15 @@ import pytest
 from engines.engine import Engine
 from reference.scenes import find as find_scene
 from tests.conformance.case import Case
-from tests.conformance.checks import EXACT_SOLVE, check_follows, claimed, identify_claimed, on_rods, require
+from tests.conformance.checks import (
+    EXACT_SOLVE,
+    check_follows,
+    claimed,
+    identify_claimed,
+    on_rods,
+    require,
+    tolerance_of,
+)
 from tests.conformance.runs import expected, outcome_of
 
 DT, STEPS = 1e-3, 500
@@ -42,7 +50,8 @@ def test_the_engine_is_identified_as_it_claims(engine: Engine, case: str) -> Non
     for what in SETTINGS[case]:
         require(engine, what)
     found = identify_claimed(engine, CASES[case], outcome_of(engine, CASES[case]))
-    assert claimed(engine, CASES[case]) in [match.scheme for match in found.matches if match.error <= WITHIN], str(
+    within = max(WITHIN, tolerance_of(engine) * CASES[case].system.size)
+    assert claimed(engine, CASES[case]) in [match.scheme for match in found.matches if match.error <= within], str(
         found
     )
 
@@ -70,6 +79,8 @@ def test_a_blow_up_is_told_and_is_the_schemes_own(engine: Engine) -> None:
     if on_rods(engine):
         pytest.skip("distance constraints do not stretch: no spring can show that it tore")
     case = Case("too large a step", CASES["plain"].system, 0.02, 200)
+    if expected(engine.identified_as["plain"], case).ending == "done":
+        pytest.skip("its scheme does not blow up at this step")
     outcome = outcome_of(engine, case)
     assert outcome.ending == "diverged"
     check_follows(engine, case, outcome)

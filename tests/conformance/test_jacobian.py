@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engines.engine import Engine
+from engines.engine import Engine, precision
 from engines.process.isolation import isolated
 from engines.step_jacobian import own_jacobian, step_jacobian
 from reference.growth_factor import growth_factor
@@ -46,6 +46,8 @@ def check_factor(measured: float, scheme: str) -> None:
 
 def test_an_engines_step_has_the_growth_factor_of_its_scheme(engine: Engine) -> None:
     """At a dt up to twice beyond the limit of most, where the factor is far from 1, and another for each scheme."""
+    if precision(engine) == "single":
+        pytest.skip("of perturbations of 8e-7 m single precision leaves nothing")
     if not {"stretched", "velocities", "damping"} <= engine.capabilities:
         pytest.skip(f"{engine.name} cannot start stretched, in motion and damped")
     scheme = engine.identified_as["damping"]

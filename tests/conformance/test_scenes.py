@@ -9,7 +9,7 @@ from reference.outcome import Outcome
 from tests.conformance import doctored
 from tests.conformance.case import Case
 from tests.conformance.cases import SCENES
-from tests.conformance.checks import claimed, identify_claimed
+from tests.conformance.checks import claimed, identify_claimed, tolerance_of
 from tests.conformance.doctored import Doctored
 from tests.conformance.refusals import refused_as_expected
 from tests.conformance.runs import outcome_of
@@ -24,7 +24,7 @@ def check_identified(engine: Engine, case: Case, outcome: Outcome) -> None:
     assert outcome.ending == "done", f"{engine.name}, {case.name}: {outcome.ending}, {outcome.reason}"
     found = identify_claimed(engine, case, outcome)
     assert claimed(engine, case) in [match.scheme for match in found.matches or found.ranking[:1]], str(found)
-    assert found.error < 1e-9
+    assert found.error < max(1e-9, tolerance_of(engine) * case.system.size)
 
 
 @pytest.mark.parametrize("scene", SCENES)

@@ -13,7 +13,7 @@ BY_HAND = {
     "made": [0, 1, 2, 3, 4],
     "reversed": [4, 3, 2, 1, 0],
     "colours": [0, 2, 4, 1, 3],
-    "colours_back": [4, 2, 0, 3, 1],
+    "fixed_last": [1, 3, 2, 4, 0],
     "island": [4, 3, 2, 1, 0],
 }
 
