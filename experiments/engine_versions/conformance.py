@@ -13,7 +13,7 @@ from engines.capability_cases import for_each_capability
 from engines.engine import demands
 from engines.process.isolation import EngineStepper
 from experiments.limits.engine_limit import measure_at_random
-from reference.identification import Identification, candidates, identify_run
+from reference.identification import Identification, candidates, identify, identify_run
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.state import Trajectory
@@ -59,6 +59,9 @@ def identified(stepper: EngineStepper, case: str) -> Identification | Outcome:
     It is compared with the whole catalogue, and with what it claims to be where that has parameters.
     """
     system = _string(**IDENTIFIED[case])
+    if stepper.precision == "single":
+        first = stepper.run(system, DT, 1)
+        return first if first.trajectory is None else identify(stepper, system, DT, STEPS)
     outcome = stepper.run(system, DT, STEPS)
     if outcome.trajectory is None:
         return outcome

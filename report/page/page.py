@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from engines.engine import installed_version, registry
+from engines.engine import available_version, registry
 from experiments.runs.environment import environment
 from report.browser.beside import BESIDE
 from report.figures import Picture
@@ -158,4 +158,4 @@ def _undone(sections: Sequence[Section]) -> list[Undone]:
 def _environment() -> dict[str, str]:
     """What everything rests on, with all packages that engines come in."""
     names = sorted({engine.package for engine in registry().values()})
-    return {**environment(), **{name: installed_version(name) or "not installed" for name in names}}
+    return {**environment(), **{name: available_version(name) or "not installed" for name in names}}

@@ -10,7 +10,7 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
-from engines.engine import installed_version, registry
+from engines.engine import available_version, registry
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.environment import environment, processor
 from experiments.runs.store import Store
@@ -106,7 +106,7 @@ def versions() -> str:
     told = environment()
     for name in ("date", "processor"):
         del told[name]
-    packages = {engine.package: installed_version(engine.package) for engine in registry().values()}
+    packages = {engine.package: available_version(engine.package) for engine in registry().values()}
     return digest(told, packages)
 
 

@@ -1,4 +1,4 @@
-"""What engines of games and robots do unless they are told otherwise: each trap set off, in the engine's environment."""
+"""What engines of games and robots do unless told otherwise: each trap set off, in the engine's environment."""
 
 from __future__ import annotations
 

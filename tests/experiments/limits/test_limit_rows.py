@@ -6,6 +6,7 @@ import pytest
 
 from engines.engine import Engine, demands, registry, version
 from engines.process.isolation import EngineStepper
+from engines.process.packages import APART
 from experiments.limits.limit_rows import Row, stability_rows
 from reference.lecture.listings import listings
 from reference.scenes import find
@@ -26,7 +27,8 @@ def quiet(_: object) -> None:
 def engine_rows(request: pytest.FixtureRequest) -> tuple[MassSpringSystem, dict[str, Row]]:
     """A string, and a row for each engine that can be started with it, all from one call."""
     system = find("string").system({"masses": 4, **request.param})
-    able = [e for e in registry().values() if version(e) and e.capabilities.issuperset(demands(system))]
+    beside = [e for e in registry().values() if version(e) and e.package not in APART]
+    able = [e for e in beside if e.capabilities.issuperset(demands(system))]
     return system, {row.stepper: row for row in stability_rows(system, [EngineStepper(e) for e in able], quiet)}
 
 

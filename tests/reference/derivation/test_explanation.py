@@ -9,6 +9,7 @@ import pytest
 
 from engines.engine import registry
 from engines.process.isolation import EngineStepper
+from engines.process.packages import APART
 from reference.derivation.explanation import explain
 from reference.derivation.near import known_matrices, nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order
@@ -28,7 +29,9 @@ from tests.reference.systems import label
 
 #: The engines' own names for what they do with damping and drag at once; Bullet is slow to start, and has a case below.
 ENGINES = [
-    n for n, e in registry().items() if {"1d", "stretched", "velocities"} <= e.capabilities and "bullet" not in n
+    n
+    for n, e in registry().items()
+    if {"1d", "stretched", "velocities"} <= e.capabilities and e.package not in {"pybullet", *APART}
 ]
 
 
