@@ -47,6 +47,7 @@ BARE_REFERENCE = (
         for name in ("barrier", "cloths", "drape", "lattices", "line", "parameters", "strings", "trusses")
     ),
     "scenes",
+    "spring_frequencies",
     "spring_law",
     "state",
     "system",
