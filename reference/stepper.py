@@ -97,6 +97,11 @@ def catalogued() -> Mapping[str, SchemeStepper]:
     return {stepper.name: stepper for stepper in [*on_springs, *on_rods, SchemeStepper(ROPE_KICK_DRIFT, RopeMotion)]}
 
 
+def wide_catalogue() -> Mapping[str, SchemeStepper]:
+    """The schemes of the wide catalogue on springs, by name."""
+    return {name: SchemeStepper(scheme) for name, scheme in catalogue.wide_schemes().items()}
+
+
 def stepper_named(name: str) -> SchemeStepper:
     """The catalogued stepper of a name, which may be an alias or have parameters: sweeps(rounds=3).
 

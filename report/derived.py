@@ -99,8 +99,8 @@ def _order(explanation: Explanation) -> Iterator[str]:
         if follows is not None and explanation.of_one_step:
             known.append(f"{follows.undamped_order} on the oscillator, {follows.order} with damping and drag")
         if explanation.nonlinear_order is not None:
-            known.append(f"{explanation.nonlinear_order} measured on a spring that turns")
-        yield f"Order {explanation.order}: {'; '.join(known)}"
+            known.append(f"{explanation.nonlinear_order} measured on a spring that turns, without damping")
+        yield f"Order {explanation.order} without damping: {'; '.join(known)}"
 
 
 def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:

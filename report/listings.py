@@ -26,7 +26,7 @@ def spring_rows() -> Shown:
 def stepper_rows() -> Shown:
     """All steppers that are not engines, and the solvers that are run only where they are named."""
     from experiments.runs.steppers import all_steppers
-    from reference.schemes.catalogue import constraint_schemes
+    from reference.schemes.catalogue import constraint_schemes, wide_schemes
     from reference.stepper import SchemeStepper
 
     rows = []
@@ -34,7 +34,9 @@ def stepper_rows() -> Shown:
         if stepper.kind != "engine":
             summary = stepper.scheme.summary if isinstance(stepper, SchemeStepper) else stepper.summary  # type: ignore[attr-defined]
             rows.append([stepper.name, stepper.kind, summary])
-    rows += [[scheme.name, scheme.kind, scheme.summary] for scheme in constraint_schemes().values()]
+    rows += [
+        [scheme.name, scheme.kind, scheme.summary] for scheme in {**constraint_schemes(), **wide_schemes()}.values()
+    ]
     return Shown("schemes", ["stepper", "kind", "what"], rows)
 
 

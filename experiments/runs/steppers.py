@@ -34,8 +34,9 @@ def default_steppers() -> list[Stepper]:
 def _scheme_named(name: str, known: Iterable[str]) -> Stepper:
     """A scheme by an alias, or with parameters."""
     base = name.partition("(")[0]
-    if base == name and base not in {**catalogue.aliases(), **catalogue.constraint_schemes()}:
-        raise unknown_name("stepper", name, known)
+    besides = {**catalogue.aliases(), **catalogue.constraint_schemes(), **catalogue.wide_schemes()}
+    if base == name and base not in besides:
+        raise unknown_name("stepper", name, [*known, *besides])
     return stepper_named(name)
 
 

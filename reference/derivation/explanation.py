@@ -69,12 +69,17 @@ class Explanation:
 
     @property
     def order(self) -> int | None:
-        """By the conditions on its tableau; else the lower of those on linear motion and on a spring that turns."""
+        """By the conditions on its tableau; else the lower of those on the oscillator and on a spring that turns.
+
+        Both without damping, which may cost orders: `follows` has the order with damping, too.
+        """
         if self.tableau is not None:
             return self.tableau.order
         if self.pasts is not None and self.pasts.one_step is False:
             return self.nonlinear_order
-        known = [n for n in (self.follows.order if self.follows else None, self.nonlinear_order) if n is not None]
+        known = [
+            n for n in (self.follows.undamped_order if self.follows else None, self.nonlinear_order) if n is not None
+        ]
         return min(known, default=None)
 
     @property
@@ -149,7 +154,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     tell("its slopes")
     updates, tableau, remarks = _asked(stepper, reasons)
     tell("its order")
-    seen = None if precision == "single" else nonlinear_order(runs, damped, dragged)
+    seen = None if precision == "single" else nonlinear_order(runs, False, False)
     tell("its name")
     identification = _identified(stepper, damped, dragged)
     nearest = ""

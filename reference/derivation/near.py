@@ -58,7 +58,7 @@ def nearest_known(name: str, tableau: Tableau | None, matrix: StepMatrix | None)
 @cache
 def known_tableaux() -> dict[str, Tableau]:
     """The catalogue's, by scheme."""
-    every = catalogue.schemes().items()
+    every = {**catalogue.schemes(), **catalogue.wide_schemes()}.items()
     found = {name: tableau_of_scheme(scheme) or implicit_tableau(scheme) for name, scheme in every}
     return {name: tableau for name, tableau in found.items() if tableau is not None}
 
@@ -67,7 +67,7 @@ def known_tableaux() -> dict[str, Tableau]:
 def known_matrices() -> dict[str, list[list[str]]]:
     """The catalogue's step matrices, as they are written, by scheme: those of one-step schemes."""
     found = {}
-    for name, scheme in catalogue.schemes().items():
+    for name, scheme in {**catalogue.schemes(), **catalogue.wide_schemes()}.items():
         if scheme.one_step:
             try:
                 found[name] = _matrix_of(name).text()

@@ -70,14 +70,17 @@ def step_matrix(runs: Runs, precision: Precision = "double") -> StepMatrix:
     Raises:
         Unsupported: where it can step no such oscillator, or its entries follow no small formula; with the reason.
     """
-    reason = ""
+    reason, together = "", set()
     for (damped, dragged), (measure, count) in product(VARIANTS, WAYS):
+        if (damped, dragged) in together and count == MANY:
+            continue  # as many were stepped side by side: more of them tell no more one by one
         at = samples(damped, dragged, count)
         try:
             measured = measure(runs, at)
         except Unsupported as error:
             reason = reason or str(error)
             continue
+        together |= {(damped, dragged)} if measure is side_by_side else set()
         noise = ROUNDINGS * ROUNDING[precision] * max(1.0, float(np.abs(measured).max()))
         entries = [formula_of(at, measured[:, i, j], noise) for i, j in product(range(2), range(2))]
         m11, m12, m21, m22 = entries

@@ -191,7 +191,7 @@ class _Naming:
     def _by_single_steps(self, stepper: Stepper, run: Trajectory) -> Identification:
         """What a stepper is by single steps: from its own states, and where its dt is short, from those at a longer."""
         precision = precision_of(stepper)
-        catalogue = catalogue_with(getattr(stepper, "claims", ()))
+        catalogue = catalogue_with(getattr(stepper, "claims", ()), self._system)
         steps = steps_of(run, self._system, self._changes)
         found = identify_steps(stepper.name, steps, catalogue, precision)
         long = self._dt * fastest_rate_bound(self._system) >= LONG

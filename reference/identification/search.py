@@ -11,7 +11,7 @@ from reference.identification.result import Identification
 from reference.identification.scale import precision_of
 from reference.outcome import Outcome
 from reference.state import Trajectory
-from reference.stepper import SchemeStepper, Stepper, catalogued, stepper_named
+from reference.stepper import SchemeStepper, Stepper, catalogued, stepper_named, wide_catalogue
 from reference.system import MassSpringSystem
 
 #: Systems of more masses than that are large: there two steps decide which schemes go on, and of those that tie in
@@ -33,7 +33,9 @@ def candidates(
     Args:
         claims: schemes with parameters, by name, that are to be among them: what an engine says it is.
     """
-    outcomes = {name: stepper.run(system, dt, steps, changes) for name, stepper in catalogue_with(claims).items()}
+    outcomes = {
+        name: stepper.run(system, dt, steps, changes) for name, stepper in catalogue_with(claims, system).items()
+    }
     return {name: outcome.trajectory for name, outcome in outcomes.items() if outcome.trajectory is not None}
 
 
@@ -78,7 +80,7 @@ def candidates_for(
         runs: each with who made it; what the catalogue's own schemes have made is not made again.
     """
     claims = [claim for stepper, _ in runs for claim in getattr(stepper, "claims", ())]
-    catalogue = catalogue_with(claims)
+    catalogue = catalogue_with(claims, system)
     own = {s.name: run.trajectory for s, run in runs if catalogue.get(s.name) == s and run.trajectory is not None}
     unknown = [run for stepper, run in runs if run.trajectory is not None and precision_of(stepper) == "double"]
 
@@ -151,9 +153,10 @@ class _Search:
         self.followed[name] = trajectory if whole is None else whole
 
 
-def catalogue_with(claims: Iterable[str]) -> dict[str, SchemeStepper]:
-    """The catalogue, and after it the schemes with parameters that somebody claims to be."""
-    known = dict(catalogued())
+def catalogue_with(claims: Iterable[str], system: MassSpringSystem) -> dict[str, SchemeStepper]:
+    """The catalogue, after it the wide one where the system is small, and the schemes that somebody claims to be."""
+    wide = wide_catalogue() if len(system.masses) <= LARGE else {}
+    known = {**catalogued(), **wide}
     return known | {name: stepper_named(name) for name in claims if name not in known}
 
 

@@ -21,9 +21,9 @@ from reference.motion import EveryMotion, Motion, MotionByMass, MotionOfRods, Mo
 from reference.registry import Registry
 from reference.state import State
 
-#: How a scheme stands to the theory: right; used by an engine; of those, a solver of constraints with parameters; or
-#: deliberately incorrect.
-Kind = Literal["scheme", "engine_scheme", "constraint_scheme", "in_place"]
+#: How a scheme stands to the theory: right; used by an engine; of those, a solver of constraints with parameters;
+#: deliberately incorrect; or right, and of the wide catalogue, which is run where it is asked for only.
+Kind = Literal["scheme", "engine_scheme", "constraint_scheme", "in_place", "wide_scheme"]
 
 #: What a scheme asks of the equations of motion, by the protocol its first parameter is annotated with.
 Needs = Literal["accelerations", "accelerations of one mass", "springs", "distance constraints"]
@@ -204,7 +204,13 @@ def scheme(
 
 def schemes() -> Mapping[str, Scheme]:
     """The schemes that everything is compared with, the simplest first: where two do the same, the first is named."""
-    return {name: scheme for name, scheme in _SCHEMES.all().items() if scheme.kind != "constraint_scheme"}
+    apart = ("constraint_scheme", "wide_scheme")
+    return {name: scheme for name, scheme in _SCHEMES.all().items() if scheme.kind not in apart}
+
+
+def wide_schemes() -> Mapping[str, Scheme]:
+    """What people write besides: run where it is asked for, and what steppers are identified with on small systems."""
+    return {name: scheme for name, scheme in _SCHEMES.all().items() if scheme.kind == "wide_scheme"}
 
 
 def constraint_schemes() -> Mapping[str, Scheme]:
@@ -223,7 +229,7 @@ def find(name: str) -> Scheme:
     Raises:
         InputError: with a suggestion, where there is none; for a parameter it does not have.
     """
-    known = {**schemes(), **constraint_schemes(), **aliases()}
+    known = {**_SCHEMES.all(), **aliases()}
     parts = re.fullmatch(r"([^(]*)(?:\((.*)\))?", name, re.S)
     if parts is None:
         raise InputError(f"scheme {name!r}: expected a name, or a name with parameters, as in sweeps(rounds=3)")

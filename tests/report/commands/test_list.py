@@ -14,7 +14,7 @@ from experiments.experiment import NAMES
 from experiments.runs.steppers import all_steppers
 from reference.nonlinear import KINDS
 from reference.scenes import scenes
-from reference.schemes.catalogue import constraint_schemes
+from reference.schemes.catalogue import constraint_schemes, wide_schemes
 from reference.stepper import catalogued
 from tests.report.commands.terminal import springlab
 
@@ -45,7 +45,7 @@ def test_the_json_lists_everything_there_is() -> None:
     assert list(document) == ["scenes", "springs", "schemes", "engines", "experiments"]
     assert [row["scene"] for row in document["scenes"]] == list(scenes())
     others = [stepper.name for stepper in all_steppers().values() if stepper.kind != "engine"]
-    assert [row["stepper"] for row in document["schemes"]] == [*others, *constraint_schemes()]
+    assert [row["stepper"] for row in document["schemes"]] == [*others, *constraint_schemes(), *wide_schemes()]
     assert [row["parameter"] for row in document["springs"]] == list(KINDS)
     assert [row["engine"] for row in document["engines"]] == list(registry())
     assert [row["experiment"] for row in document["experiments"]] == list(NAMES)
