@@ -38,11 +38,14 @@ UNFINISHED = ".unfinished-"
 def environment(package: str, version: str) -> Path:
     """The Python of the environment with a version of a package, made now if there is none.
 
+    Args:
+        version: such as 1.2.3; or the file of a wheel of the package.
+
     Raises:
         InputError: where that version cannot be installed; with the reason, shortened.
     """
-    if not re.fullmatch(r"\d[\w.!+-]*", version):
-        raise InputError(f"{package} version {version!r}: expected one such as 1.2.3")
+    if not version.endswith(".whl") and not re.fullmatch(r"\d[\w.!+-]*", version):
+        raise InputError(f"{package} version {version!r}: expected one such as 1.2.3, or the file of a wheel")
     folder = cache_folder("environments")
     home = _home(folder, package, version)
     with _locked(folder / f"{home.name}.lock"):
@@ -66,7 +69,8 @@ def kept(package: str, version: str) -> Path | None:
 
 def _home(folder: Path, package: str, version: str) -> Path:
     """Where an environment is, or would be."""
-    return folder / f"{package}-{version}-{_digest(_other_python(package))}"
+    label = _label_of_wheel(package, Path(version)) if version.endswith(".whl") else version
+    return folder / f"{package}-{label}-{_digest(_other_python(package))}"
 
 
 def _other_python(package: str) -> str | None:
@@ -80,9 +84,29 @@ def numpy_version() -> str:
     return f"{np.__version__.split('.')[0]}.x"
 
 
+def version_of_wheel(name: str) -> str:
+    """The version in a wheel's file name; of anything else, which is a version, itself.
+
+    >>> version_of_wheel("dist/mujoco-4.1.0-cp311-cp311-linux_x86_64.whl"), version_of_wheel("4.0.0")
+    ('4.1.0', '4.0.0')
+    """
+    return Path(name).name.split("-")[1] if name.endswith(".whl") and name.count("-") >= 4 else name
+
+
+def _label_of_wheel(package: str, wheel: Path) -> str:
+    """Its version and the digest of what is in it: a wheel that is built again is another one."""
+    if not wheel.is_file():
+        raise InputError(f"{package} version {str(wheel)!r}: expected a file that is there")
+    named = wheel.name.partition("-")[0]
+    if re.sub(r"[-_.]+", "-", named).lower() != re.sub(r"[-_.]+", "-", package).lower():
+        raise InputError(f"{package} version {str(wheel)!r}: expected a wheel of {package}")
+    return f"{version_of_wheel(wheel.name)}-{hashlib.sha256(wheel.read_bytes()).hexdigest()[:8]}"
+
+
 def _make(home: Path, package: str, version: str) -> None:
     uv = shutil.which("uv")
-    python, wanted = str(_python(home)), f"{package}=={version}"
+    python = str(_python(home))
+    wanted = str(Path(version).resolve()) if version.endswith(".whl") else f"{package}=={version}"
     known, other = APART.get(package), _other_python(package)
     module, beside = (known.module, known.beside) if known else (package, ())
     if uv:

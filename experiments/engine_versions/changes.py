@@ -11,6 +11,9 @@ from experiments.engine_versions.conformance import Value
 from experiments.engine_versions.versions import Rows, VersionMeasurements
 from experiments.experiment import Result, Table
 
+#: Measures of how an engine steps: another scheme, another limit, or no step at all.
+OF_MOTION = ("identified", "largest stable dt", "runs")
+
 #: Numbers are the same up to this part of themselves.
 TOLERANCE = 1e-5
 
@@ -86,8 +89,10 @@ def _finding(package: str, old: str, new: str, before: Rows, after: Rows) -> str
     found = changes(before, after)
     if not found:
         return f"{package} {new} changed nothing: {count} measurements are those of {old}."
+    moved = [change for change in found if change.measure.startswith(OF_MOTION)]
+    first = "The motion changed" if moved else "The motion is the same"
     by_engine: dict[str, list[str]] = {}
     for change in found:
         by_engine.setdefault(change.engine, []).append(change.measure)
     listed = "; ".join(f"{engine}: {', '.join(names)}" for engine, names in by_engine.items())
-    return f"{package} {new} changed {len(found)} of {count} measurements of {old}. Of {listed}."
+    return f"{first}: {package} {new} changed {len(found)} of {count} measurements of {old}. Of {listed}."

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from engines.crash_cases import TIME_LIMIT, CrashCase, crash_cases, ending
 from engines.engine import Engine, registry
-from engines.process.environments import environment, numpy_version
+from engines.process.environments import environment, numpy_version, version_of_wheel
 from engines.process.isolation import EngineStepper, isolated
 from engines.process.supervisor import supervisor
 from experiments.engine_versions.conformance import Value, measure
@@ -67,7 +67,7 @@ def find_subject(name: str) -> Subject:
 
 def in_order(versions: Sequence[str]) -> list[str]:
     """Versions, the oldest first, each once."""
-    return sorted(dict.fromkeys(versions), key=lambda version: [int(n) for n in re.findall(r"\d+", version)])
+    return sorted(dict.fromkeys(versions), key=lambda v: [int(n) for n in re.findall(r"\d+", version_of_wheel(v))])
 
 
 def measure_versions(
@@ -96,6 +96,37 @@ def measure_versions(
     finally:
         for python in pythons.values():
             supervisor(python).stop()
+
+
+def where_it_changed(
+    subject: Subject,
+    versions: Sequence[str],
+    measured: Callable[[str], VersionMeasurements],
+    changed: Callable[[Rows, Rows], bool],
+) -> VersionMeasurements:
+    """Of versions in their order, the last that still does as the first, and the next one, by halving.
+
+    Where a change was taken back in between, one of the places where it came is found. As few versions as can be are
+    measured: of a hundred, nine.
+
+    Args:
+        measured: what one version does.
+        changed: whether the second does something else than the first.
+    """
+    order = in_order(versions)
+    if len(order) < 2:
+        raise InputError(f"{subject.package}: expected two versions or more to look between")
+    rows = {version: dict(measured(version).rows)[version] for version in (order[0], order[-1])}
+    low, high = 0, len(order) - 1
+    if changed(rows[order[low]], rows[order[high]]):
+        while high - low > 1:
+            middle = (low + high) // 2
+            rows[order[middle]] = dict(measured(order[middle]).rows)[order[middle]]
+            if changed(rows[order[0]], rows[order[middle]]):
+                high = middle
+            else:
+                low = middle
+    return VersionMeasurements(subject.package, {order[i]: rows[order[i]] for i in (low, high)})
 
 
 def _measure(subject: Subject, pythons: Mapping[str, Path], progress: Progress) -> dict[str, Rows]:

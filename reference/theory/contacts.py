@@ -8,6 +8,7 @@ the Lagrangian on the tangent space of the active constraints).
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -60,14 +61,12 @@ class ContactLinearisation(Linearisation):
     @cached_property
     def tangents(self) -> Any:
         """Directions that no contact bars, orthonormal, as columns: sparse, shape (free coordinates, m)."""
-        from scipy.sparse import block_diag
-
         assert self.contacts is not None
         blocks = []
         for i in np.flatnonzero(~self.system.fixed):
             barred = self.contacts.normals[self.contacts.masses == i]
             blocks.append(_across(barred, self.system.dimension))
-        return block_diag(blocks, format="csr")
+        return block_diagonal(blocks).tocsr()
 
     @cached_property
     def mass(self) -> Array:
@@ -99,14 +98,19 @@ class ContactLinearisation(Linearisation):
         return np.asarray(self.tangents @ along)
 
 
+def block_diagonal(blocks: Iterable[Array]) -> Any:
+    """Blocks along the diagonal of a sparse array, in columns: newer SciPys would have it said which it is to be."""
+    from scipy.sparse import block_diag, coo_array
+
+    return block_diag([coo_array(block) for block in blocks], format="csc")
+
+
 def curving(system: MassSpringSystem, positions: Array, contacts: Contacts) -> Any:
     """The sum of N H over the contacts [N/m], over the free masses' coordinates: sparse."""
-    from scipy.sparse import block_diag
-
     blocks = np.zeros((len(positions), system.dimension, system.dimension))
     for i, k, force in zip(contacts.masses, contacts.obstacles, contacts.forces, strict=True):
         blocks[i] += force * curvatures(system.obstacles[k], positions[i : i + 1], APART * system.size)[0]
-    return block_diag(blocks[~system.fixed], format="csc")
+    return block_diagonal(blocks[~system.fixed])
 
 
 def curvatures(obstacle: Obstacle, positions: Array, apart: float) -> Array:

@@ -18,7 +18,7 @@ from reference.errors import SolverError
 from reference.obstacles import Obstacle
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem
-from reference.theory.contacts import APART, Contacts, curvatures, curving
+from reference.theory.contacts import APART, Contacts, block_diagonal, curvatures, curving
 from reference.theory.least_energy import Descent, force_tolerance
 
 #: The barrier's mu, as a part of a mass's weight times the size: the first, the last, and each as a part of the one
@@ -111,8 +111,6 @@ class _OutsideObstacles(Descent):
 
     def stiffness(self, q: Array, tension_only: bool = False) -> Any:
         """Of springs and barriers: mu / g^2 along the normal, - mu / g as the surface curves."""
-        from scipy.sparse import block_diag
-
         whole = super().stiffness(q, tension_only)
         if not self.barrier:
             return whole
@@ -123,7 +121,7 @@ class _OutsideObstacles(Descent):
             blocks = pushed / distance[:, None, None] * normals[:, :, None] * normals[:, None, :]
             if not tension_only:
                 blocks = blocks - pushed * curvatures(obstacle, places, APART * self.size)
-            whole = whole + block_diag(blocks, format="csc")
+            whole = whole + block_diagonal(blocks)
         return whole
 
 

@@ -19,6 +19,7 @@ from report.commands.terminal import RESULTS, progress, show_table
 
 if TYPE_CHECKING:
     from experiments.engine_versions.versions import Subject, VersionMeasurements
+    from experiments.runs.progress import Progress
 
 
 @click.command("versions")
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 @click.argument("versions", nargs=-1, metavar="[VERSION]...")
 @click.option("--all", "all_kept", is_flag=True, help="All versions in the baseline.")
 @click.option("--check", is_flag=True, help="Compare with the baseline; exit code 1, with the differences, if any.")
+@click.option("--bisect", is_flag=True, help="Of the versions given, find two neighbours between which it changed.")
 @click.option("--update-baseline", "update", is_flag=True, help="Write the baseline that the project keeps.")
 @click.option("--install", is_flag=True, help="Only make the environment that ENGINE's package is run in, and keep it.")
 @json_option
@@ -36,6 +38,7 @@ def versions_command(
     install: bool,
     all_kept: bool,
     check: bool,
+    bisect: bool,
     update: bool,
     as_json: bool,
     out: Path,
@@ -44,7 +47,8 @@ def versions_command(
 
     ENGINE is a package, such as mujoco, or one engine of `springlab list`. Without ENGINE: all that are in the
     baseline. Environments are made in the user's cache folder at first need, from the package index, and kept there; a
-    version that the index has no wheel of for this Python is compiled, which takes minutes.
+    version that the index has no wheel of for this Python is compiled, which takes minutes. A VERSION may be the file
+    of a wheel that you have built.
     """
     from experiments.engine_versions.versions import measure_versions
 
@@ -56,7 +60,10 @@ def versions_command(
     with progress("versions") as tell:
         for subject, wanted in _wanted(engine, versions, all_kept or check):
             named = bool(versions) and not check
-            measured.append((subject, measure_versions(subject, wanted, tell, patient=not named)))
+            if bisect:
+                measured.append((subject, _between(subject, wanted, tell)))
+            else:
+                measured.append((subject, measure_versions(subject, wanted, tell, patient=not named)))
     if update:
         from experiments.engine_versions.baseline import write
 
@@ -78,6 +85,17 @@ def _install(name: str | None) -> int:
         tell(f"environment of {package} {APART[package].version}")
         click.echo(printable(f"made: {environment(package, APART[package].version).parents[1]}"))
     return 0
+
+
+def _between(subject: Subject, versions: Sequence[str], tell: Progress) -> VersionMeasurements:
+    """The two neighbours between which something changed."""
+    from experiments.engine_versions.changes import changes
+    from experiments.engine_versions.versions import measure_versions, where_it_changed
+
+    def measured(version: str) -> VersionMeasurements:
+        return measure_versions(subject, [version], tell)
+
+    return where_it_changed(subject, versions, measured, lambda before, after: bool(changes(before, after)))
 
 
 def _wanted(engine: str | None, versions: Sequence[str], kept: bool) -> list[tuple[Subject, list[str]]]:

@@ -166,3 +166,18 @@ def test_a_real_one_sees_two_rooms_and_nothing_else_of_the_lab() -> None:
     done = subprocess.run([python, "-c", program], capture_output=True, text=True, cwd=python.parent, env=plain)
     assert done.returncode == 0, done.stderr
     assert re.match(r"7\.3\.1 \S+engines \[\]$", done.stdout)
+
+
+def test_the_file_of_a_wheel_is_a_version(folder: Path, tmp_path: Path) -> None:
+    """One that is built again is another; one that is not there, or of another package, is refused."""
+    wheel = tmp_path / "spring-1.2.0-py3-none-any.whl"
+    wheel.write_bytes(b"one")
+    first = environment("spring", str(wheel))
+    assert "spring-1.2.0-" in str(first)
+    assert environment("spring", str(wheel)) == first
+    wheel.write_bytes(b"another")
+    assert environment("spring", str(wheel)) != first
+    with pytest.raises(InputError, match="expected a file that is there"):
+        environment("spring", str(tmp_path / "spring-9-py3-none-any.whl"))
+    with pytest.raises(InputError, match="expected a wheel of rope"):
+        environment("rope", str(wheel))

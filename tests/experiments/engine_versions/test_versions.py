@@ -15,7 +15,14 @@ from engines.process.isolation import EngineStepper
 from experiments.engine_versions import baseline, conformance, versions
 from experiments.engine_versions.changes import TOLERANCE, changes, differences, result_of, same
 from experiments.engine_versions.conformance import measure
-from experiments.engine_versions.versions import Subject, VersionMeasurements, in_order, measure_versions
+from experiments.engine_versions.versions import (
+    Subject,
+    VersionMeasurements,
+    in_order,
+    measure_versions,
+    where_it_changed,
+)
+from reference.errors import InputError
 from report.figures import draw
 from report.figures.versions import MARK
 from tests.conformance import doctored
@@ -29,8 +36,9 @@ def test_findings_tables_and_figure_are_made_from_the_rows() -> None:
     """What changed is counted and named; an engine that does not run is one change, not many."""
     result = result_of(MEASURED)
     assert result.findings == [
-        f"spring 1.10.0 changed 2 of 4 measurements of 1.9.0. Of springs: {LIMIT}; spring: crash list: a.",
-        "spring 2.0.0 changed 1 of 2 measurements of 1.10.0. Of springs: runs.",
+        "The motion changed: spring 1.10.0 changed 2 of 4 measurements of 1.9.0. "
+        f"Of springs: {LIMIT}; spring: crash list: a.",
+        "The motion changed: spring 2.0.0 changed 1 of 2 measurements of 1.10.0. Of springs: runs.",
     ]
     rows = {(row[0], row[1]): row[2:] for row in result.tables[0].rows}
     assert rows[("springs", LIMIT)] == [0.01, 0.011, None]
@@ -147,7 +155,7 @@ def test_the_command_writes_tables_a_figure_and_json(tmp_path: Path, monkeypatch
     words = ("versions", "pymunk", "6.8.1", "7.3.1", "--out", str(tmp_path))
     done = springlab(*words)
     assert done.code == 0
-    assert "spring 2.0.0 changed 1 of 2 measurements of 1.10.0" in done.out
+    assert "The motion changed: spring 2.0.0 changed 1 of 2 measurements of 1.10.0" in done.out
     assert {file.suffix for file in tmp_path.glob("spring*")} == {".csv", ".svg", ".json"}
     document = json.loads(springlab(*words, "--json").out)["spring"]
     assert document["versions"] == made_up()
@@ -197,3 +205,41 @@ def test_two_versions_are_as_the_baseline_says(undamped_limit_only: set[str]) ->
         of_subject = {name: rows for name, rows in kept[version].items() if name in subject.names}
         found = differences(of_subject, measured.rows[version])
         assert {change.measure for change in found} == undamped_limit_only, found
+
+
+@pytest.mark.parametrize("first", range(1, 12))
+def test_the_version_that_changed_it_is_found_by_halving(first: int) -> None:
+    """Of twelve versions, wherever the change came; four of them are looked at besides the ends, at most."""
+    subject = Subject("spring", [], whole=True)
+    names = [f"1.{n}" for n in range(12)]
+    asked: list[str] = []
+
+    def measured(version: str) -> VersionMeasurements:
+        asked.append(version)
+        return VersionMeasurements("spring", {version: {"spring": {"a": float(names.index(version) >= first)}}})
+
+    found = where_it_changed(subject, names, measured, lambda before, after: bool(changes(before, after)))
+    assert list(found.rows) == [names[first - 1], names[first]]
+    assert len(asked) <= 6
+
+
+def test_without_a_change_the_ends_are_told() -> None:
+    """And nothing in between is looked at; one version alone is refused."""
+    subject = Subject("spring", [], whole=True)
+
+    def measured(version: str) -> VersionMeasurements:
+        return VersionMeasurements("spring", {version: {"spring": {"a": 1.0}}})
+
+    found = where_it_changed(subject, ["1", "2", "3"], measured, lambda before, after: bool(changes(before, after)))
+    assert list(found.rows) == ["1", "3"]
+    with pytest.raises(InputError, match="two versions or more"):
+        where_it_changed(subject, ["1"], measured, lambda before, after: False)
+
+
+def test_a_change_of_words_alone_is_no_change_of_the_motion() -> None:
+    """What it can and how it crashes is told apart from how it steps."""
+    rows = made_up()["1.9.0"]
+    other = {name: dict(of_name) for name, of_name in rows.items()}
+    other["spring"]["crash list: a"] = "another end"
+    result = result_of(VersionMeasurements("spring", {"1": rows, "2": other}))
+    assert result.findings[0].startswith("The motion is the same: ")
