@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from reference.collisions import Collisions
 from reference.nonlinear import NonlinearSprings
 from reference.obstacles import Box, Circle, Cylinder, Plane, Sphere
 from reference.scenes import find
@@ -24,8 +25,8 @@ LAWS = {
     "tension_only": NonlinearSprings(tension_only=np.array(True)),
     "compression_only": NonlinearSprings(compression_only=np.array(True)),
     "hardening": NonlinearSprings(hardening=np.array(1e6)),
-    "largest_force": NonlinearSprings(largest_force=np.array(2.0)),
-    "breaking": NonlinearSprings(breaking_force=np.array(3.0)),
+    "largest_force": NonlinearSprings(largest_force=np.array(1.0)),
+    "breaking": NonlinearSprings(breaking_force=np.array(1.0)),
 }
 
 
@@ -58,6 +59,9 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
         "drag": string({"drag": 0.02}),
         "tilted gravity": replace(plain, gravity=np.array([3.0, -9.0])),
         "no fixed mass": replace(triangles, fixed=np.zeros(4, dtype=bool)),
+        "no rest length": replace(plain, rest_lengths=np.array(0.0), stiffness=np.array(20.0)),
+        "collisions": replace(plain, collisions=Collisions(np.array(0.03))),
+        "restitution": replace(plain, collisions=Collisions(np.array(0.03), 0.5)),
         **{name: replace(plain, velocities=thrown, nonlinear=law) for name, law in LAWS.items()},
         **{obstacle.kind: replace(plain, obstacles=(obstacle,)) for obstacle in (DISC, FLOOR, BLOCK)},
         **{obstacle.kind: replace(in_space, obstacles=(obstacle,)) for obstacle in (BALL, BAR)},

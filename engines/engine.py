@@ -43,6 +43,12 @@ LAWS = {
     "breaking": "springs that break",
 }
 
+#: Masses that collide: until they touch an engine steps as without; how they part is measured.
+COLLISIONS = {
+    "collisions": "masses that collide with one another",
+    "restitution": "masses that bounce off one another",
+}
+
 #: What a system may ask of an engine, and how the lack of it is said.
 CAPABILITIES = {
     "1d": "motion along a line",
@@ -58,7 +64,9 @@ CAPABILITIES = {
     "drag": "drag on the masses",
     "tilted gravity": "gravity along any axis but the vertical",
     "no fixed mass": "a system with no fixed mass",
+    "no rest length": "springs of rest length 0",
     **LAWS,
+    **COLLISIONS,
     **OBSTACLES,
 }
 
@@ -132,7 +140,7 @@ class Engine(Protocol):
 #: What a parameter that changes on the fly may ask for besides. Once in motion, springs are stretched anyway.
 ASKED_BY: Mapping[str, tuple[str, ...]] = {
     "mass": ("masses",),
-    "rest_length": ("rest_lengths",),
+    "rest_length": ("rest_lengths", "no rest length"),
     "stiffness": ("stiffnesses",),
     "damping": ("dampings", "damping"),
     "drag": ("drag",),
@@ -168,6 +176,9 @@ _NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
     "drag": lambda system: system.drag > 0,
     "tilted gravity": lambda system: system.gravity[: system.vertical_axis].any() or system.gravity[2:].any(),
     "no fixed mass": lambda system: not system.fixed.any(),
+    "no rest length": lambda system: not system.rest_lengths.all(),
+    "collisions": lambda system: system.collisions,
+    "restitution": lambda system: system.collisions and system.collisions.restitution > 0,
     "tension_only": lambda system: system.nonlinear and system.nonlinear.tension_only.any(),
     "compression_only": lambda system: system.nonlinear and system.nonlinear.compression_only.any(),
     "hardening": lambda system: system.nonlinear and system.nonlinear.hardening.any(),

@@ -37,7 +37,7 @@ def step_jacobian(engine: Engine, system: MassSpringSystem, dt: float) -> Array:
     """
     free = ~system.fixed
     count = int(free.sum()) * system.dimension
-    size = PERTURBATION * float(system.rest_lengths.min())
+    size = PERTURBATION * system.shortest
 
     def after(z: Array) -> Array:
         x, v = system.positions.copy(), system.velocities.copy()

@@ -15,6 +15,7 @@ import numpy as np
 
 from reference.errors import SolverError
 from reference.jit import compiled
+from reference.lengths import divisors
 from reference.nonlinear_law import damping_at, secant_stiffness, stretches, tangent_stiffness
 from reference.spring_law import force_by_rate, spring_force
 from reference.state import Array, State
@@ -69,11 +70,15 @@ def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Block
     separation = state.positions[b] - state.positions[a]
     w = state.velocities[b] - state.velocities[a]
     length = np.linalg.norm(separation, axis=1)
-    u = separation / length[:, None]
+    divisor = divisors(length, system.rest_lengths)
+    u = separation / divisor[:, None]
     rate = np.einsum("si,si->s", u, w)
     stretch = length - system.rest_lengths
     damping = damping_at(system, stretch)
-    force = spring_force(secant_stiffness(system, stretch), stretch, damping, rate)
+    secant = secant_stiffness(system, stretch)
+    force = spring_force(secant, stretch, damping, rate)
+    # where a spring of rest length 0 has no length, F / L is still its stiffness
+    over_length = np.where(divisor == length, force / divisor, secant)
     by_rate = force_by_rate(damping)
     along = _outer(u, u)
     across = np.eye(system.dimension) - along
@@ -81,8 +86,8 @@ def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Block
     by_velocity = by_rate[:, None, None] * along
     by_position = (
         tangent_stiffness(system, stretch)[:, None, None] * along
-        + (force / length)[:, None, None] * across
-        + (by_rate / length)[:, None, None] * turning
+        + over_length[:, None, None] * across
+        + (by_rate / divisor)[:, None, None] * turning
     )
     nothing = np.zeros(len(system.masses))
     return Blocks(by_position, nothing), Blocks(by_velocity, nothing + system.drag)
@@ -99,7 +104,7 @@ def damping_blocks(system: MassSpringSystem, state: State, coefficients: Array) 
     """How the damping of springs with these coefficients, shape (s,), answers velocities: B_j = c_j u u^T."""
     a, b = system.springs.T
     separation = state.positions[b] - state.positions[a]
-    u = separation / np.linalg.norm(separation, axis=1)[:, None]
+    u = separation / divisors(np.linalg.norm(separation, axis=1), system.rest_lengths)[:, None]
     return Blocks(coefficients[:, None, None] * _outer(u, u), np.zeros(len(system.masses)))
 
 

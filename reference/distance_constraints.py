@@ -58,6 +58,12 @@ class RopeMotion:
     """
 
     def __init__(self, system: MassSpringSystem) -> None:
+        if system.collisions is not None:
+            raise InputError(
+                "no rope: expected masses that do not collide, which would push one another off their rods"
+            )
+        if not system.rest_lengths.all():
+            raise InputError("no rope: expected rest lengths > 0, a rod of none is no rod")
         if system.nonlinear is not None:
             raise InputError(f"no rope: rods have no {', '.join(system.nonlinear.asked)}")
         if system.obstacles:

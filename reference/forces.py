@@ -3,8 +3,9 @@
 A spring pulls the two masses it joins together with the force that the law of a spring gives (`spring_law`), and a mass
 feels its springs, its weight m g, and the drag -Cd v. Every spring is computed once; then each mass sums the forces of
 its own springs in their order. A mass alone (`acceleration_of`) is given exactly the bits it has within the whole. A
-spring of no length, which has no direction, gives forces that are not numbers, and so a run that diverges. A spring
-that is not linear (`nonlinear_law`) has at every state the stiffness and damping that make its force there.
+spring of no length, which has no direction, gives forces that are not numbers, and so a run that diverges, unless its
+rest length is zero, too: then it has no force. A spring that is not linear (`nonlinear_law`) has at every state the
+stiffness and damping that make its force there.
 
 The functions at the top are compiled (`jit`): they are loops over numbers.
 """
@@ -33,9 +34,10 @@ def force_of_spring(
         forces[j, axis] = separation
         squares += separation * separation
     length = np.sqrt(squares)
+    divisor = length if length > 0.0 else 1.0 if rest_lengths[j] == 0.0 else length
     rate = 0.0
     for axis in range(dimension):
-        forces[j, axis] /= length
+        forces[j, axis] /= divisor
         rate += forces[j, axis] * (v[b, axis] - v[a, axis])
     force = spring_force(stiffness[j], length - rest_lengths[j], damping[j], rate)
     for axis in range(dimension):

@@ -32,6 +32,14 @@ def spring_lengths(positions: Array, springs: IntArray) -> Array:
     return np.asarray(np.sqrt(squares))
 
 
+def divisors(length: Array, rest_lengths: Array) -> Array:
+    """What springs' separations are divided by for their directions [m]: their lengths, both of shape (..., s).
+
+    A spring of rest length 0 and no length has no direction and no force: divided by 1 it is the vector zero.
+    """
+    return np.where((length == 0) & (rest_lengths == 0), 1.0, length)
+
+
 def rates_of(positions: Array, velocities: Array, springs: IntArray, wanted: BoolArray) -> Array:
     """How fast springs get longer [m/s], with masses (..., n, d): shape (..., s); zero of those that are not wanted.
 

@@ -127,6 +127,7 @@ def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory, changes: 
     Infinite of those that may be of any length: they only push, or break.
     """
     natural = np.maximum(system.rest_lengths, spring_lengths(trajectory.positions[0], system.springs))
+    natural = np.where(natural > 0, natural, system.scale)
     if system.nonlinear is not None:
         natural = np.where(system.nonlinear.may_open, np.inf, natural)
     return np.where(_may_break(system, changes), np.inf, natural)

@@ -89,6 +89,10 @@ def why_no_pendulum(system: MassSpringSystem) -> str | None:
         return "along a line rods leave nothing that could move, expected a string in 2D"
     if system.dimension != 2 or not system.is_string:
         return "expected a string in 2D, fixed at its first mass only"
+    if system.collisions is not None:
+        return "expected masses that do not collide"
+    if not system.rest_lengths.all():
+        return "expected rest lengths > 0: a rod of none is no rod"
     if system.nonlinear is not None:
         return f"expected linear springs: rods have no {', '.join(system.nonlinear.asked)}"
     if system.obstacles:

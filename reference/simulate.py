@@ -8,6 +8,7 @@ import numpy as np
 
 from reference.breaking import after_breaking
 from reference.changes import Change, applied, changes_by_step, whole_steps
+from reference.colliding import collide
 from reference.compiled.in_place import step_of
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf
@@ -65,11 +66,13 @@ def simulate(
 
 
 def projected(system: MassSpringSystem, state: State, time: float) -> State:
-    """The end of every step: masses inside obstacles are put out of them (slide 17), and it is a time [s] on the clock.
+    """The end of every step, at a time [s] on the clock: masses inside obstacles (slide 17) or one another are put out.
 
     What a multistep scheme remembers stays as it is.
     """
     x, v = state.positions, state.velocities
     if system.obstacles:
         x, v = project_out(system.obstacles, system.fixed[:, None], x, v)
+    if system.collisions is not None:
+        x, v = collide(system.collisions, np.where(system.fixed, 0.0, 1 / system.masses), x, v)
     return State(time, x, v, state.memory)

@@ -60,6 +60,8 @@ def numbers_of(system: MassSpringSystem, state: State, order: str, single: bool)
         InputError: for an unknown order of springs.
         Unsupported: for springs that are not linear.
     """
+    if not system.rest_lengths.all():
+        raise Unsupported("solvers of constraints have springs of a rest length only")
     if system.nonlinear is not None:
         raise Unsupported("solvers of constraints have linear springs only")
     kind: Any = np.float32 if single else np.float64

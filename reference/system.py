@@ -6,19 +6,22 @@ from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, field, fields, replace
 from math import isfinite
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from reference.checked_numbers import LARGEST, SMALLEST, check_sizes, finite, in_range, refuse, refuse_below, shaped
+from reference.checked_springs import BoolArray as BoolArray
+from reference.checked_springs import IntArray as IntArray
+from reference.checked_springs import checked_springs, refuse_together
+from reference.collisions import Collisions
 from reference.errors import InputError, unknown_name
 from reference.nonlinear import NonlinearSprings
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.state import Array, State
 
-IntArray = npt.NDArray[np.int64]
-BoolArray = npt.NDArray[np.bool_]
+T = TypeVar("T")
 
 #: A parameter's value: one number, or one for each mass, spring or axis.
 Value = float | Sequence[float]
@@ -43,8 +46,8 @@ BREAK = "break"
 FIELDS = {"mass": "masses", "rest_length": "rest_lengths"}
 
 #: Which of them cannot be zero, or less.
-ABOVE_ZERO = ("mass", "rest_length")
-NOT_BELOW_ZERO = ("stiffness", "damping", "drag")
+ABOVE_ZERO = ("mass",)
+NOT_BELOW_ZERO = ("rest_length", "stiffness", "damping", "drag")
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +60,9 @@ class MassSpringSystem:
         positions: where every mass starts [m], shape (n, d) with d = 1, 2 or 3.
         springs: the two masses each spring joins, shape (s, 2).
         masses: [kg], shape (n,), each > 0 (a fixed mass has one too: engines want it).
-        rest_lengths: [m], shape (s,), each > 0.
+        rest_lengths: [m], shape (s,), each >= 0. A spring of rest length 0 pulls with k times where its masses are
+            apart, and so it has no force where they are in one place; any other has no direction there, and none starts
+            so.
         stiffness: k [N/m], shape (s,), each >= 0.
         damping: c [N s/m] along each spring, shape (s,), each >= 0.
         drag: Cd [N s/m] on every mass, >= 0 (lecture slide 10).
@@ -66,6 +71,7 @@ class MassSpringSystem:
         fixed: which masses never move, shape (n,).
         obstacles: what free masses may not enter; they are projected out at the end of every step, in this order.
         nonlinear: what springs have besides stiffness and damping; None where all are linear.
+        collisions: which masses are round and collide with one another; None where none do.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.
@@ -83,20 +89,21 @@ class MassSpringSystem:
     fixed: BoolArray = field(default_factory=lambda: np.zeros(1, dtype=bool))
     obstacles: tuple[Obstacle, ...] = ()
     nonlinear: NonlinearSprings | None = None
+    collisions: Collisions | None = None
 
     def __post_init__(self) -> None:
         positions = finite("positions", self.positions, "m")
         if positions.ndim != 2 or positions.shape[1] not in (1, 2, 3) or len(positions) == 0:
             raise InputError(f"positions has shape {positions.shape}: expected (n, 1), (n, 2) or (n, 3) with n >= 1")
         n, d = positions.shape
-        springs = _springs(self.springs, positions)
+        springs = checked_springs(self.springs, n)
         s = len(springs)
         gravity = finite("gravity", self.gravity, "m/s^2")
         checked = {
             "positions": positions,
             "springs": springs,
             "masses": in_range("masses", self.masses, (n,), "kg", above_zero=True),
-            "rest_lengths": in_range("rest_lengths", self.rest_lengths, (s,), "m", above_zero=True),
+            "rest_lengths": in_range("rest_lengths", self.rest_lengths, (s,), "m"),
             "stiffness": in_range("stiffness", self.stiffness, (s,), "N/m"),
             "damping": in_range("damping", self.damping, (s,), "N s/m"),
             "gravity": shaped("gravity", _downwards(gravity, d), (d,)),
@@ -108,6 +115,7 @@ class MassSpringSystem:
             array = np.ascontiguousarray(array).copy()
             array.flags.writeable = False
             object.__setattr__(self, name, array)
+        refuse_together(self.springs, self.positions, self.rest_lengths)
         moving_anchor = np.flatnonzero(self.fixed & self.velocities.any(axis=1))
         if len(moving_anchor):
             i = moving_anchor[0]
@@ -115,7 +123,10 @@ class MassSpringSystem:
         obstacles = checked_obstacles(self.obstacles, self.positions, self.fixed, self.size)
         object.__setattr__(self, "obstacles", obstacles)
         if self.nonlinear is not None:
-            object.__setattr__(self, "nonlinear", _checked_law(self.nonlinear, s))
+            object.__setattr__(self, "nonlinear", _given("nonlinear", self.nonlinear, NonlinearSprings).checked(s))
+        if self.collisions is not None:
+            made = _given("collisions", self.collisions, Collisions).checked(self.positions)
+            object.__setattr__(self, "collisions", made)
 
     @property
     def dimension(self) -> int:
@@ -137,6 +148,12 @@ class MassSpringSystem:
     def scale(self) -> float:
         """A length [m] that rounding is a part of, never zero: size or largest coordinate; 1 m where both are zero."""
         return max(self.size, float(np.abs(self.positions).max())) or 1.0
+
+    @property
+    def shortest(self) -> float:
+        """The smallest rest length above zero [m], for perturbations to be small against; without any the scale."""
+        above = self.rest_lengths[self.rest_lengths > 0]
+        return float(above.min()) if len(above) else self.scale
 
     @property
     def is_string(self) -> bool:
@@ -235,7 +252,7 @@ class MassSpringSystem:
     def check_sizes(self) -> None:
         """Refuse numbers of which products would be no floats, as nothing has them. Raises InputError."""
         for name in ("positions", "velocities", "masses", "rest_lengths", "stiffness", "damping", "drag", "gravity"):
-            check_sizes(name, getattr(self, name), divided_by=name in ("masses", "rest_lengths"))
+            check_sizes(name, getattr(self, name), divided_by=name == "masses")
 
     def renumbered(self, order: npt.ArrayLike) -> MassSpringSystem:
         """The same system with its masses listed in another order: mass order[i] becomes mass i."""
@@ -248,6 +265,7 @@ class MassSpringSystem:
             masses=self.masses[old],
             fixed=self.fixed[old],
             springs=new_of_old[self.springs],
+            collisions=self.collisions and self.collisions.renumbered(old),
         )
 
     def with_springs_reversed(self) -> MassSpringSystem:
@@ -269,9 +287,9 @@ class MassSpringSystem:
         """Plain lists and numbers, the fields by name: what a digest or a JSON file is made of."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         values["obstacles"] = [obstacle.to_dict() for obstacle in self.obstacles]
-        values["nonlinear"] = self.nonlinear.to_dict() if self.nonlinear else None
-        if self.nonlinear is None:
-            del values["nonlinear"]
+        for name in ("nonlinear", "collisions"):
+            given = values.pop(name)
+            values |= {name: given.to_dict()} if given else {}
         return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
 
 
@@ -292,10 +310,10 @@ def check_parameter(name: str, value: float) -> None:
         raise InputError(f"{name} = {value:g}: expected a number of at least {SMALLEST:g}{unit}")
 
 
-def _checked_law(law: NonlinearSprings, count: int) -> NonlinearSprings | None:
-    if not isinstance(law, NonlinearSprings):
-        raise InputError(f"nonlinear = {law!r}: expected NonlinearSprings, or None where all springs are linear")
-    return law.checked(count)
+def _given(name: str, value: Any, expected: type[T]) -> T:
+    if not isinstance(value, expected):
+        raise InputError(f"{name} = {value!r}: expected {expected.__name__}, or None")
+    return value
 
 
 def _downwards(gravity: Array, dimension: int) -> Array:
@@ -322,30 +340,3 @@ def _truths(name: str, value: npt.ArrayLike) -> BoolArray:
     if array.dtype != bool:
         raise InputError(f"{name} = {value!r}: expected true or false for each mass")
     return array
-
-
-def _springs(value: npt.ArrayLike, positions: Array) -> IntArray:
-    try:
-        springs = np.asarray(value)
-    except ValueError:
-        raise InputError(f"springs = {value!r}: expected two masses for each spring") from None
-    if springs.size == 0:
-        return np.zeros((0, 2), dtype=np.int64)
-    if springs.ndim != 2 or springs.shape[1] != 2 or not np.issubdtype(springs.dtype, np.integer):
-        raise InputError(f"springs has shape {springs.shape} of {springs.dtype}: expected (s, 2) whole numbers")
-    n = len(positions)
-    outside = np.asarray(((springs < 0) | (springs >= n)).any(axis=1))
-    _refuse_spring(springs, outside, f"expected masses from 0 to {n - 1}")
-    a, b = springs.T
-    _refuse_spring(springs, np.asarray(a == b), "expected two different masses")
-    together = (positions[a] == positions[b]).all(axis=1)
-    if together.any():
-        at = positions[a[np.argmax(together)]].tolist()
-        _refuse_spring(springs, together, f"expected a length > 0, both masses start at {at}")
-    return springs.astype(np.int64)
-
-
-def _refuse_spring(springs: npt.NDArray[Any], bad: BoolArray, expected: str) -> None:
-    if bad.any():
-        j = int(np.argmax(bad))
-        raise InputError(f"springs[{j}] = {springs[j].tolist()}: {expected}")

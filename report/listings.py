@@ -16,11 +16,11 @@ def scene_rows() -> Shown:
     return Shown("scenes", ["scene", "slides", "what", "parameters"], rows)
 
 
-def spring_rows() -> Shown:
-    """What springs of any scene may have besides stiffness and damping."""
-    from reference.nonlinear import KINDS
+def besides_rows() -> Shown:
+    """The parameters that every scene has besides its own."""
+    from reference.scenes import BESIDES
 
-    return Shown("springs", ["parameter", "what"], [[name, words] for name, words in KINDS.items()])
+    return Shown("every scene", ["parameter", "what"], [[name, words] for name, words in BESIDES.items()])
 
 
 def stepper_rows() -> Shown:

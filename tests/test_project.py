@@ -29,6 +29,8 @@ BARE_REFERENCE = (
     "cache",
     "changes",
     "checked_numbers",
+    "checked_springs",
+    "collisions",
     "errors",
     "growth_factor",
     "lengths",

@@ -11,7 +11,7 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, OBSTACLES, changed, refuse_beyond
+from engines.engine import CAPABILITIES, COLLISIONS, OBSTACLES, changed, refuse_beyond
 from reference.nonlinear_law import damping_at, secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -42,9 +42,9 @@ class ExudynSprings:
 
     @property
     def capabilities(self) -> frozenset[str]:
-        """Everything but obstacles; for VelocityVerlet everything but those, damping and drag."""
+        """Everything but obstacles and collisions; for VelocityVerlet everything but those, damping and drag."""
         left_out = {"damping", "dampings", "drag"} if self.solver == "VelocityVerlet" else set()
-        return frozenset(CAPABILITIES) - set(OBSTACLES) - left_out
+        return frozenset(CAPABILITIES) - {*OBSTACLES, *COLLISIONS} - left_out
 
     @property
     def identified_as(self) -> Mapping[str, str]:

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, LAWS, Unsupported, changed, refuse_beyond
+from engines.engine import CAPABILITIES, COLLISIONS, LAWS, Unsupported, changed, refuse_beyond
 from engines.mujoco.common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco.obstacles import add_obstacles, off
 from engines.mujoco.sliding_masses import SlidingMasses, three
@@ -41,7 +41,7 @@ class MujocoFlex:
     name: str
     integrator: Integrator
     package: str = "mujoco"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(LAWS)
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS} - {"no rest length"}
     semantics: str = (
         "stiffness is k [N/m] and damping c [N s/m] of the edges of a flex, explicit; drag is Cd [N s/m] as damping of "
         "every slide joint, explicit"

@@ -1,4 +1,4 @@
-"""Obstacles in MuJoCo: geoms of the world, and a bead around each free mass that meets them.
+"""Obstacles in MuJoCo: geoms of the world, and a bead around each free mass that meets them; and masses that collide.
 
 MuJoCo's contacts are soft: a mass sinks in, and is pushed out over some steps. How soft they are is chosen so that a
 step takes the whole velocity across the surface, as the lecture's rule does: with a time constant of 2 dt (the smallest
@@ -37,8 +37,9 @@ NEEDED = ("CONTACT", "CONSTRAINT")
 
 
 def off(system: MassSpringSystem, disabled: tuple[str, ...] = OFF) -> tuple[str, ...]:
-    """What of MuJoCo's step is switched off for a system: contacts too where it has no obstacles."""
-    return tuple(part for part in disabled if not (system.obstacles and part in NEEDED))
+    """What of MuJoCo's step is switched off for a system: contacts too where nothing can meet."""
+    meets = bool(system.obstacles) or system.collisions is not None
+    return tuple(part for part in disabled if not (meets and part in NEEDED))
 
 
 def add_obstacles(mujoco: ModuleType, spec: Any, system: MassSpringSystem, dt: float) -> None:
@@ -52,12 +53,35 @@ def add_obstacles(mujoco: ModuleType, spec: Any, system: MassSpringSystem, dt: f
     bead = BEAD * min([system.size or 1.0, *(_smallest(obstacle) for obstacle in system.obstacles)])
     # of two geoms that meet: no friction, and the parameters of one of them are those of both; what masses are is said
     # elsewhere, but old versions make inertia of their geoms, and refuse too little of it
-    common = {"condim": 1, "solref": [2 * dt, DAMPING], "solimp": [IMPEDANCE, IMPEDANCE, bead, 0.5, 2.0], "mass": 1.0}
+    common = _soft(bead, dt)
     for body in spec.bodies[1 : 1 + int((~system.fixed).sum())]:
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[bead, 0, 0], contype=1, conaffinity=0, **common)
     for obstacle in system.obstacles:
         shape = _shape(mujoco, obstacle, system, bead)
         spec.worldbody.add_geom(**shape, contype=0, conaffinity=1, **common)
+
+
+def add_balls(mujoco: ModuleType, spec: Any, system: MassSpringSystem, dt: float) -> None:
+    """A sphere around every mass that collides with others, around fixed ones as geoms of the world."""
+    if system.collisions is None:
+        return
+    radii, bodies = system.collisions.radii, iter(spec.bodies[1:])
+    common = _soft(BEAD * float(radii.max()), dt) | {
+        "contype": 2,
+        "conaffinity": 2,
+        "type": mujoco.mjtGeom.mjGEOM_SPHERE,
+    }
+    for radius, fixed, position in zip(radii.tolist(), system.fixed, system.positions, strict=True):
+        body = None if fixed else next(bodies)
+        if radius > 0 and body is None:
+            spec.worldbody.add_geom(**common, size=[radius, 0, 0], pos=three(position))
+        elif radius > 0 and body is not None:
+            body.add_geom(**common, size=[radius, 0, 0])
+
+
+def _soft(width: float, dt: float) -> dict[str, Any]:
+    """What contacts have in common: no friction, how soft they are, over which width [m] impedance rises."""
+    return {"condim": 1, "solref": [2 * dt, DAMPING], "solimp": [IMPEDANCE, IMPEDANCE, width, 0.5, 2.0], "mass": 1.0}
 
 
 def _shape(mujoco: ModuleType, obstacle: Obstacle, system: MassSpringSystem, bead: float) -> dict[str, Any]:

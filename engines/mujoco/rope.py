@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, LAWS, OBSTACLES, Unsupported, changed, refuse_beyond
+from engines.engine import CAPABILITIES, COLLISIONS, LAWS, OBSTACLES, Unsupported, changed, refuse_beyond
 from engines.mujoco.common import mujoco_module, without
 from engines.mujoco.flex import FLEX_OFF, Group, compiled, groups_of, write_masses_and_lengths
 from engines.mujoco.sliding_masses import SlidingMasses
@@ -43,7 +43,7 @@ class MujocoRope:
     package: str = "mujoco"
     impedance: float = 0.9999
     weight: float = 1e-3
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(OBSTACLES) - set(LAWS)
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(OBSTACLES) - {*LAWS, *COLLISIONS} - {"no rest length"}
     semantics: str = (
         "stiffness: infinite, whatever is given; damping: without effect, as nothing stretches for long; "
         "drag is Cd [N s/m] as damping of every slide joint, explicit"

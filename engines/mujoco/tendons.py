@@ -11,7 +11,7 @@ import numpy as np
 
 from engines.engine import CAPABILITIES, Unsupported, changed, refuse_beyond
 from engines.mujoco.common import OFF, check_inertia, mujoco_module, update_constants, without
-from engines.mujoco.obstacles import add_obstacles, off
+from engines.mujoco.obstacles import add_balls, add_obstacles, off
 from engines.mujoco.sliding_masses import SlidingMasses, three
 from reference.system import MassSpringSystem, Value
 
@@ -58,7 +58,12 @@ class MujocoTendons:
     integrator: Integrator
     eulerdamp: bool = False
     package: str = "mujoco"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {"largest_force"}
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """All but a largest force, and contacts that bounce; bodies that are nested do not collide with one another."""
+        lacks = {"largest_force", "restitution", *(["collisions"] if self.nested else [])}
+        return frozenset(CAPABILITIES) - lacks
 
     @property
     def semantics(self) -> str:
@@ -181,6 +186,7 @@ def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float)
         tendon.wrap_site(f"mass {a}")
         tendon.wrap_site(f"mass {b}")
     add_obstacles(mujoco, spec, system, dt)
+    add_balls(mujoco, spec, system, dt)
     return spec
 
 

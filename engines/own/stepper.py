@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, changed
+from engines.engine import CAPABILITIES, COLLISIONS, LAWS, changed, refuse_beyond
 from engines.own import c_file, python_file
 from engines.own.forms import roles_of
 from engines.own.recorded import recording_of
@@ -49,7 +49,7 @@ class OwnFile:
     roles: tuple[str, ...]
     package: str = "numpy"
     settings: Mapping[str, object] = field(default_factory=dict)
-    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS}
     identified_as: Mapping[str, str] = field(default_factory=dict)
     semantics: str = "a file of the user's own"
 
@@ -68,7 +68,8 @@ class OwnFile:
         return python_file.read(self.path, self.name, self.source, self.function)
 
     def start(self, system: MassSpringSystem, dt: float) -> OwnSimulation:
-        """The system, ready for its first step."""
+        """The system, ready for its first step. Raises Unsupported for springs or masses that it is not told of."""
+        refuse_beyond(self, system)
         return OwnSimulation(self, self.load(), system, dt)
 
 
@@ -81,7 +82,7 @@ class OwnFunction:
     roles: tuple[str, ...]
     package: str = "numpy"
     settings: Mapping[str, object] = field(default_factory=dict)
-    capabilities: frozenset[str] = frozenset(CAPABILITIES)
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS}
     identified_as: Mapping[str, str] = field(default_factory=dict)
     semantics: str = "a function of the user's own"
 
@@ -90,7 +91,8 @@ class OwnFunction:
         return self.function
 
     def start(self, system: MassSpringSystem, dt: float) -> OwnSimulation:
-        """The system, ready for its first step."""
+        """The system, ready for its first step. Raises Unsupported for springs or masses that it is not told of."""
+        refuse_beyond(self, system)
         return OwnSimulation(self, self.function, system, dt)
 
 

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import LAWS, Unsupported, changed, refuse_beyond
-from engines.pymunk.obstacles import add_obstacles
+from engines.engine import COLLISIONS, LAWS, Unsupported, changed, refuse_beyond
+from engines.pymunk.obstacles import add_balls, add_obstacles
 from reference.nonlinear_law import secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -41,7 +41,7 @@ class PymunkSprings:
     capabilities: frozenset[str] = frozenset(
         {"1d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
         | {"drag", "tilted gravity", "no fixed mass", "circle", "plane", "box"}
-        | set(LAWS)
+        | {"no rest length", *LAWS, *COLLISIONS}
     )
 
     @property
@@ -100,6 +100,7 @@ class PymunkSimulation:
         }
         self._space.add(*bodies, *self._springs.values())
         add_obstacles(pymunk, self._space, system, self._moving)
+        add_balls(pymunk, self._space, system, bodies)
         self._set_parameters()
         self._batch, self._buffer = batch, batch.Buffer()
         self._fields = batch.BodyFields.POSITION | batch.BodyFields.VELOCITY

@@ -110,7 +110,7 @@ def _growth_of_sweep(scheme: Scheme, systems: Sequence[AtRest], dt: Array) -> Ar
     """All systems perturbed alike, swept, and how each perturbation grew."""
     first = systems[0][0]
     rest = np.array([positions for _, positions in systems])
-    size = PERTURBATION * float(first.rest_lengths.min())
+    size = PERTURBATION * first.shortest
     offset = size * np.random.default_rng(0).standard_normal(first.positions.shape)
     offset[first.fixed] = 0.0
     start = float(np.linalg.norm(offset, axis=1).max())

@@ -71,6 +71,8 @@ def _beyond(translation: Translation, system: MassSpringSystem) -> list[str]:
     dimension = max(2, system.dimension)
     if dimension not in translation.dimensions:
         said.append(f"{translation.name} cannot do motion in {dimension} dimensions")
+    if system.nonlinear is not None or system.collisions is not None:
+        said.append("snippets have linear springs, and masses that do not collide")
     if system.obstacles or system.drag:
         said.append("snippets have neither obstacles nor drag")
     return said

@@ -92,6 +92,10 @@ class Kernel:
 
 def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, threads: bool = False) -> Loops:
     """The loops of a scheme on a system. Raises Unsupported for a scheme or springs not to be written as such loops."""
+    if system.collisions is not None:
+        raise Unsupported("no compiled loops of masses that collide: they run as written")
+    if not system.rest_lengths.all():
+        raise Unsupported("no compiled loops of springs of rest length 0: they run as written")
     if system.nonlinear is not None:
         raise Unsupported(f"no compiled loops of springs with {', '.join(system.nonlinear.asked)}: they run as written")
     program = trace(scheme)

@@ -45,7 +45,8 @@ the start.
 
 [system] and [mesh] may say of springs, one number for all or one for each, what is not linear about them: hardening,
 largest_force, breaking_force, breaking_stretch; and tension_only or compression_only, which is true of all or of those
-whose numbers are given (`reference.nonlinear`). A named scene has them among its [parameters].
+whose numbers are given (`reference.nonlinear`). And of masses that collide with one another their radii, and the
+restitution (`reference.collisions`). A named scene has all of them among its [parameters].
 """
 
 from __future__ import annotations
@@ -60,6 +61,7 @@ import msgspec
 import numpy as np
 
 from reference.changes import Change, Drive, Driven
+from reference.collisions import Collisions
 from reference.drives import Ramp, Sine
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
@@ -77,6 +79,9 @@ LARGEST_FILE = 32 * 2**20
 
 Numbers = float | list[float]
 
+#: What tables say besides the plain fields of a system.
+BESIDES = (*KINDS, "radii", "restitution")
+
 #: One for each mass: its numbers along the axes, or along a line its number.
 Vectors = list[float | list[float]]
 
@@ -84,7 +89,7 @@ T = TypeVar("T")
 
 
 class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
-    """What the tables [system] and [mesh] may say of springs that are not linear."""
+    """What the tables [system] and [mesh] may say of springs that are not linear, and of masses that collide."""
 
     tension_only: bool | list[int] = False
     compression_only: bool | list[int] = False
@@ -92,6 +97,8 @@ class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
     largest_force: Numbers = float("inf")
     breaking_force: Numbers = float("inf")
     breaking_stretch: Numbers = float("inf")
+    radii: Numbers = 0.0
+    restitution: float = 0.0
 
     def nonlinear(self, count: int) -> NonlinearSprings:
         """The same of so many springs. Raises InputError for the number of a spring that there is none of."""
@@ -125,7 +132,8 @@ class SystemTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
         for place, i in enumerate(self.fixed):
             if not 0 <= i < n:
                 raise InputError(f"fixed[{place}] = {i}: expected a mass from 0 to {n - 1}")
-        values: dict[str, Any] = {name: getattr(self, name) for name in self.__struct_fields__ if name not in KINDS}
+        values: dict[str, Any] = {name: getattr(self, name) for name in self.__struct_fields__ if name not in BESIDES}
+        values["collisions"] = Collisions(np.asarray(self.radii, dtype=float), self.restitution)
         values["nonlinear"] = self.nonlinear(len(self.springs))
         values["fixed"] = np.isin(np.arange(n), self.fixed)
         values["positions"] = _rows(self.positions)
@@ -161,7 +169,7 @@ class MeshTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
         if (self.masses is None) == (self.total_mass is None):
             raise InputError("mesh: expected either masses or total_mass")
         mesh = read_mesh(folder / self.file)
-        names = ("stiffness", "damping", "drag", "gravity", "fixed", *KINDS)
+        names = ("stiffness", "damping", "drag", "gravity", "fixed", *BESIDES)
         shared: dict[str, Any] = {name: getattr(self, name) for name in names}
         with np.errstate(over="ignore"):
             positions = self.scale * mesh.positions

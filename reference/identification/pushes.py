@@ -37,9 +37,10 @@ class Push:
 def pushes(system: MassSpringSystem, dt: float) -> Iterator[Push]:
     """The system pushed, in the ways that steppers can begin: stretched and in motion, in motion, turning its springs.
 
-    The last is for a string whose springs do not stretch. Obstacles are left out: a push may not take masses into them.
+    The last is for a string whose springs do not stretch. Obstacles and collisions are left out: a push may take masses
+    into them.
     """
-    alone = replace(system, obstacles=())
+    alone = replace(system, obstacles=(), collisions=None)
     rate = fastest_rate_bound(alone)
     step = max(dt, 1 / rate) if rate else dt
     random = np.random.default_rng(0)
@@ -75,7 +76,7 @@ def _length(system: MassSpringSystem) -> float:
         return system.scale
     a, b = system.springs.T
     lengths = np.linalg.norm(system.positions[b] - system.positions[a], axis=1)
-    return float(min(lengths.min(), system.rest_lengths.min()))
+    return float(min(lengths[lengths > 0].min(initial=np.inf), system.shortest))
 
 
 def _turning(system: MassSpringSystem, velocities: Array) -> Array:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from reference.breaking import breaks_of
 from reference.changes import Change, changes_by_step
 from reference.errors import InputError, SolverError, Unsupported
 from reference.identification.ranking import ranked, tells_velocities
@@ -78,6 +79,7 @@ def steps_of(run: Trajectory, system: MassSpringSystem, changes: Sequence[Change
         slow = dt * np.abs(run.velocities).max(axis=(1, 2)) <= system.scale
     near = _near_obstacles(run, system)
     usable = np.flatnonzero((slow & finite & ~near)[:-1] & (finite & ~near)[1:])
+    changes = (*changes, *breaks_of(system, run, dt, changes))
     wanted, systems, pending = set(usable.tolist()), {}, changes_by_step(changes, dt)
     for i in range(len(run) - 1):
         for change in pending.get(i, ()):
@@ -183,11 +185,13 @@ def _stepped(stepper: SchemeStepper, steps: Steps) -> Iterator[tuple[int, State]
 
 
 def _near_obstacles(run: Trajectory, system: MassSpringSystem) -> BoolArray:
-    """In which frames a free mass touches an obstacle."""
+    """In which frames a free mass touches an obstacle, or two masses that collide one another."""
     near = np.zeros(len(run), dtype=bool)
     reach = TOUCH * system.scale
     for obstacle in system.obstacles:
         with np.errstate(all="ignore"):
             distance = obstacle.signed_distances(run.positions[:, ~system.fixed])[0]
         near |= (distance <= reach).any(axis=(1, 2))
+    if system.collisions is not None:
+        near |= np.array([len(system.collisions.pairs(x, 1 + TOUCH)) > 0 for x in run.positions])
     return near

@@ -236,6 +236,8 @@ def why_no_string(system: MassSpringSystem) -> str | None:
     """Why a system is not the lecture's string, or None if it is."""
     if system.dimension != 2 or not system.is_string:
         return "the lecture's listings step strings only, in 2D and hung at their first mass"
+    if system.collisions is not None:
+        return "the lecture's masses do not collide with one another"
     if system.nonlinear is not None:
         return f"the lecture's springs are linear: they have no {', '.join(system.nonlinear.asked)}"
     if system.damping.any():

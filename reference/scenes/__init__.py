@@ -16,11 +16,19 @@ import numpy as np
 
 from reference.changes import Change, Driven, changes_by_step, whole_steps
 from reference.checked_numbers import check_sizes
+from reference.collisions import Collisions
 from reference.errors import InputError, unknown_name
 from reference.nonlinear import KINDS, with_kinds
 from reference.registry import Registry
 from reference.scenes.parameters import PerItem, chosen, converted
 from reference.system import ABOVE_ZERO, MassSpringSystem
+
+#: What masses that collide have, and all that every scene's parameters are besides its own.
+ROUND = {
+    "radii": "m, of masses that collide with one another; 0 of those that do not",
+    "restitution": "the part of the speed at which two meet that they part with, from 0 to 1",
+}
+BESIDES = {**KINDS, **ROUND}
 
 
 @dataclass(frozen=True)
@@ -79,19 +87,20 @@ class Scene:
         """The system, and what drives it, if anything does, with some parameters set.
 
         They are given as words, numbers, lists of numbers, or text of either. Every scene has besides its own those of
-        `nonlinear.KINDS`, one number for all springs or one for each.
+        BESIDES, one number for all springs or masses, or one for each.
 
         Raises:
             InputError: for an unknown parameter or a value of the wrong type or range, or beyond what floats hold.
         """
         values: dict[str, Any] = {}
-        kinds: dict[str, Any] = {}
+        besides: dict[str, Any] = {}
         for name, value in settings.items():
-            if name in KINDS and name not in self.parameters:
-                kinds[name] = converted(name, int(value) if isinstance(value, bool) else value, 0.0, True)
+            if name in BESIDES and name not in self.parameters:
+                several = name != "restitution"
+                besides[name] = converted(name, int(value) if isinstance(value, bool) else value, 0.0, several)
                 continue
             if name not in self.parameters:
-                raise unknown_name(f"parameter of scene {self.name!r}", name, [*self.parameters, *KINDS])
+                raise unknown_name(f"parameter of scene {self.name!r}", name, [*self.parameters, *BESIDES])
             if name in self.choices:
                 values[name] = chosen(name, value, self.choices[name])
                 continue
@@ -105,10 +114,19 @@ class Scene:
             given = ", ".join(f"{name} = {value:g}" for name, value in values.items() if isinstance(value, int | float))
             raise InputError(f"{given}: expected numbers that are not too large or too small for {self.name}") from None
         driven = built if isinstance(built, Driven) else Driven(built)
-        if not kinds:
-            return driven
-        system = replace(driven.system, nonlinear=with_kinds(driven.system.nonlinear, kinds))
-        return replace(driven, system=system)
+        return replace(driven, system=_with(driven.system, besides)) if besides else driven
+
+
+def _with(system: MassSpringSystem, besides: Mapping[str, Any]) -> MassSpringSystem:
+    """A scene's system with some of BESIDES. Raises InputError as a system does."""
+    kinds = {name: value for name, value in besides.items() if name in KINDS}
+    nonlinear = with_kinds(system.nonlinear, kinds) if kinds else system.nonlinear
+    if kinds.keys() == besides.keys():
+        return replace(system, nonlinear=nonlinear)
+    round_ones = system.collisions or Collisions()
+    radii = np.asarray(besides.get("radii", round_ones.radii), dtype=float)
+    collisions = Collisions(radii, float(besides.get("restitution", round_ones.restitution)))
+    return replace(system, nonlinear=nonlinear, collisions=collisions)
 
 
 @dataclass(frozen=True)

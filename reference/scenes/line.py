@@ -6,9 +6,11 @@ less the axis across: how they move up and down is the same, and nothing can mov
 
 from __future__ import annotations
 
+import numpy as np
+
 from reference.line import system_on_line
 from reference.scenes import scene
-from reference.scenes.parameters import PerItem
+from reference.scenes.parameters import PerItem, counted
 from reference.scenes.strings import spring, string
 from reference.system import MassSpringSystem
 
@@ -70,3 +72,34 @@ def chain(
         angle=90.0,
     )
     return system_on_line(hanging)
+
+
+@scene(dt=1e-3, duration=0.5, slides="4")
+def slinky(
+    *,
+    masses: int = 50,
+    mass: float = 1.0,
+    stiffness: float = 10.0,
+    damping: float = 0.0,
+    drag: float = 0.0,
+    gravity: float = 9.81,
+) -> MassSpringSystem:
+    """A slinky that hangs at rest and is let go at its top: its lower end stays where it is for sqrt(mass/stiffness).
+
+    mass [kg] and stiffness [N/m] are of the whole, damping [N s/m] of each spring, whose rest length is 0. With `radii`
+    its coils close, one after the other, and reach the lower end after sqrt(mass / (3 stiffness)).
+    """
+    counted("masses", masses, least=2)
+    each, springs = mass / masses, masses - 1
+    below = each * gravity * np.arange(springs, 0, -1)
+    heights = -np.concatenate([[0.0], np.cumsum(below / (stiffness * springs))])
+    return MassSpringSystem(
+        positions=heights[:, None],
+        springs=np.column_stack([np.arange(springs), np.arange(1, masses)]),
+        masses=np.array(each),
+        rest_lengths=np.array(0.0),
+        stiffness=np.array(stiffness * springs),
+        damping=np.array(damping),
+        drag=drag,
+        gravity=np.array(gravity),
+    )

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from reference.checked_numbers import refuse_below
 from reference.errors import InputError
 from reference.state import Array
 from reference.system import check_parameter
@@ -62,6 +63,8 @@ def converted(name: str, value: Any, default: Any, several: bool) -> Any:
     except (TypeError, ValueError, OverflowError):
         expected = "a whole number" if whole else "a number"
         raise InputError(f"{name} = {value!r}: expected {expected}") from None
+    if name == "rest_length":  # a system's may be 0; but scenes are laid out by it
+        refuse_below(name, np.asarray(numbers, dtype=np.float64), "m", above_zero=True)
     for number in numbers:
         check_parameter(name, number)
     if len(numbers) == 1 and not isinstance(value, list):

@@ -14,6 +14,7 @@ import numpy as np
 
 from reference.assembly import Blocks, assemble, damping_blocks, damping_of, solve_velocities
 from reference.jit import compiled
+from reference.lengths import divisors
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import scheme
 from reference.schemes.conjugate_residual import conjugate_residual
@@ -176,4 +177,4 @@ def spring_directions(system: MassSpringSystem, state: State) -> Array:
     """The unit vector from each spring's first mass to its second, shape (s, d)."""
     a, b = system.springs.T
     separation = state.positions[b] - state.positions[a]
-    return separation / np.linalg.norm(separation, axis=1)[:, None]
+    return separation / divisors(np.linalg.norm(separation, axis=1), system.rest_lengths)[:, None]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reference.lengths import divisors
 from reference.schemes.catalogue import Scheme
 from reference.state import Array
 from reference.theory.definite import Definiteness, lowest_eigenvector
@@ -61,7 +62,7 @@ def _shares(linear: Linearisation, shape: Array) -> Array:
     """Each spring's part of the energy that stretching takes, k (u . dx)^2 / 2."""
     a, b = linear.system.springs.T
     x = linear.state.positions
-    along = (x[b] - x[a]) / np.linalg.norm(x[b] - x[a], axis=1)[:, None]
+    along = (x[b] - x[a]) / divisors(np.linalg.norm(x[b] - x[a], axis=1), linear.system.rest_lengths)[:, None]
     energy = linear.system.stiffness * ((shape[b] - shape[a]) * along).sum(axis=1) ** 2
     whole = float(energy.sum())
     return np.asarray(energy / whole if whole else energy)

@@ -68,8 +68,21 @@ def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
         contacts = touching if len(touching) else None
     else:
         state = equilibrium(system)
-    scale = float(system.rest_lengths.min(initial=system.size or 1.0))
+    _refuse_overlap(system, state)
+    scale = min(system.shortest, system.size or 1.0)
     return Equilibrium(SpringMotion(tangent_system(system, state)), state, ~system.fixed, scale, contacts)
+
+
+def _refuse_overlap(system: MassSpringSystem, state: State) -> None:
+    """Masses that collide must be apart at rest: how they would rest on one another is not computed."""
+    if system.collisions is None:
+        return
+    touching = system.collisions.pairs(state.positions).tolist()
+    if touching:
+        i, j = touching[0]
+        raise SolverError(
+            f"no equilibrium: masses {i} and {j} would be in one another, and rest on one another instead"
+        )
 
 
 def equilibrium_on_obstacles(system: MassSpringSystem) -> tuple[Equilibrium, str]:

@@ -87,8 +87,8 @@ def exact(
     Raises:
         SolverError: if the solver gives up, or needs more steps; for a system with obstacles.
     """
-    if system.obstacles:
-        raise SolverError(WHY_NOT_EXACT)
+    if system.obstacles or system.collisions is not None:
+        raise SolverError(WHY_NOT_EXACT if system.obstacles else WHY_NOT_EXACT.replace("an obstacle", "another"))
     pending = changes_by_step(changes, dt)
     stops = sorted({i for i in pending if i < steps} | {steps})
     motion = equations(system)

@@ -19,6 +19,7 @@ import numpy as np
 from reference.assembly import Blocks, assemble, spring_blocks
 from reference.errors import SolverError
 from reference.forces import SpringMotion
+from reference.lengths import divisors
 from reference.nonlinear_law import energy_of_springs, secant_stiffness
 from reference.state import Array, State
 from reference.system import MassSpringSystem
@@ -208,7 +209,7 @@ def _without_compression(system: MassSpringSystem, state: State, springs: Array)
     """The springs' blocks less what those shorter than at rest give across themselves: (F / L) (1 - u u^T)."""
     a, b = system.springs.T
     separation = state.positions[b] - state.positions[a]
-    length = np.linalg.norm(separation, axis=1)
+    length = divisors(np.linalg.norm(separation, axis=1), system.rest_lengths)
     u = separation / length[:, None]
     across = np.eye(system.dimension) - u[:, :, None] * u[:, None, :]
     secant = secant_stiffness(system, length - system.rest_lengths)

@@ -37,7 +37,7 @@ KNOWN = frozenset(
 )
 
 #: What people call those that it does not.
-_WORDS = {"nonlinear": "springs that are not linear"}
+_WORDS = {"nonlinear": "springs that are not linear", "collisions": "masses that collide"}
 
 
 def system_data(system: MassSpringSystem) -> dict[str, Any]:
@@ -70,6 +70,8 @@ def refuse_beyond(system: MassSpringSystem) -> None:
     """Refuse what the page cannot do. Raises Unsupported, with the way out."""
     if len(system.masses) > MOST_MASSES:
         raise Unsupported(f"{len(system.masses)} masses: the page takes at most {MOST_MASSES:,}")
+    if not system.rest_lengths.all():
+        raise Unsupported("springs of rest length 0: the page does not know them yet; `springlab live` does")
     for field in fields(system):
         if field.name not in KNOWN and _is_set(system, field.name):
             what = _WORDS.get(field.name, field.name)

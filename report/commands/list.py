@@ -17,10 +17,10 @@ HEADINGS: Mapping[str, str | None] = {"known to be": "claims to be", "settings":
 @click.command("list")
 @json_option
 def list_command(as_json: bool) -> None:
-    """Scenes, what springs may have besides, schemes, engines with version or why not available, experiments."""
-    from report.listings import engine_rows, experiment_rows, scene_rows, spring_rows, stepper_rows
+    """Scenes with their parameters, schemes, engines with version or why not available, experiments."""
+    from report.listings import besides_rows, engine_rows, experiment_rows, scene_rows, stepper_rows
 
-    listings = [scene_rows(), spring_rows(), stepper_rows(), engine_rows(), experiment_rows()]
+    listings = [scene_rows(), besides_rows(), stepper_rows(), engine_rows(), experiment_rows()]
     if as_json:
         document = {
             shown.title: [dict(zip(shown.columns, row, strict=True)) for row in shown.rows] for shown in listings

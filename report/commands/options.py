@@ -34,7 +34,8 @@ settings_option = click.option(
     metavar="KEY=VALUE",
     callback=lambda context, option, words: parse_settings(words),
     help="Set a parameter of the scene, or of its springs what is not linear about them: tension_only=1, "
-    "compression_only=1, hardening, largest_force, breaking_force, breaking_stretch.",
+    "compression_only=1, hardening, largest_force, breaking_force, breaking_stretch; or radii of masses that "
+    "collide, and their restitution.",
 )
 changes_option = click.option(
     "--change",

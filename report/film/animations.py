@@ -146,7 +146,7 @@ def _palette() -> list[str]:
 def _line(drawn: _Drawn, system: MassSpringSystem, spring: int) -> str:
     """A spring at the end."""
     (x1, y1), (x2, y2) = np.rint(drawn.places[-1, system.springs[spring]] * PARTS) / PARTS
-    shortest = float(system.rest_lengths.min() / system.rest_lengths[spring])
+    shortest = system.shortest / max(float(system.rest_lengths[spring]), system.shortest)
     width = 2.5 if len(system.masses) <= FEW else 1.6 * max(0.4, shortest)
     shade = _palette()[drawn.colours[-1, spring]]
     return f'<line x1="{x1:g}" y1="{y1:g}" x2="{x2:g}" y2="{y2:g}" stroke="{shade}" stroke-width="{width:.2g}"/>'

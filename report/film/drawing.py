@@ -69,7 +69,15 @@ def strain(system: MassSpringSystem, positions: Array) -> Array:
     a, b = system.springs.T
     with np.errstate(over="ignore", invalid="ignore"):
         length = np.linalg.norm(positions[..., b, :] - positions[..., a, :], axis=-1)
-        return np.asarray(length / system.rest_lengths - 1)
+        return np.asarray(length / _natural(system) - 1)
+
+
+def _natural(system: MassSpringSystem) -> Array:
+    """Rest lengths [m], and where one is zero, the length at the start or the scene's size, shape (s,)."""
+    a, b = system.springs.T
+    start = np.linalg.norm(system.positions[b] - system.positions[a], axis=1)
+    at_least = np.where(start > 0, start, system.scale)
+    return np.where(system.rest_lengths > 0, system.rest_lengths, at_least)
 
 
 def colour_map() -> Any:
@@ -100,7 +108,7 @@ def lines(system: MassSpringSystem, positions: Array, look: Look, colours: Any) 
 
 def _widths(system: MassSpringSystem) -> Array:
     """Of the springs where they are nearest [points], shape (s,)."""
-    lengths = system.rest_lengths
+    lengths = _natural(system)
     if len(system.masses) <= FEW:
         return np.full(len(lengths), 2.2)
     most = 1.6 if len(lengths) < 1000 else 0.9

@@ -16,6 +16,7 @@ import numpy as np
 
 from reference.changes import Change
 from reference.files.setup import is_file
+from reference.nonlinear import ONE_SIDED
 from reference.state import State
 from reference.system import MassSpringSystem
 from report.live.segment import Segment
@@ -122,9 +123,13 @@ def _setting(value: str) -> str:
 def written_out(system: MassSpringSystem, state: State) -> str:
     """A system at a state as a scene file, every number to its last bit."""
     now = system.to_dict() | {"positions": state.positions.tolist(), "velocities": state.velocities.tolist()}
-    obstacles = now.pop("obstacles")
+    obstacles, law = now.pop("obstacles"), now.pop("nonlinear", {})
+    now |= now.pop("collisions", {})
     now["fixed"] = np.flatnonzero(system.fixed).tolist()
     lines = ["[system]", *(f"{key} = {json.dumps(value)}" for key, value in now.items())]
+    for key, values in law.items():
+        given = [j for j, true in enumerate(values) if true] if key in ONE_SIDED else values
+        lines.append(f"{key} = {json.dumps(given).replace('null', 'inf')}")
     for obstacle in obstacles:
         lines += ["", "[[obstacles]]", *(f"{key} = {json.dumps(value)}" for key, value in obstacle.items())]
     return "\n".join([*lines, ""])

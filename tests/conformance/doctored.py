@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from engines.engine import CAPABILITIES, Unsupported, refuse_beyond
+from reference.nonlinear_law import secant_stiffness, stretches
 from reference.obstacles import project_out
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -47,8 +48,8 @@ class KickDrift:
         return np.where(system.fixed[:, None], 0.0, force / system.masses[:, None])
 
     def stiffness(self) -> Array:
-        """Of all springs [N/m]."""
-        return self.system.stiffness
+        """Of all springs [N/m]: the secant stiffness of those that are not linear."""
+        return secant_stiffness(self.system, stretches(self.system, self.x))
 
     def state(self) -> tuple[Array, Array]:
         """Copies."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import get_args
 
 import pytest
 
-from engines.engine import CAPABILITIES, Engine, Precision, demands, precision
+from engines.engine import CAPABILITIES, LAWS, Engine, Precision, demands, precision
 from reference.stepper import stepper_named
 from tests.conformance.cases import CAPABILITIES as CASES
 from tests.conformance.checks import check_capability
@@ -30,6 +31,17 @@ def test_there_is_a_system_that_asks_for_every_capability(capability: str) -> No
     asked = demands(CASES[capability].system)
     assert capability in asked
     assert len(asked) <= 2
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_springs_that_are_not_linear_move_otherwise(law: str) -> None:
+    """So an engine that steps them as if they were linear does not keep the capability."""
+    case = CASES[law]
+    linear = replace(case.system, nonlinear=None)
+    runs = [stepper_named("kick_drift").run(s, case.dt, case.steps).trajectory for s in (case.system, linear)]
+    assert runs[0] is not None
+    assert runs[1] is not None
+    assert runs[0].distance(runs[1]).max() > 1e-3
 
 
 def test_an_engine_declares_known_capabilities_and_catalogued_schemes(engine: Engine) -> None:

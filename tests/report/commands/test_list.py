@@ -12,8 +12,7 @@ from engines.engine import absence, find, installed_version, recorded_settings, 
 from engines.process.packages import APART
 from experiments.experiment import NAMES
 from experiments.runs.steppers import all_steppers
-from reference.nonlinear import KINDS
-from reference.scenes import scenes
+from reference.scenes import BESIDES, scenes
 from reference.schemes.catalogue import constraint_schemes, wide_schemes
 from reference.stepper import catalogued
 from tests.report.commands.terminal import springlab
@@ -42,11 +41,11 @@ def test_the_json_lists_everything_there_is() -> None:
     said = springlab("list", "--json")
     assert said.code == 0
     document = json.loads(said.out)
-    assert list(document) == ["scenes", "springs", "schemes", "engines", "experiments"]
+    assert list(document) == ["scenes", "every scene", "schemes", "engines", "experiments"]
     assert [row["scene"] for row in document["scenes"]] == list(scenes())
     others = [stepper.name for stepper in all_steppers().values() if stepper.kind != "engine"]
     assert [row["stepper"] for row in document["schemes"]] == [*others, *constraint_schemes(), *wide_schemes()]
-    assert [row["parameter"] for row in document["springs"]] == list(KINDS)
+    assert [row["parameter"] for row in document["every scene"]] == list(BESIDES)
     assert [row["engine"] for row in document["engines"]] == list(registry())
     assert [row["experiment"] for row in document["experiments"]] == list(NAMES)
     assert all(value for rows in document.values() for row in rows for value in row.values())

@@ -12,7 +12,7 @@ from reference.files.scene_file import load
 from reference.scenes import find as find_scene
 from reference.state import Array
 from report.live.lab import Lab
-from report.live.reproduction import reproduction
+from report.live.reproduction import reproduction, written_out
 from report.live.segment import Segment
 from tests.report.live.commands import ends, run
 from tests.report.live.labs import ROUNDING, apart, move_at_random, open_lab
@@ -147,3 +147,11 @@ def test_what_was_changed_after_the_last_step_is_not_in_the_command(labs: list[L
     assert "--change" not in lab.reproduction().commands[0]
     lab.advance(1)
     assert "--change=0.005:stiffness=150.0" in lab.reproduction().commands[0]
+
+
+def test_a_scene_with_some_of_everything_is_read_again(tmp_path: Path) -> None:
+    """Springs that are not linear and masses that collide, to the bit."""
+    settings = {"masses": "3", "tension_only": "1,0,0", "breaking_force": "1,2,3", "radii": "0.01"}
+    system = find_scene("string").system(settings)
+    (tmp_path / "out.toml").write_text(written_out(system, system.start))
+    assert load(tmp_path / "out.toml", {}).system.to_dict() == system.to_dict()
