@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -21,10 +22,20 @@ if TYPE_CHECKING:
 @setup_options
 @json_option
 def identify_command(stepper: str, setup: Setup, as_json: bool) -> None:
-    """Say which scheme of the catalogue reproduces STEPPER on SCENE to rounding."""
+    """Say which scheme of the catalogue reproduces STEPPER on SCENE to rounding.
+
+    STEPPER may be a recording of another program's, FILE.csv or FILE.npz with the columns that `simulate` writes:
+    nothing of it is run. Its times say the dt, which --dt may confirm.
+    """
     from experiments.runs.steppers import find_steppers
+    from experiments.simulation.recorded import identify_recording, is_recording
     from reference.identification import identify
 
+    if is_recording(stepper):
+        recorded = Path(stepper)
+        identification = identify_recording(recorded, setup, click.get_current_context().params["dt"])
+        (_print_json if as_json else _show)(recorded.name, identification)
+        return
     (found,) = find_steppers([stepper])
     with progress("identify") as tell:
         tell(stepper)

@@ -1,0 +1,95 @@
+"""Recordings of other programs: identified from the file alone, and refused by name where they are none."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.report.commands.terminal import springlab
+
+#: A script that knows nothing of the lab: a mass on a spring, stepped by MuJoCo's Euler as it comes.
+BARE_MUJOCO = '''
+import csv, sys
+import mujoco
+
+model = mujoco.MjModel.from_xml_string("""
+<mujoco>
+  <option timestep="0.001" gravity="0 0 -9.81"/>
+  <worldbody>
+    <body pos="0 0 -0.125">
+      <joint type="slide" axis="0 0 1" stiffness="200" damping="DAMPING"/>
+      <geom type="sphere" size="0.01" mass="0.02" contype="0" conaffinity="0"/>
+    </body>
+  </worldbody>
+</mujoco>""")
+data = mujoco.MjData(model)
+data.qpos[0] = -0.01
+with open(sys.argv[1], "w", newline="") as file:
+    table = csv.writer(file)
+    table.writerow(["time", "mass", "x", "y", "vx", "vy"])
+    for step in range(200):
+        table.writerow([step * 0.001, 0, 0.0, 0.0, 0.0, 0.0])
+        table.writerow([step * 0.001, 1, 0.0, -0.125 + data.qpos[0], 0.0, data.qvel[0]])
+        mujoco.mj_step(model, data)
+'''
+
+
+@pytest.mark.parametrize(("damping", "named"), [("0", "kick_drift"), ("0.4", "kick_drift_implicit_damping")])
+def test_what_a_bare_mujoco_script_wrote_is_identified(damping: str, named: str, tmp_path: Path) -> None:
+    """Its Euler takes the damping of joints implicitly, which the manual says and the numbers show."""
+    pytest.importorskip("mujoco")
+    file = tmp_path / "mujoco.csv"
+    script = BARE_MUJOCO.replace("DAMPING", damping)
+    subprocess.run([sys.executable, "-c", script, str(file)], check=True, cwd=tmp_path)
+    words = ["identify", str(file), "spring", "--set", f"damping={damping}", "--dt", "0.001", "--json"]
+    document = json.loads(springlab(*words).out)
+    assert document["identified_as"] == named
+    assert document["stepper"] == "mujoco.csv"
+
+
+@pytest.mark.parametrize("name", ["rk4-masses.csv", "rk4-arrays.npz"])
+def test_what_simulate_wrote_is_identified(name: str, tmp_path: Path) -> None:
+    """Its own files, read back: the string by RK4, and by no other."""
+    words = ["--stepper", "rk4", "--duration", "0.05", "--out", str(tmp_path)]
+    assert springlab("simulate", "string", *words).code == 0
+    document = json.loads(springlab("identify", str(tmp_path / name), "string", "--json").out)
+    assert (document["identified_as"], document["ties"]) == ("rk4", [])
+
+
+def test_without_velocities_positions_alone_are_compared(tmp_path: Path) -> None:
+    """A file that does not tell them."""
+    from reference.scenes import find
+    from reference.stepper import catalogued
+
+    run = catalogued()["heun"].run(find("string").system({}), 1e-3, 60).trajectory
+    assert run is not None
+    np.savez(tmp_path / "run.npz", time_s=run.times, positions_m=run.positions)
+    document = json.loads(springlab("identify", str(tmp_path / "run.npz"), "string", "--json").out)
+    assert document["identified_as"] == "heun"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "no column 'time'"),
+        ("time,mass,x\n", "no column 'y'"),
+        ("time,mass,x,y\n0,0,0,zero\n", "line 2: expected 4 numbers"),
+        ("time,mass,x,y\n0,0,0,0\n", "expected rows for masses 0 to 1"),
+        ("time,mass,x,y\n0,0,0,0\n0,1,0,-1\n", "expected three at least"),
+        ("time,mass,x,y\n" + "".join(f"{t},0,0,0\n{t},1,0,-1\n" for t in (0, 1, 3)), "not even"),
+        ("time,mass,x,y\n" + "".join(f"{t},0,0,0\n{t},1,0,-1\n" for t in (0, 1, 2)), "its steps are 1 s"),
+    ],
+)
+def test_what_is_no_recording_is_refused_in_a_line(text: str, said: str, tmp_path: Path) -> None:
+    """With the file, the line, and what was expected."""
+    file = tmp_path / "run.csv"
+    file.write_text(text)
+    found = springlab("identify", str(file), "spring", "--dt", "0.001")
+    assert found.code == 2
+    assert said in found.err
+    assert len(found.err.strip().splitlines()) == 1
