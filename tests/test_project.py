@@ -246,6 +246,15 @@ def test_the_papers_are_there() -> None:
         assert words in licence
 
 
+def test_the_version_is_the_same_everywhere() -> None:
+    """In pyproject.toml, in CITATION.cff with its date, and as the newest heading of the changelog."""
+    version = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    headings = re.findall(r"^## (.+)$", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert citation["version"] == version
+    assert headings[:2] == ["Unreleased", f"{version} ({citation['date-released']})"]
+
+
 def test_issue_forms_can_be_read() -> None:
     """Each with a name, a description, and fields that have labels."""
     forms = [file for file in (ROOT / ".github" / "ISSUE_TEMPLATE").glob("*.yml") if file.name != "config.yml"]
