@@ -1,7 +1,7 @@
 """Recorded runs: what a stepper did, quantised, for the page to lay over its own lanes.
 
-So engines are seen where they cannot run. Places are whole numbers of a quantum, from an offset: the largest is half a
-quantum from the truth, and the page says how large a quantum is.
+So engines are seen where they cannot run. Places are whole numbers of a quantum, from an offset, and between frames the
+page goes in a straight line. By how much that is off at most, of all steps of the run, is measured and told there.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from reference.errors import Unsupported
 from reference.scenes import Setup
 from reference.state import Array
 
-#: Frames in a second of a recording, its longest time [s], and the largest whole number in it.
-FRAMES, LONGEST, MOST = 60, 4.0, 32_000
+#: The longest time of a recording [s], how many numbers it has at most, and the largest of them.
+LONGEST, NUMBERS, MOST = 4.0, 100_000, 32_000
 
 
 @dataclass(frozen=True)
@@ -59,14 +59,16 @@ def recording_data(recording: Recording, setup: Setup) -> dict[str, Any]:
     outcome = stepper.run(system, dt, whole_steps(dt, duration), setup.changes)
     if outcome.trajectory is None or outcome.ending != "done":
         raise Unsupported(f"{recording.stepper} is not recorded: {outcome.ending}, {outcome.reason}")
-    every, places = _frames(outcome.trajectory.times, outcome.trajectory.positions)
-    offset, quantum, whole = quantised(places)
+    places = outcome.trajectory.positions
+    each = -(-places.size // NUMBERS)
+    offset, quantum, whole = quantised(places[::each])
     return {
         "name": recording.name or recording.stepper,
         "stepper": recording.stepper,
         "dt": dt,
-        "every": every,
+        "every": each * dt,
         "quantum": quantum,
+        "error": largest_error(places, offset + quantum * whole, each),
         "offset": offset.tolist(),
         "frames": base64.b64encode(whole.astype("<i2").tobytes()).decode(),
     }
@@ -79,8 +81,11 @@ def quantised(places: Array) -> tuple[Array, float, Array]:
     return offset, quantum, np.rint((places - offset) / quantum)
 
 
-def _frames(times: Array, positions: Array) -> tuple[float, Array]:
-    """The frames nearest to FRAMES a second, and the time between them [s]."""
-    step = float(times[1] - times[0]) if len(times) > 1 else 1.0
-    each = max(1, round(1 / FRAMES / step))
-    return each * step, positions[::each]
+def largest_error(places: Array, frames: Array, each: int) -> float:
+    """How far places (steps, n, d) [m] are at most from straight lines between frames, one for each so many steps."""
+    steps = np.arange(min(len(places), (len(frames) - 1) * each + 1))
+    before = np.minimum(steps // each, max(len(frames) - 2, 0))
+    part = (steps / each - before)[:, None, None]
+    after = frames[np.minimum(before + 1, len(frames) - 1)]
+    shown = frames[before] + part * (after - frames[before])
+    return float(np.linalg.norm(shown - places[steps], axis=-1).max(initial=0.0))

@@ -15,7 +15,8 @@ from report.live.lab import Lab
 from report.live.markup import banner, copyable
 from report.live.number_slider import NumberSlider
 from report.live.parameters import GRAVITIES, PRESETS, Slider, sliders
-from report.live.status import MS, status, suggestion
+from report.live.prediction import MS
+from report.live.status import status, suggestion
 from report.live.stepping import MOST_LANES, choices
 from report.plain import shortened
 

@@ -17,7 +17,11 @@ from reference.schemes.catalogue import Scheme
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.limits import growth, stability_limit
+from reference.theory.rates import rates
 from report.live.stepping import scheme_behind
+
+#: A millisecond [s]: dt on the page is in milliseconds.
+MS = 1e-3
 
 #: Up to this number of coordinates growth at the page's dt is told too: it takes the whole Jacobian of a step.
 GROWTH_UP_TO = 300
@@ -38,21 +42,26 @@ class Prediction:
         reason: why there is none; empty where there is one.
         growth: by what the worst perturbation is multiplied in a step of the dt asked for; NaN where unknown.
         scheme: the one it was predicted for.
+        fastest: omega, the largest rate of the motion about the rest [1/s]; NaN where unknown.
     """
 
     limit: float | None
     reason: str
     growth: float
     scheme: str
+    fastest: float = np.nan
 
     def of(self, dt: float) -> str:
         """What it says of a dt [s], which is the one it was asked for."""
         grows = f" The fastest mode grows {percent(self.growth - 1)} a step." if self.growth > 1 + 1e-6 else ""
         if self.limit is None:
             return f"Theory knows no largest stable dt here: {self.reason}.{grows}"
-        times = f"dt = {dt:.4g} s is {dt / self.limit:.3g} times the predicted largest stable dt, {self.limit:.4g} s."
+        times = f"dt = {dt / MS:.4g} ms is {dt / self.limit:.3g} times the predicted largest stable dt, "
+        times += f"{self.limit / MS:.4g} ms."
         if dt <= self.limit:
             return f"{times} That limit is for small swings about the rest, and these are large."
+        if np.isfinite(self.fastest):
+            times += f" dt times omega is {dt * self.fastest:.3g}, over {self.limit * self.fastest:.3g}."
         return times + grows
 
 
@@ -86,9 +95,10 @@ def predict(name: str, system: MassSpringSystem, dt: float) -> Prediction:
 
 
 def _about(rest: Equilibrium, scheme: Scheme, dt: float, coordinates: int) -> Prediction:
-    limit = stability_limit(scheme, rest)
+    found = rates(rest)
+    limit = stability_limit(scheme, rest, found)
     grows = growth(scheme, rest, dt) if coordinates <= GROWTH_UP_TO else np.nan
-    return Prediction(limit.dt if limit.exact else None, limit.remark, grows, scheme.name)
+    return Prediction(limit.dt if limit.exact else None, limit.remark, grows, scheme.name, found.fastest)
 
 
 class Predictor:

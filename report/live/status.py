@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from experiments.advice.advice import rounded_down
 from report.live.lab import Lab
-from report.live.prediction import Prediction
-
-#: A millisecond [s]: dt on the page is in milliseconds.
-MS = 1e-3
+from report.live.prediction import MS, Prediction
 
 
 def suggestion(lab: Lab) -> float | None:

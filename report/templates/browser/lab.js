@@ -103,7 +103,7 @@ function showRecording({recording, world}, time) {
   const {F, at} = world.memory, size = at.n * at.d;
   recording.values = recording.values || Int16Array.from(new Int16Array(Uint8Array.from(atob(recording.frames), c => c.charCodeAt(0)).buffer));
   const last = recording.values.length / size - 1, place = Math.min(time / recording.every, last);
-  const frame = Math.min(Math.floor(place), last - 1), part = place - frame;
+  const frame = Math.max(0, Math.min(Math.floor(place), last - 1)), part = place - frame;
   for (let e = 0; e < size; e++) {
     const before = recording.values[frame * size + e], after = recording.values[(frame + 1) * size + e];
     F[at.x + e] = (before + part * (after - before)) * recording.quantum + recording.offset[e % at.d];

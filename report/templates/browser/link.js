@@ -65,6 +65,7 @@ function commandText() {
   const names = [...new Set(lab.lanes.map(lane => lane.recording ? lane.recording.stepper : lane.scheme))];
   const words = ["springlab", "compare", quoted(lab.scene.command), ...names.map(name => `--stepper=${quoted(name)}`), `--dt=${startDt()}`];
   words.push(`--duration=${+Math.max(laneTime(), lab.dt).toPrecision(12)}`);
+  for (const [key, value] of Object.entries(lab.scene.settings)) words.push(`--set=${key}=${value}`);
   for (const {time, parameter, value} of lab.changes) {
     if (parameter !== "dt") words.push(`--change=${time}:${parameter}=${[value].flat().join(",")}`);
   }

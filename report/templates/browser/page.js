@@ -91,7 +91,7 @@ function showLimits() {
 
 function limitSaid(lane) {
   const name = lane.recording ? nameOf(lane) : lane.scheme;
-  if (lane.recording) return say("recorded_note", {name, dt: number(1e3 * lane.recording.dt), quantum: number(lane.recording.quantum, 2)});
+  if (lane.recording) return say("recorded_note", {name, dt: number(1e3 * lane.recording.dt), error: number(lane.recording.error, 2)});
   const told = lab.limits[lane.scheme];
   if (!lab.scene.rest.length) return say("limit_unknown", {name, why: say("no_rest")});
   if (!told) return `${name}: ${say("computing")}`;

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from report.browser.lab_page import lab_page
-from report.browser.presets import PRESETS
+from report.browser.presets import PRESETS, Preset
+from report.browser.recordings import Recording
 from report.browser.system_data import system_data
 from tests.report.browser.node import DRIVER, doubles
 from tests.report.browser.systems import random_system
@@ -18,7 +19,8 @@ from tests.report.browser.test_bits import STEPS, of_reference, same_bits
 from tests.report.chromium import VIEWS, Shown, chromium
 
 #: Scenes that are quick to make, and the lessons'.
-SHOWN = [preset for preset in PRESETS if preset.scene in ("oscillator", "string", "cloth", "barrier", "jello")]
+SHOWN = [preset for preset in PRESETS if preset.scene in ("oscillator", "cloth", "barrier", "jello")]
+SHOWN.append(Preset("string", recordings=(Recording("mujoco_tendons"),)))
 
 #: The most a page may weigh [bytes].
 LARGEST = 3_000_000
@@ -107,6 +109,15 @@ def test_a_link_brings_back_the_same_numbers_and_the_same_picture(browser: Any, 
     assert "--change=0.05:gravity=3.7" in first.page.evaluate("commandText()")
     for shown in (first, second):
         shown.page.close()
+
+
+def test_a_recorded_engine_lies_over_the_scheme_that_it_steps_by(browser: Any, file: Path) -> None:
+    """MuJoCo's tendons step as kick-drift does, to rounding: lanes are apart by what the recording is off by."""
+    shown = opened(browser, file, "s=string&w=kick_drift,recorded:mujoco_tendons&n=400")
+    apart, error = shown.page.evaluate("[measured().apart[1], lab.lanes[1].recording.error]")
+    assert 0 < apart <= error < 1e-4
+    assert "mujoco_tendons" in shown.page.evaluate("commandText()")
+    shown.page.close()
 
 
 def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> None:

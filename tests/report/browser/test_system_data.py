@@ -10,7 +10,7 @@ import pytest
 from reference.errors import Unsupported
 from reference.scenes import find
 from report.browser.presets import PRESETS, Preset
-from report.browser.recordings import Recording, quantised, recording_data
+from report.browser.recordings import Recording, largest_error, quantised, recording_data
 from report.browser.system_data import refuse_beyond, system_data
 
 
@@ -59,6 +59,18 @@ def test_a_recording_is_off_by_half_a_quantum_at_most() -> None:
     sag, start = 0.02 * 9.81 / 200, 0.01
     expected = -(0.125 + sag) + (sag - start) * np.cos(100 * t)
     assert np.abs(frames[:, 1, 0] + data["offset"][0] - expected).max() < 0.1 * start
+
+
+def test_what_a_recording_is_off_by_is_measured() -> None:
+    """Between frames 10 steps apart a parabola of a^2 = 2 is off by (T / 2)^2 in the middle; rounding comes on top."""
+    t = np.arange(101) / 100
+    places = (t**2)[:, None, None]
+    assert largest_error(places, places[::10], 10) == pytest.approx(0.05**2)
+    assert largest_error(places, places[::1] + 1e-3, 1) == pytest.approx(1e-3)
+
+    data = recording_data(Recording("kick_drift"), find("oscillator").setup({}))
+    assert data["every"] == 1e-3
+    assert 0 < data["error"] <= data["quantum"]
 
 
 def test_a_recording_that_does_not_come_to_its_end_is_refused() -> None:
