@@ -160,7 +160,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     nearest = ""
     if identification.identified_as is None:
         reasons.append(f"not identified: {identification.reason}")
-        nearest = nearest_known(stepper.name, tableau, matrix)
+        nearest = nearest_known(tableau, updates, matrix)
     if past is not None and past.one_step is False:
         reasons.append("it remembers earlier steps: its step matrix is that of a first step")
     follows = consequences(matrix) if matrix else None

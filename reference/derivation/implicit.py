@@ -25,6 +25,9 @@ from reference.system import MassSpringSystem
 #: Points nearer to one another than this part of their size are one stage, as far as its equation is solved.
 ONE_STAGE = 1e-6
 
+#: A difference that no Jacobian is made of.
+ROUNDING = 1e-12
+
 #: Of the points asked, so many of the last can be stages; and so many stages are tried.
 LAST, MOST_STAGES = 8, 3
 
@@ -65,8 +68,13 @@ def _number(c: float) -> Number:
 
 
 def _differenced(points: Sequence[Array], i: int) -> bool:
-    """Whether a point is another's but for one unknown: a Jacobian was made of differences there."""
-    return any(np.count_nonzero(points[i] != other) == 1 for other in points[max(0, i - 2 * len(points[i])) : i])
+    """Whether a point is another's but for one unknown: a Jacobian was made of differences there.
+
+    Iterates that have all but converged may differ in one unknown, too, by rounding.
+    """
+    before = points[max(0, i - 2 * len(points[i])) : i]
+    apart = (np.abs(points[i] - other) for other in before)
+    return any(np.count_nonzero(off) == 1 and off.max() > ROUNDING for off in apart)
 
 
 def _distinct(points: Sequence[Array]) -> list[int]:

@@ -2,93 +2,125 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from fractions import Fraction
 from functools import cache
 from itertools import product
 
 import numpy as np
 
-from reference.derivation.formula import number
+from reference.derivation.formula import Number, number
 from reference.derivation.implicit import implicit_tableau
-from reference.derivation.of_schemes import tableau_of_scheme
-from reference.derivation.oscillators import runs_of
+from reference.derivation.of_schemes import tableau_of_scheme, updates_of_scheme
+from reference.derivation.oscillators import matrices_at, runs_of
 from reference.derivation.step_matrix import StepMatrix, step_matrix
 from reference.derivation.tableau import Tableau, nearest
+from reference.derivation.updates import Coefficient, Symbol, Updates
 from reference.errors import Unsupported
 from reference.schemes import catalogue
+from reference.schemes.catalogue import Scheme
 from reference.stepper import SchemeStepper
 
+#: So many numbers may differ; with more the nearest is not near.
+MOST = 4
 
-def nearest_known(name: str, tableau: Tableau | None, matrix: StepMatrix | None) -> str:
-    """In words: "b2 is 1/3 where heun has 1/2"; empty where nothing is near.
+#: Entries of step matrices that are as near as this are the same.
+SAME = 1e-9
 
-    Args:
-        name: of the stepper, which is not compared with itself.
-    """
+NOTHING = Coefficient(Fraction(0), 0)
+
+
+def nearest_known(tableau: Tableau | None, updates: Updates | None, matrix: StepMatrix | None) -> str:
+    """In words: "b2 is 1/3 where heun has 1/2"; empty where nothing is near."""
     if tableau is not None:
-        found = nearest(tableau, [(n, t) for n, t in known_tableaux().items() if n != name])
-        if found is None or len(found[1]) > tableau.stages + 1:
-            return ""
-        scheme, differences = found
-        if not differences:
-            return f"its tableau is that of {scheme}"
-        return ", ".join(
-            f"{which} is {number(mine)} where {scheme} has {number(its)}" for which, mine, its in differences
-        )
-    if matrix is None:
+        return _by_tableau(tableau)
+    words = _by_updates(updates) if updates is not None else ""
+    return words or (_by_matrix(matrix) if matrix is not None else "")
+
+
+def _by_tableau(tableau: Tableau) -> str:
+    found = nearest(tableau, list(known_tableaux().items()))
+    if found is None or len(found[1]) > MOST:
         return ""
-    text = matrix.text()
-    if not all(matrix.asks(letter) for letter in "abd"):
-        return ""
-    places = list(product(range(2), range(2)))
+    scheme, differences = found
+    if not differences:
+        return f"its tableau is that of {scheme}"
+    return ", ".join(f"{which} is {number(mine)} where {scheme} has {number(its)}" for which, mine, its in differences)
+
+
+def _by_updates(updates: Updates) -> str:
+    """Of those that take as many accelerations, at as many points: the one with the fewest other coefficients."""
     differing = {
-        scheme: [(i, j) for i, j in places if known[i][j] != text[i][j]]
-        for scheme, known in known_matrices().items()
-        if scheme != name
+        name: list(_differences(updates, known))
+        for name, known in known_updates().items()
+        if len(known.points) == len(updates.points) and known.asks_only_accelerations
     }
-    # first by what they do without damping: a mistake is often in that alone
-    scheme = min(differing, key=lambda s: (_apart_undamped(matrix, s), len(differing[s]), _apart(matrix, s)))
-    if len(differing[scheme]) > 2 and _apart_undamped(matrix, scheme):
+    name = min(differing, key=lambda n: len(differing[n]), default=None)
+    if name is None or not updates.asks_only_accelerations or not 0 < len(differing[name]) <= MOST:
         return ""
-    if not differing[scheme]:
-        return f"its step matrix is that of {scheme}: they differ in motion that is not linear"
-    known = known_matrices()[scheme]
-    return ", ".join(f"m{i + 1}{j + 1} is {text[i][j]} where {scheme} has {known[i][j]}" for i, j in differing[scheme])
+    return ", ".join(
+        f"{where} is {number(mine)} where {name} has {number(its)}" for where, mine, its in differing[name]
+    )
+
+
+def _differences(one: Updates, other: Updates) -> Iterator[tuple[str, Number, Number]]:
+    """Which coefficients differ: where, the one's and the other's."""
+    pairs = list(zip((*one.points, one.end), (*other.points, other.end), strict=True))
+    for i, (mine, its) in enumerate(pairs):
+        place = f"where a{i + 1} is taken" if i < len(one.points) else "at the end"
+        for letter, form, known in (("x", mine[0], its[0]), ("v", mine[1], its[1])):
+            for symbol in dict.fromkeys((*form, *known)):
+                here, there = form.get(symbol, NOTHING), known.get(symbol, NOTHING)
+                if here != there:
+                    power = (here if here.number else there).power
+                    yield f"{_said(symbol, power)} in {letter} {place}", here.number, there.number
+
+
+def _said(symbol: Symbol, power: int) -> str:
+    """A symbol times its power of h: h^2 a1."""
+    name = symbol.kind if symbol.kind in "xv" else f"a{symbol.call + 1}"
+    name += f"[{-symbol.age}]" if symbol.age else ""
+    return name if power == 0 else f"h {name}" if power == 1 else f"h^{power} {name}"
+
+
+def _by_matrix(matrix: StepMatrix) -> str:
+    """Of all one-step schemes: first by what they do without damping, as a mistake is often in that alone."""
+    at = matrix.samples
+    undamped = type(at)(at.a, 0 * at.a, 0 * at.a)
+    found: dict[str, tuple[int, int]] = {}
+    for name, scheme in _known().items():
+        if scheme.one_step:
+            runs = runs_of(SchemeStepper(scheme))
+            apart = [np.abs(matrices_at(runs, s) - matrix.at(s.a, s.b, s.d)).max(axis=0) > SAME for s in (undamped, at)]
+            found[name] = int(apart[0].sum()), int(apart[1].sum())
+    name = min(found, key=lambda n: found[n])
+    if found[name][0] and found[name][1] > MOST // 2:
+        return ""
+    if not any(found[name]):
+        return f"its step matrix is that of {name}: they differ in motion that is not linear"
+    mine, its = matrix.text(), step_matrix(runs_of(SchemeStepper(catalogue.find(name)))).text()
+    places = [(i, j) for i, j in product(range(2), range(2)) if mine[i][j] != its[i][j]]
+    return ", ".join(f"m{i + 1}{j + 1} is {mine[i][j]} where {name} has {its[i][j]}" for i, j in places)
+
+
+def _known() -> dict[str, Scheme]:
+    return {**catalogue.schemes(), **catalogue.wide_schemes()}
 
 
 @cache
 def known_tableaux() -> dict[str, Tableau]:
     """The catalogue's, by scheme."""
-    every = {**catalogue.schemes(), **catalogue.wide_schemes()}.items()
-    found = {name: tableau_of_scheme(scheme) or implicit_tableau(scheme) for name, scheme in every}
+    found = {name: tableau_of_scheme(scheme) or implicit_tableau(scheme) for name, scheme in _known().items()}
     return {name: tableau for name, tableau in found.items() if tableau is not None}
 
 
 @cache
-def known_matrices() -> dict[str, list[list[str]]]:
-    """The catalogue's step matrices, as they are written, by scheme: those of one-step schemes."""
+def known_updates() -> dict[str, Updates]:
+    """The catalogue's update formulas, by scheme."""
     found = {}
-    for name, scheme in {**catalogue.schemes(), **catalogue.wide_schemes()}.items():
-        if scheme.one_step:
-            try:
-                found[name] = _matrix_of(name).text()
-            except Unsupported:
-                continue
+    for name, scheme in _known().items():
+        try:
+            found[name] = updates_of_scheme(scheme)
+        except Unsupported:
+            continue
     return found
-
-
-@cache
-def _matrix_of(scheme: str) -> StepMatrix:
-    return step_matrix(runs_of(SchemeStepper(catalogue.find(scheme))))
-
-
-def _apart_undamped(matrix: StepMatrix, scheme: str) -> int:
-    """In how many entries two step matrices differ without damping and drag."""
-    a, nothing = matrix.samples.a, 0 * matrix.samples.a
-    off = np.abs(_matrix_of(scheme).at(a, nothing, nothing) - matrix.at(a, nothing, nothing)).max(axis=0)
-    return int((off > 1e-9).sum())
-
-
-def _apart(matrix: StepMatrix, scheme: str) -> float:
-    """How far two step matrices are apart where one was measured."""
-    at = matrix.samples
-    return float(np.abs(_matrix_of(scheme).at(at.a, at.b, at.d) - matrix.measured).mean())

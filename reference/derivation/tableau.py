@@ -85,7 +85,8 @@ class Tableau:
         s = range(self.stages)
         pairs = [(f"a{i + 1}{j + 1}", self.a[i][j], other.a[i][j]) for i in s for j in s]
         pairs += [(f"b{i + 1}", self.b[i], other.b[i]) for i in s]
-        pairs += [(f"c{i + 1}", self.c[i], other.c[i]) for i in s]
+        if self.times_at_odds:  # else c follows from a
+            pairs += [(f"c{i + 1}", self.c[i], other.c[i]) for i in s]
         return [(name, mine, its) for name, mine, its in pairs if _apart(mine, its)]
 
     def without_unused(self) -> Tableau:

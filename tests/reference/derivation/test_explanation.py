@@ -11,7 +11,7 @@ from engines.engine import registry
 from engines.process.isolation import EngineStepper
 from engines.process.packages import APART
 from reference.derivation.explanation import explain
-from reference.derivation.near import known_matrices, nearest_known
+from reference.derivation.near import nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order
 from reference.derivation.of_schemes import tableau_of_scheme
 from reference.derivation.oscillators import runs_of
@@ -22,7 +22,7 @@ from reference.motion import Motion
 from reference.outcome import Outcome, outcome_of
 from reference.schemes.catalogue import Scheme, schemes
 from reference.state import State
-from reference.stepper import SchemeStepper, catalogued
+from reference.stepper import SchemeStepper, catalogued, stepper_named
 from reference.system import MassSpringSystem
 from tests import wrong
 from tests.reference.systems import label
@@ -47,7 +47,7 @@ def test_an_engines_formulas_are_those_of_a_scheme_it_claims(name: str) -> None:
         assert "rods" in str(error)  # noqa: PT017 - the one reason there may be
         return
     keep = [entry.numerator.keys() for entry in found.entries]
-    claimed = [known_matrices()[claim] for claim in stepper.claims]
+    claimed = [step_matrix(runs_of(stepper_named(claim))).text() for claim in stepper.claims]
     if found.damped and found.dragged:
         assert found.text() in claimed
     else:
@@ -117,4 +117,4 @@ def lopsided(motion: Motion, state: State, dt: float) -> State:
 def test_a_stranger_is_held_against_the_nearest() -> None:
     """Heun with slopes weighted 2/3 and 1/3 has no name, and the numbers that differ are told."""
     tableau = tableau_of_scheme(Scheme(lopsided, 2))
-    assert nearest_known("lopsided", tableau, None) == "b1 is 2/3 where heun has 1/2, b2 is 1/3 where heun has 1/2"
+    assert nearest_known(tableau, None, None) == "b1 is 2/3 where heun has 1/2, b2 is 1/3 where heun has 1/2"
