@@ -1,4 +1,4 @@
-"""Thirty steppers as users write them: names, tableaux and formulas of all; and the mistakes of ten, told as what they are.
+"""Thirty steppers as users write them: names and formulas of all, and the mistakes of ten, told as what they are.
 
 The files stand in `written`. Each is given to the lab as any user's file, and run in this process.
 """
