@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import os
 import threading
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field, replace
 from io import StringIO
@@ -19,6 +19,7 @@ from experiments.exercises.judge import Verdict, judge, not_asked
 from experiments.exercises.sandbox import Limits
 from experiments.exercises.sandbox_errors import NotGradedError
 from experiments.exercises.submission import Submission, read
+from experiments.exercises.table_file import read_table
 from experiments.exercises.writing import write_anew
 from reference.errors import InputError
 from reference.files.csv_cell import cell
@@ -177,6 +178,7 @@ def grade_class(
         InputError: if the table is something else.
     """
     earlier, wanted = _earlier(table), list(files)
+    added = dict.fromkeys(name for row in earlier.values() for name in row if name not in COLUMNS)
     lock, rows = threading.Lock(), []
     table.parent.mkdir(parents=True, exist_ok=True)
     _write(table, earlier.values())
@@ -185,7 +187,7 @@ def grade_class(
         row = _graded(path, name, exercise, key, earlier, limits, keyed)
         with lock, table.open("a", newline="", encoding="utf-8") as file:
             if row is not earlier.get(_name(name)):
-                csv.DictWriter(file, COLUMNS).writerow(row)
+                csv.DictWriter(file, [*COLUMNS, *added], restval="").writerow(row)
         return row
 
     pool = ThreadPoolExecutor(workers or os.cpu_count() or 1)
@@ -230,23 +232,24 @@ def _earlier(table: Path) -> dict[str, dict[str, str]]:
     """The whole rows of a table, by file; a last line that was cut off is left out."""
     if not table.exists():
         return {}
-    with table.open(newline="", encoding="utf-8") as file:
-        reader = csv.DictReader(file)
-        if tuple(reader.fieldnames or ()) != COLUMNS:
-            raise InputError(f"{table} is not a table of grades: expected the columns {', '.join(COLUMNS)}")
-        return {row["file"]: row for row in _whole(reader)}
+    rows = read_table(table)
+    named = set(rows[0]) if rows else set(COLUMNS) if _begins_as_one(table) else set()
+    if not set(COLUMNS) <= named:
+        raise InputError(f"{table} is not a table of grades: expected the columns {', '.join(COLUMNS)}")
+    return {row["file"]: row for row in rows if row["digest"]}
 
 
-def _whole(rows: Iterable[dict[str, str]]) -> Iterator[dict[str, str]]:
-    for row in rows:
-        if None not in row and all(isinstance(value, str) for value in row.values()) and row["digest"]:
-            yield row
+def _begins_as_one(table: Path) -> bool:
+    """Whether a table without rows is one of grades."""
+    return COLUMNS[0] in table.read_bytes()[:200].decode("utf-8-sig", "replace")
 
 
 def _write(table: Path, rows: Iterable[dict[str, str]]) -> None:
-    """The table anew, in one go."""
+    """The table anew, in one go; columns that somebody has added stay, behind the others."""
+    kept = list(rows)
+    added = dict.fromkeys(name for row in kept for name in row if name not in COLUMNS)
     text = StringIO(newline="")
-    writer = csv.DictWriter(text, COLUMNS)
+    writer = csv.DictWriter(text, [*COLUMNS, *added], restval="")
     writer.writeheader()
-    writer.writerows(rows)
+    writer.writerows(kept)
     write_anew(table, text.getvalue().encode("utf-8"))

@@ -13,6 +13,7 @@ from io import BytesIO
 from pathlib import Path
 
 from experiments.exercises.exercise import Exercise, find
+from experiments.exercises.notebook import program_in
 from reference.errors import InputError
 
 #: A file larger than this is not a submission [bytes].
@@ -20,6 +21,9 @@ LARGEST = 2**20
 
 #: Encodings that begin with a byte order mark, longest mark first.
 MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+#: What programs and notebooks are called.
+NOTEBOOK, SUFFIXES = ".ipynb", (".py", ".ipynb")
 
 #: The names that say whose a file is.
 HEADER = ("EXERCISE", "SEED", "KEYED")
@@ -65,11 +69,7 @@ def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = 
     Raises:
         InputError: for a file that is not a submission, by name.
     """
-    if path.is_symlink() or not path.is_file():
-        raise InputError(f"{name}: expected a file")
-    if path.stat().st_size > LARGEST:
-        raise InputError(f"{name} has {path.stat().st_size} bytes: expected at most {LARGEST}")
-    source = decoded(path.read_bytes(), name)
+    source = source_of(path, name)
     says = header(source)
     if exercise is None and says.get("EXERCISE") is None:
         raise InputError(f"{name} does not say of which exercise it is: expected a line such as EXERCISE = 4")
@@ -78,6 +78,21 @@ def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = 
     if exercise.seeded and not (seed.isprintable() and 0 < len(seed) <= LONGEST_SEED):
         raise InputError(f'{name} has no seed: expected the starter\'s line, such as SEED = "example"')
     return Submission(name, source, exercise, seed if exercise.seeded else "", says.get("KEYED") is True, keyed)
+
+
+def source_of(path: Path, name: str) -> str:
+    """The text of a program, or that of a notebook's code cells. Raises InputError where there is none."""
+    if path.is_symlink() or not path.is_file():
+        raise InputError(f"{name}: expected a file")
+    if path.stat().st_size > LARGEST:
+        raise InputError(f"{name} has {path.stat().st_size} bytes: expected at most {LARGEST}")
+    text = decoded(path.read_bytes(), name)
+    if path.suffix.lower() != NOTEBOOK:
+        return text
+    try:
+        return program_in(text)
+    except ValueError as error:
+        raise InputError(f"{name}: expected a notebook: {error}") from None
 
 
 def decoded(data: bytes, name: str) -> str:
@@ -128,7 +143,7 @@ def _lines_by_themselves(source: str) -> Iterator[ast.Module]:
 
 
 def files_of(paths: Sequence[Path]) -> list[tuple[Path, str]]:
-    """The Python files that are meant, each with its name: files themselves, and all in folders and below.
+    """The programs and notebooks that are meant, each with its name: files themselves, and all in folders and below.
 
     Raises:
         InputError: for a path where nothing is, or a folder with no such file.
@@ -137,7 +152,9 @@ def files_of(paths: Sequence[Path]) -> list[tuple[Path, str]]:
     for path in paths:
         if path.is_dir():
             inside = sorted(
-                p for p in path.rglob("*.[pP][yY]") if not any(q.startswith(".") for q in p.relative_to(path).parts)
+                p
+                for p in path.rglob("*")
+                if p.suffix.lower() in SUFFIXES and not any(q.startswith(".") for q in p.relative_to(path).parts)
             )
             if not inside:
                 raise InputError(f"{path}: expected Python files in it")

@@ -1,4 +1,4 @@
-"""The command `springlab exercise`: list, start, check, gradescope."""
+"""The command `springlab exercise`: list, start, check, gradescope; `exercise_book` has another."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from reference.printable import printable
+from report.commands.exercise_book import register as register_book
 from report.commands.options import json_option
 from report.commands.terminal import progress, show_table
 from report.plain import plain
@@ -300,3 +301,6 @@ def gradescope_command(exercise: str, out: Path, key: str | None, exposed: bool,
     found = find(exercise)
     write_zip(found, key or secrets.token_hex(16), out, exposed, not started_without_key)
     click.echo(f"written: {out}")
+
+
+register_book(exercise_command, key_option, exposed_option, without_key_option)

@@ -1,6 +1,8 @@
 """The table of confusion: every program of `corpus`, and what the checker called it.
 
-python -m tests.experiments.exercises.confusion [EXERCISE ...]
+python -m tests.experiments.exercises.confusion [EXERCISE ...] [--blind]
+
+With --blind, rates on programs that the checker's catalogue was not made from (`blind_rates`).
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ UNKNOWN = "not in the catalogue"
 
 def called(program: Program) -> str:
     """What the checker says."""
-    return grade(program.submission, KEY if program.name == RIGHT else None).verdict.name
+    return grade(program.submission, KEY if program.name == RIGHT else None, None, None).verdict.name
 
 
 def confusion(chosen: Sequence[Program]) -> dict[Program, str]:
@@ -70,6 +72,11 @@ def _table(found: dict[Program, str]) -> None:
 
 
 if __name__ == "__main__":
+    if "--blind" in sys.argv:
+        from tests.experiments.exercises import blind_rates
+
+        blind_rates.main()
+        sys.exit()
     numbers = [int(word) for word in sys.argv[1:]]
     found = confusion([program for program in programs() if not numbers or program.exercise in numbers])
     _table(found)

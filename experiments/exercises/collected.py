@@ -1,0 +1,102 @@
+"""What a class has handed in, as learning platforms export it: folders by student, zips, notebooks.
+
+Whose a file is its path says: Moodle's folder `Ada Lovelace_123_assignsubmission_file_`, Canvas' file
+`lovelaceada_123_456_euler.py`, Brightspace's folder `123-456 - Ada Lovelace - Nov 3, 2026 1100 AM`, or a plain folder
+or file by name.
+"""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from datetime import datetime
+from pathlib import Path, PurePosixPath
+
+from experiments.exercises.submission import LARGEST, SUFFIXES
+from reference.errors import InputError
+
+#: How many files are taken out of a zip at most.
+MOST_FILES = 10_000
+
+MOODLE = re.compile(r"^(?P<name>.+?)_(?P<id>\d+)_assignsubmission_\w+$")
+BRIGHTSPACE = re.compile(r"^(?P<id>\d+-\d+) - (?P<name>.+?) - .+$")
+CANVAS = re.compile(r"^(?P<name>[a-z0-9-]+?)(_LATE)?_(?P<id>\d+)_\d+_.+$", re.IGNORECASE)
+
+
+@dataclass(frozen=True)
+class HandedIn:
+    """A file.
+
+    Attributes:
+        name: its path in what was handed in. student: whose it is.
+        when: when it was written, by the file or by its zip.
+    """
+
+    path: Path
+    name: str
+    student: str
+    when: datetime
+
+
+def student_of(name: str) -> str:
+    """Whose a file is, by its path.
+
+    >>> [student_of(n) for n in ("Ada Lovelace_12_assignsubmission_file_/euler.py", "lovelaceada_1_2_euler-1.py")]
+    ['Ada Lovelace', 'lovelaceada']
+    >>> [student_of(n) for n in ("12-34 - Bob Noyce - Nov 3, 2026 1100 AM/euler.py", "eve/work/euler.py", "max.py")]
+    ['Bob Noyce', 'eve', 'max']
+    """
+    top = PurePosixPath(name).parts[0]
+    for pattern in (MOODLE, BRIGHTSPACE, CANVAS):
+        found = pattern.match(top)
+        if found:
+            return found["name"].strip()
+    return top if "/" in name else PurePosixPath(name).stem
+
+
+def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
+    """All programs and notebooks in a folder or a zip, and in zips within it.
+
+    Args:
+        unpacked: an empty folder to unpack zips into.
+
+    Raises:
+        InputError: where nothing is.
+    """
+    if not folder.exists():
+        raise InputError(f"{folder}: expected a folder, or a zip")
+    files = [folder] if folder.is_file() else sorted(p for p in folder.rglob("*") if p.is_file() and not p.is_symlink())
+    found: list[HandedIn] = []
+    for path in files:
+        name = path.name if path == folder else path.relative_to(folder).as_posix()
+        if any(part.startswith((".", "__")) for part in PurePosixPath(name).parts):
+            continue
+        if path.suffix.lower() == ".zip":
+            # the whole class in one zip has students inside; a student's own zip is the student's
+            prefix = "" if path == folder else f"{PurePosixPath(name).with_suffix('')}/"
+            found += _out_of_zip(path, prefix, unpacked / f"zip{len(found)}")
+        elif path.suffix.lower() in SUFFIXES:
+            found.append(HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime)))
+    if not found:
+        raise InputError(f"{folder}: expected Python files, notebooks or zips in it")
+    return found
+
+
+def _out_of_zip(path: Path, prefix: str, into: Path) -> Iterator[HandedIn]:
+    """The programs and notebooks of a zip; whatever leads out of it, or is too large, is left."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            for i, entry in enumerate(archive.infolist()[:MOST_FILES]):
+                inside = PurePosixPath(entry.filename.replace("\\", "/"))
+                hidden = any(part.startswith((".", "__")) for part in inside.parts) or inside.is_absolute()
+                if hidden or inside.suffix.lower() not in SUFFIXES or entry.file_size > LARGEST:
+                    continue
+                file = into / f"{i}{inside.suffix.lower()}"
+                file.parent.mkdir(parents=True, exist_ok=True)
+                file.write_bytes(archive.read(entry))
+                name = f"{prefix}{inside}"
+                yield HandedIn(file, name, student_of(name), datetime(*entry.date_time))
+    except (zipfile.BadZipFile, RuntimeError, NotImplementedError, ValueError) as error:
+        raise InputError(f"{path}: expected a zip that can be read: {error}") from None

@@ -1,0 +1,188 @@
+"""A class's book: whose a file is, what counts, who is missing, late, equal; tables read back; what platforms take."""
+
+from __future__ import annotations
+
+import csv
+import doctest
+import json
+import os
+import zipfile
+from datetime import datetime
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from experiments.exercises import collected, notebook, sandbox
+from experiments.exercises.class_book import COLUMNS, book, students_in, write_book
+from experiments.exercises.collected import collect
+from experiments.exercises.feedback import write_feedback
+from experiments.exercises.grading import grade_class
+from experiments.exercises.platforms import PLATFORMS, table
+from experiments.exercises.submission import read
+from experiments.exercises.table_file import read_table
+from reference.errors import InputError
+from tests.experiments.exercises import here
+from tests.experiments.exercises.corpus import solution, wrong
+
+RIGHT, WRONG = solution("loops", 1), wrong("loops", "gravity_sign", 1)
+
+
+@pytest.fixture(autouse=True)
+def trusted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Programs run in this process."""
+    monkeypatch.setattr(sandbox, "run", here.run)
+
+
+def as_notebook(text: str) -> str:
+    """A program as a notebook: one cell for each paragraph, one magic."""
+    cells: list[dict[str, Any]] = [{"cell_type": "markdown", "source": ["# Exercise"]}]
+    parts = ["%matplotlib inline", *text.split("\n\n\n")]
+    cells += [{"cell_type": "code", "source": part.splitlines(keepends=True)} for part in parts]
+    return json.dumps({"nbformat": 4, "cells": cells})
+
+
+@pytest.fixture
+def a_class(tmp_path: Path) -> Path:
+    """A class as platforms export it: two of Moodle's folders, a notebook, a zip of a student's, a file of Canvas'."""
+    folder = tmp_path / "class"
+    for name, text in (
+        ("Ada Lovelace_1_assignsubmission_file_/euler.py", WRONG),
+        ("Ada Lovelace_1_assignsubmission_file_/euler_new.py", RIGHT),
+        ("Bob Noyce_2_assignsubmission_file_/euler.ipynb", as_notebook(RIGHT)),
+        ("hopper_3_4_euler.py", "# mine\n" + WRONG),
+        ("empty/notes.txt", "nothing"),
+    ):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text(text, encoding="utf-8")
+    old, new = datetime(2026, 11, 1).timestamp(), datetime(2026, 11, 4, 12).timestamp()
+    os.utime(folder / "Ada Lovelace_1_assignsubmission_file_/euler.py", (old, old))
+    os.utime(folder / "Ada Lovelace_1_assignsubmission_file_/euler_new.py", (new, new))
+    with zipfile.ZipFile(folder / "eve.zip", "w") as archive:
+        archive.writestr(zipfile.ZipInfo("work/euler.py", (2026, 11, 2, 0, 0, 0)), WRONG)
+        archive.writestr("../../out.py", WRONG)
+    return folder
+
+
+def booked(folder: Path, tmp_path: Path, **options: Any) -> dict[str, dict[str, str]]:
+    """The book of a folder, by student."""
+    files = collect(folder, tmp_path / "unpacked")
+    rows = grade_class([(f.path, f.name) for f in files], tmp_path / "grades.csv", workers=1)
+    return {row["student"]: row for row in book(rows, files, **options)}
+
+
+def test_each_student_has_one_row_and_the_newest_file_counts(a_class: Path, tmp_path: Path) -> None:
+    """Whoever is missing has one too; days late, and equal programs, are told; nothing is unpacked elsewhere."""
+    students = {"Ada Lovelace": "", "Bob Noyce": "", "Max": ""}
+    found = booked(a_class, tmp_path, students=students, due=datetime(2026, 11, 3))
+    assert {name: (row["outcome"], row["mark"]) for name, row in found.items()} == {
+        "Ada Lovelace": ("right", "100.0"),
+        "Bob Noyce": ("right", "100.0"),
+        "hopper": ("mistake", "0.0"),
+        "eve": ("mistake", "0.0"),
+        "Max": ("missing", "0.0"),
+    }
+    ada, eve = found["Ada Lovelace"], found["eve"]
+    assert (ada["days_late"], ada["earlier_files"], eve["days_late"]) == ("2", "1", "0")
+    assert (eve["same_program_as"], found["hopper"]["same_program_as"]) == ("hopper", "eve")
+    assert ada["same_program_as"] == "Bob Noyce"
+    assert not list(tmp_path.rglob("out.py"))
+
+
+def test_a_mark_by_hand_stays_in_a_table_that_a_spreadsheet_has_saved(a_class: Path, tmp_path: Path) -> None:
+    """With a byte order mark and semicolons; what was computed is computed again."""
+    file = tmp_path / "book.csv"
+    rows = list(booked(a_class, tmp_path).values())
+    write_book([{**row, "by_hand": "50" if row["student"] == "eve" else ""} for row in rows], file)
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, [*COLUMNS, "remark"], delimiter=";")
+    writer.writeheader()
+    writer.writerows({**row, "remark": "ok"} for row in read_table(file))
+    file.write_text(text.getvalue(), encoding="utf-8-sig")
+    again = booked(a_class, tmp_path, before=read_table(file))
+    assert (again["eve"]["mark"], again["eve"]["score"], again["hopper"]["mark"]) == ("50", "0.0", "0.0")
+
+
+def test_a_table_of_grades_may_have_been_through_a_spreadsheet(a_class: Path, tmp_path: Path) -> None:
+    """It goes on from there, and a column that somebody has added stays."""
+    file, grades = a_class / "hopper_3_4_euler.py", tmp_path / "g.csv"
+    (first,) = grade_class([(file, file.name)], grades, workers=1)
+    rows = [{**row, "remark": "talk to her"} for row in read_table(grades)]
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, list(rows[0]), delimiter=";")
+    writer.writeheader()
+    writer.writerows(rows)
+    grades.write_text(text.getvalue(), encoding="utf-8-sig")
+    (again,) = grade_class([(file, file.name)], grades, workers=1)
+    assert again == {**first, "remark": "talk to her"}
+    assert read_table(grades) == [again]
+
+
+def test_seeds_are_tied_to_students(tmp_path: Path) -> None:
+    """One who has another's, by the class list or beside another, is told to the teacher."""
+    text = solution("loops", 5)
+    for name, seed in (("ada", "a1"), ("bob", "a1"), ("eve", "m1")):
+        (tmp_path / "c" / name).mkdir(parents=True)
+        (tmp_path / "c" / name / "own.py").write_text(text.replace('SEED = "example"', f'SEED = "{seed}"'))
+    (tmp_path / "students.csv").write_text("student;seed\nada;a1\nbob;b1\neve;e1\nmax;m1\n")
+    students = students_in(tmp_path / "students.csv")
+    assert students == {"ada": "a1", "bob": "b1", "eve": "e1", "max": "m1"}
+    found = booked(tmp_path / "c", tmp_path, students=students)
+    assert {name: row["same_seed_as"] for name, row in found.items()} == {
+        "ada": "bob",
+        "bob": "ada",
+        "eve": "max",
+        "max": "",
+    }
+    (tmp_path / "students.txt").write_text("ada\nbob\n\n")
+    assert list(students_in(tmp_path / "students.txt")) == ["ada", "bob"]
+
+
+def test_a_notebook_is_the_program_in_it(tmp_path: Path) -> None:
+    """Its code cells; what is no notebook is refused by name."""
+    file = tmp_path / "own.ipynb"
+    file.write_text(as_notebook(RIGHT))
+    assert read(file, "own.ipynb").exercise.number == 1
+    for text in ("{}", "[]", "no", '{"cells": [1]}'):
+        file.write_text(text)
+        with pytest.raises(InputError, match=r"own\.ipynb"):
+            read(file, "own.ipynb")
+
+
+@pytest.mark.parametrize("platform", list(PLATFORMS))
+def test_platforms_get_their_columns(platform: str, a_class: Path, tmp_path: Path) -> None:
+    """Who has which mark is in each; no column holds the change that would mend a program."""
+    rows = list(booked(a_class, tmp_path).values())
+    read_back = list(csv.DictReader(StringIO(table(rows, platform, "Euler"), newline="")))
+    name = {"moodle": "Full name", "canvas": "Student", "brightspace": "Username"}[platform]
+    mark = {"moodle": "Grade", "canvas": "Euler", "brightspace": "Euler Points Grade"}[platform]
+    assert {row[name]: row[mark] for row in read_back} == {row["student"]: row["mark"] for row in rows}
+
+
+def test_students_get_their_findings_back_and_not_the_change(a_class: Path, tmp_path: Path) -> None:
+    """A text and a page each; names that are paths stay in the folder."""
+    rows = list(booked(a_class, tmp_path).values())
+    rows = [{**row, "change": "THE CHANGE", "student": "../" + row["student"]} for row in rows]
+    files = write_feedback(rows, tmp_path / "back")
+    assert len(files) == 2 * len(rows)
+    assert {file.parent.parent for file in files} == {tmp_path / "back"}
+    told = {file.parent.name: file.read_text(encoding="utf-8") for file in files if file.suffix == ".txt"}
+    assert not [text for text in told.values() if "THE CHANGE" in text]
+    eve = next(row for row in rows if row["student"].endswith("eve"))
+    assert any(eve["words"] in text for text in told.values())
+
+
+def test_what_cannot_be_opened_is_refused(tmp_path: Path) -> None:
+    """Nothing there, nothing in it, no zip."""
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "bad.zip").write_bytes(b"no zip")
+    for name in ("nowhere", "empty", "bad.zip"):
+        with pytest.raises(InputError, match=name):
+            collect(tmp_path / name, tmp_path / "u")
+
+
+@pytest.mark.parametrize("module", [collected, notebook], ids=lambda m: m.__name__.split(".")[-1])
+def test_the_worked_examples_are_true(module: Any) -> None:
+    """What the docstrings show is what comes out."""
+    assert doctest.testmod(module).failed == 0
