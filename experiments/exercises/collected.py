@@ -45,7 +45,7 @@ def student_of(name: str) -> str:
 
     >>> [student_of(n) for n in ("Ada Lovelace_12_assignsubmission_file_/euler.py", "lovelaceada_1_2_euler-1.py")]
     ['Ada Lovelace', 'lovelaceada']
-    >>> [student_of(n) for n in ("12-34 - Bob Noyce - Nov 3, 2026 1100 AM/euler.py", "eve/work/euler.py", "max.py")]
+    >>> [student_of(n) for n in ("12-34 - Bob Noyce - Nov 3, 2026 1100 AM/euler.py", "eve/mine/euler.py", "max.py")]
     ['Bob Noyce', 'eve', 'max']
     """
     top = PurePosixPath(name).parts[0]

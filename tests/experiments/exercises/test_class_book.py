@@ -60,7 +60,7 @@ def a_class(tmp_path: Path) -> Path:
     os.utime(folder / "Ada Lovelace_1_assignsubmission_file_/euler.py", (old, old))
     os.utime(folder / "Ada Lovelace_1_assignsubmission_file_/euler_new.py", (new, new))
     with zipfile.ZipFile(folder / "eve.zip", "w") as archive:
-        archive.writestr(zipfile.ZipInfo("work/euler.py", (2026, 11, 2, 0, 0, 0)), WRONG)
+        archive.writestr(zipfile.ZipInfo("mine/euler.py", (2026, 11, 2, 0, 0, 0)), WRONG)
         archive.writestr("../../out.py", WRONG)
     return folder
 
