@@ -6,7 +6,6 @@ adding one touches nothing else. Adapters import NumPy only at module level, the
 
 from __future__ import annotations
 
-import importlib
 import pkgutil
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -20,7 +19,7 @@ from engines.process.available import how_to_install
 from engines.process.available import installed_version as installed_version
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
-from reference.registry import Registry
+from reference.registry import Registry, imported, plug_ins
 from reference.state import Array
 from reference.system import BREAK, MassSpringSystem, Value
 
@@ -237,14 +236,14 @@ def modules() -> list[str]:
 
 @cache
 def registry() -> Mapping[str, Engine]:
-    """All engines by name. Imports the adapters (cheap) but none of the engines.
+    """All engines by name, those of installed packages last. Imports the adapters (cheap) but none of the engines.
 
     Raises:
         InputError: where two engines have one name.
     """
     known = Registry[Engine]("engine")
-    for file in modules():
-        for engine in getattr(importlib.import_module(file), "ENGINES", ()):
+    for file in (*modules(), *plug_ins("engines")):
+        for engine in getattr(imported(file), "ENGINES", ()):
             known.enter(engine.name, engine, file)
     return known.all()
 

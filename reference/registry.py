@@ -5,7 +5,9 @@ from __future__ import annotations
 import importlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from types import MappingProxyType
+from functools import cache
+from importlib.metadata import entry_points
+from types import MappingProxyType, ModuleType
 from typing import Generic, TypeVar
 
 from reference.errors import InputError, unknown_name
@@ -51,7 +53,7 @@ class Registry(Generic[T]):
         """Everything there is, by name."""
         files = list(self._files() if callable(self._files) else self._files)
         for file in files:
-            importlib.import_module(file)
+            imported(file)
         place = {file: i for i, file in enumerate(files)}
         # By file, whichever was imported first: sorting is stable, and keeps the order within each.
         entries = sorted(self._entries.items(), key=lambda item: place.get(item[1][0], len(files)))
@@ -64,6 +66,11 @@ class Registry(Generic[T]):
             raise unknown_name(self.kind, name, known)
         return known[name]
 
+    def module_of(self, name: str) -> str:
+        """The module that a thing stands in. Raises InputError, with a suggestion, where there is none."""
+        self.find(name)
+        return self._entries[name][0]
+
     @contextmanager
     def as_it_is(self) -> Iterator[None]:
         """Within this, things may be entered on trial: afterwards all is as it was before."""
@@ -73,3 +80,35 @@ class Registry(Generic[T]):
             yield
         finally:
             self._entries = before
+
+
+#: What installed packages add, by what it is: entry points name the modules that enter it.
+GROUPS = {"schemes": "springlab.schemes", "scenes": "springlab.scenes", "engines": "springlab.engines"}
+
+
+@cache
+def plug_ins(kind: str) -> tuple[str, ...]:
+    """The modules that installed packages name in the entry points of GROUPS, in the order of their names.
+
+    [project.entry-points."springlab.schemes"]
+    my_methods = "my_package.methods"
+    """
+    return tuple(dict.fromkeys(point.module for point in sorted(entry_points(group=GROUPS[kind]), key=str)))
+
+
+def imported(module: str) -> ModuleType:
+    """A module that enters things. Raises InputError where a plug-in's cannot be imported, with the reason."""
+    try:
+        return importlib.import_module(module)
+    except InputError:
+        raise
+    except Exception as error:
+        if module.partition(".")[0] in ("reference", "engines"):
+            raise
+        raise InputError(f"plug-in {module}: it cannot be imported: {type(error).__name__}: {error}") from error
+
+
+def origin(module: str) -> str:
+    """Where something comes from: the package of a plug-in, empty for the lab's own."""
+    package = module.partition(".")[0]
+    return "" if package in ("reference", "engines", "experiments") else package

@@ -19,7 +19,7 @@ from reference.checked_numbers import check_sizes
 from reference.collisions import Collisions
 from reference.errors import InputError, unknown_name
 from reference.nonlinear import KINDS, with_kinds
-from reference.registry import Registry
+from reference.registry import Registry, origin, plug_ins
 from reference.scenes.parameters import PerItem, chosen, converted
 from reference.system import ABOVE_ZERO, MassSpringSystem
 
@@ -184,7 +184,7 @@ class Setup:
 #: Where the scenes stand, in the order they are shown.
 _SCENES = Registry[Scene](
     "scene",
-    (
+    lambda: (
         "reference.scenes.strings",
         "reference.scenes.line",
         "reference.scenes.barrier",
@@ -193,6 +193,7 @@ _SCENES = Registry[Scene](
         "reference.scenes.drape",
         "reference.scenes.trusses",
         "reference.scenes.driven",
+        *plug_ins("scenes"),
     ),
 )
 
@@ -206,6 +207,11 @@ def scene(dt: float, duration: float, slides: str) -> Callable[[Callable[..., Ma
         return build
 
     return enter
+
+
+def comes_from(name: str) -> str:
+    """The installed package that adds a scene; empty for the lab's own. Raises InputError for an unknown name."""
+    return origin(_SCENES.module_of(name))
 
 
 def scenes() -> Mapping[str, Scene]:

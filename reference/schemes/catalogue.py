@@ -18,7 +18,7 @@ from typing import Any, Literal, TypeVar, cast, get_type_hints
 import reference.schemes
 from reference.errors import InputError, Unsupported, unknown_name
 from reference.motion import EveryMotion, Motion, MotionByMass, MotionOfRods, MotionOfSprings
-from reference.registry import Registry
+from reference.registry import Registry, origin, plug_ins
 from reference.state import State
 
 #: How a scheme stands to the theory: right; used by an engine; of those, a solver of constraints with parameters;
@@ -168,9 +168,9 @@ FIRST = ("reference.schemes.textbook", "reference.schemes.implicit_damping", "re
 
 
 def _files() -> list[str]:
-    """Every file of this folder."""
+    """Every file of this folder, and those of installed packages."""
     found = [f"{reference.schemes.__name__}.{file.name}" for file in pkgutil.iter_modules(reference.schemes.__path__)]
-    return [*FIRST, *(file for file in found if file not in FIRST)]
+    return [*FIRST, *(file for file in found if file not in FIRST), *plug_ins("schemes")]
 
 
 _SCHEMES = Registry[Scheme]("scheme", _files)
@@ -216,6 +216,11 @@ def wide_schemes() -> Mapping[str, Scheme]:
 def constraint_schemes() -> Mapping[str, Scheme]:
     """Solvers of constraints: what they do depends on their parameters, so they are tried where they are named."""
     return {name: scheme for name, scheme in _SCHEMES.all().items() if scheme.kind == "constraint_scheme"}
+
+
+def comes_from(name: str) -> str:
+    """The installed package that adds a scheme; empty for the lab's own. Raises InputError for an unknown name."""
+    return origin(_SCHEMES.module_of(name))
 
 
 def aliases() -> Mapping[str, Scheme]:
