@@ -91,8 +91,9 @@ def _findings(maps: Sequence[StabilityMap]) -> list[str]:
         part = agreement(found)
         if part is not None:
             sentences.append(
-                f"{found.stepper}, dt and {found.y.name}: of {found.growth.size} runs, {part:.1%} of those that surely "
-                f"grow or surely do not lie where they should beside {found.predicted_by}'s predicted limit."
+                f"{found.stepper}, dt and {found.y.name}: {found.growth.size} runs were measured. Where it is clear "
+                f"whether one grows, {part:.1%} are on the side of {found.predicted_by}'s predicted limit where they "
+                "should be."
             )
     return sentences or ["No map could be made."]
 

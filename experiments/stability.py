@@ -69,8 +69,8 @@ def _findings(rows: Sequence[Row]) -> list[str]:
     worst = max(compared, key=lambda row: abs(row.relative_difference or 0.0))
     apart = abs(worst.relative_difference or 0.0)
     sentences = [
-        f"{len(compared)} limits were predicted and measured: they differ by {apart:.1e} of themselves at most (the "
-        f"widest apart is {worst.stepper})."
+        f"{len(compared)} limits were predicted and measured: they differ by {100 * apart:.1g} % at most (the widest "
+        f"apart is {worst.stepper})."
     ]
     never = sorted({row.stepper for row in rows if row.predicted.growth is not None})
     if never:
