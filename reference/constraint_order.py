@@ -5,7 +5,8 @@ Those of ORDERS are
     made        as they are numbered
     reversed    the last made first
     colours     springs that share no moving mass are of one colour; colour after colour, each in the order made
-    fixed_last  the same of springs between moving masses; then those to fixed ones, as they are numbered
+    apart       the same, of springs that share no mass at all
+    fixed_last  colours of springs between moving masses; then those to fixed ones, as they are numbered
     island      as Box2D 2 walks from body to body: the newest first, along the newest joints first
 """
 
@@ -14,9 +15,9 @@ from __future__ import annotations
 import numpy as np
 
 from reference.errors import unknown_name
-from reference.system import IntArray, MassSpringSystem
+from reference.system import BoolArray, IntArray, MassSpringSystem
 
-ORDERS = ("made", "reversed", "colours", "fixed_last", "island")
+ORDERS = ("made", "reversed", "colours", "apart", "fixed_last", "island")
 
 
 def in_order(system: MassSpringSystem, order: str) -> IntArray:
@@ -33,19 +34,20 @@ def in_order(system: MassSpringSystem, order: str) -> IntArray:
         return np.array(_island(system), dtype=np.int64)
     if order == "reversed":
         made = made[::-1]
-    if order in ("colours", "fixed_last"):
+    if order in ("colours", "apart", "fixed_last"):
+        held = np.zeros_like(system.fixed) if order == "apart" else system.fixed
         last = system.fixed[system.springs[made]].any(axis=1) & (order == "fixed_last")
         first = made[~last]
-        made = np.concatenate([first[np.argsort(_colours(system, first), kind="stable")], made[last]])
+        made = np.concatenate([first[np.argsort(_colours(system, first, held), kind="stable")], made[last]])
     return np.ascontiguousarray(made, dtype=np.int64)
 
 
-def _colours(system: MassSpringSystem, made: IntArray) -> IntArray:
-    """Greedy: each spring has the first colour that no spring before it has on one of its moving masses."""
+def _colours(system: MassSpringSystem, made: IntArray, held: BoolArray) -> IntArray:
+    """Greedy: each spring has the first colour that no spring before it has on one of its masses that are not held."""
     taken: list[set[int]] = [set() for _ in system.masses]
     colours = []
     for j in made.tolist():
-        ends = [i for i in system.springs[j].tolist() if not system.fixed[i]]
+        ends = [i for i in system.springs[j].tolist() if not held[i]]
         used = set().union(*(taken[i] for i in ends))
         colour = next(c for c in range(len(used) + 1) if c not in used)
         colours.append(colour)

@@ -97,6 +97,7 @@ class NewtonSimulation:
             builder.color()
         self._model = builder.finalize(device="cpu")
         self._model.particle_max_velocity = FASTEST
+        self._model.particle_max_radius = 0.0  # nothing collides, not even masses that are at one place
         options = {} if engine.iterations is None else {"iterations": engine.iterations}
         self._solver = getattr(newton.solvers, engine.solver)(self._model, **options)
         self._now, self._then = self._model.state(), self._model.state()

@@ -35,5 +35,6 @@ APART: Mapping[str, Package] = {
     "box2d-python": Package("0.1.2", "box2d", python="3.13"),
     "rapier3d": Package("0.36.1", "rapier3d"),
     "drake": Package("1.51.1", "pydrake"),
+    "pyPBD": Package("2.2.2", "pypbd"),
     "newton": Package("1.8.0", "newton", beside=("warp-lang==1.19.0",), start_up=180.0),
 }

@@ -1,0 +1,1 @@
+"""PositionBasedDynamics, by its Python module pyPBD: particles joined by XPBD distance constraints."""

@@ -1,0 +1,148 @@
+"""The page of findings on engines of games, `docs/players-springs.md`: made of runs, by `python -m report.players`.
+
+Every number in it is predicted from the matrix of a step, or measured in a run of the engine, or of the scheme that it
+is identified as, to the bit or to rounding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from engines.translation.translation import Spring, Stepping, translations
+from experiments.translation.rows import fitting, forward
+from reference.outcome import Outcome
+from reference.scenes import find
+from reference.stepper import stepper_named
+
+PAGE = Path(__file__).parent / "docs" / "players-springs.md"
+
+#: The spring: 1 kg that swings 4 times a second, with no damping at all; at the steps of a game and of a robot [s].
+SPRING, STEPS = Spring(1.0, 0.0, 1.0).with_oscillation(4.0, 0.0), (1 / 60, 1 / 240)
+
+#: Sub-steps of XPBD in a step of a millisecond; how long the string swings [s].
+SUBSTEPS, SWUNG = (1, 5, 20), 0.5
+
+#: Steps of a small cloth [s], and for how long it is watched [s].
+CLOTH_STEPS, WATCHED = (0.003, 0.0049, 0.006), 1.5
+CLOTH_SCHEMES = (
+    "kick_drift",
+    "xpbd_jacobi",
+    "xpbd_jacobi(iterations=10)",
+    "soft_constraints_relaxed",
+    "backward_euler",
+)
+
+
+def damping_table(measure: bool = True) -> list[list[str]]:
+    """Of each engine and step: frequency [Hz] and damping ratio, predicted and measured."""
+    rows = []
+    for dt in STEPS:
+        for translation in translations().values():
+            (row,) = forward(SPRING, fitting(translation, Stepping(dt)), [translation], measure)
+            rows.append([f"`{row.engine}`", f"1/{round(1 / dt)}", *_told(row.effective), *_told(row.measured)])
+    return rows
+
+
+def _told(found: tuple[float, float] | None) -> list[str]:
+    """A spring's frequency and damping ratio, in words."""
+    if found is None:
+        return ["-", "-"]
+    stiffness, damping = found
+    omega = np.sqrt(stiffness / SPRING.effective_mass)
+    return [f"{omega / (2 * np.pi):.3f}", f"{abs(damping) / (2 * SPRING.effective_mass * omega):.4f}"]
+
+
+def substep_table() -> list[list[str]]:
+    """How far XPBD's string is from the true motion at the end [m], by sub-steps and precision."""
+    system = find("string").system({})
+    true = stepper_named("rk4").run(system, 1e-4, round(SWUNG / 1e-4)).trajectory
+    assert true is not None
+    rows = []
+    for substeps in SUBSTEPS:
+        cells = [str(substeps)]
+        for single in (True, False):
+            name = f"xpbd_gauss_seidel(substeps={substeps}, single={single})"
+            run = stepper_named(name).run(system, 1e-3, round(SWUNG / 1e-3)).trajectory
+            assert run is not None
+            cells.append(f"{np.linalg.norm(run.positions[-1] - true.positions[-1], axis=1).max():.2g}")
+        rows.append(cells)
+    return rows
+
+
+def cloth_table() -> list[list[str]]:
+    """Which schemes hold a small cloth, pinned at an edge, at a step: "holds" or when it tears."""
+    system = find("cloth").system({"rows": 4, "columns": 5, "pinned": "edge"})
+    rows = []
+    for name in CLOTH_SCHEMES:
+        ends = [stepper_named(name).run(system, dt, round(WATCHED / dt)) for dt in CLOTH_STEPS]
+        rows.append([f"`{name}`", *map(_ending, ends)])
+    return rows
+
+
+def _ending(outcome: Outcome) -> str:
+    return "holds" if outcome.ending == "done" else "tears"
+
+
+def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A table."""
+    lines = [columns, ["---"] * len(columns), *rows]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines) + "\n"
+
+
+def page(measure: bool = True) -> str:
+    """The whole of it."""
+    damping = markdown(
+        ["engine", "dt [s]", "Hz, predicted", "damping ratio", "Hz, measured", "damping ratio"], damping_table(measure)
+    )
+    by_substeps, by_scheme = substep_table(), cloth_table()
+    return f"""# What a million players' springs do
+
+Written by `python -m report.players` from runs; nothing here is typed by hand. Versions are those that
+`springlab versions PACKAGE --install` makes, and those of the lab.
+
+## How much each engine damps by itself
+
+1 kg on a spring of {SPRING.stiffness:.1f} N/m: 4 Hz, and no damping is asked for. `springlab translate --stiffness
+{SPRING.stiffness:.6g} --mass 1 --dt 0.0166667` has what to type. What is not run here is predicted only.
+
+{damping}
+## Sub-steps and precision
+
+The lecture's string after {SWUNG} s, by XPBD of one sweep in each sub-step, as Jolt's soft bodies do it: off the true
+motion. In single precision velocities, (x - x0)/h, are as coarse as the last digit of a position over h.
+{of_substeps(by_substeps)}
+
+{markdown(["sub-steps of 1 ms", "off, single precision [m]", "off, double [m]"], by_substeps)}
+## A small cloth
+
+A cloth of 4 x 5 masses, pinned at an edge, watched for {WATCHED} s, by schemes. `xpbd_jacobi` is Newton's SolverXPBD to
+the last bit; it sums the corrections of all springs at a mass. {of_cloth(by_scheme)}
+
+{markdown(["scheme", *(f"dt = {1000 * dt:g} ms" for dt in CLOTH_STEPS)], by_scheme)}"""
+
+
+def of_substeps(rows: Sequence[Sequence[str]]) -> str:
+    """What more sub-steps did, in a sentence."""
+    single, double = ([float(row[column]) for row in rows] for column in (1, 2))
+    words = ["nearer to" if off[-1] < off[0] else "farther from" for off in (single, double)]
+    return (
+        f"With {SUBSTEPS[-1]} sub-steps in place of {SUBSTEPS[0]} it comes out {words[0]} the true motion in single "
+        f"precision, and {words[1]} it in double."
+    )
+
+
+def of_cloth(rows: Sequence[Sequence[str]]) -> str:
+    """Which schemes outlive which, in a sentence."""
+    longest = {row[0]: sum(cell == "holds" for cell in row[1:]) for row in rows}
+    explicit = longest["`kick_drift`"]
+    torn = [name for name, held in longest.items() if held < explicit]
+    if not torn:
+        return "None of them tears where the explicit step holds."
+    return f"The explicit step holds longer steps than {', '.join(torn)}."
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), encoding="utf-8")
