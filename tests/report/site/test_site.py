@@ -12,7 +12,7 @@ from urllib.parse import unquote, urlsplit
 import pytest
 
 from report.site.__main__ import build
-from tests.report.browser import Shown, chromium
+from tests.report.chromium import Shown, chromium
 from tests.report.html import Page
 
 ROOT = Path(__file__).parents[3]
