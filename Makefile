@@ -32,7 +32,8 @@ docs: $(READY)  ## Write the documentation as a site, results/docs/index.html
 
 soak: $(READY)  ## What `make test` does in small, in full: thousands of runs and kills, all kept versions of the engines
 	$(BIN)/python -m pytest tests/soak tests/reference/files/test_fuzzed_files.py tests/report/live tests/experiments/exercises \
-		--full -s -p no:xdist
+		tests/test_recipes.py tests/reference/scenes/test_drape.py --full -s -p no:xdist
+	$(BIN)/python -m pytest -m rotating --full -p no:xdist
 	$(BIN)/python -m tests.fuzz --count $(or $(COUNT),3000) --seed $(or $(SEED),0)
 	$(BIN)/springlab versions --check
 
