@@ -87,6 +87,10 @@ class PymunkSimulation:
         from pymunk import batch
 
         self._engine, self._system, self._dt = engine, system, dt
+        if system.nonlinear is not None and not hasattr(pymunk.DampedSpring, "force_func"):
+            raise Unsupported(
+                "this Pymunk asks nobody for the force of a spring: springs that are not linear need a newer one"
+            )
         self._by_law = system.nonlinear is not None  # and also once all springs that were not linear are broken
         self._space = pymunk.Space()
         self._space.iterations = engine.rounds

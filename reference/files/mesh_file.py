@@ -1,7 +1,8 @@
 """Mesh files: vertices become masses, and the edges of elements become springs, each once.
 
-Read by meshio: OBJ, with its lines too; VTK's unstructured grids, older format (.vtk) and newer (.vtu); Gmsh (.msh);
-MEDIT (.mesh); PLY. Of lines, triangles, quadrilaterals, polygons, tetrahedra, pyramids, wedges and hexahedra.
+Read by meshio: OBJ, with its lines too; VTK's unstructured grids, older format (.vtk) and newer (.vtu), and polydata of
+the older one (`vtk_polydata`); Gmsh (.msh); MEDIT (.mesh); PLY. Of lines, triangles, quadrilaterals, polygons,
+tetrahedra, pyramids, wedges and hexahedra.
 """
 
 from __future__ import annotations
@@ -59,10 +60,21 @@ class Mesh:
     Attributes:
         positions: of the vertices in the file's order and its own unit of length, shape (n, 3).
         edges: the two vertices of each, from 0, shape (s, 2): each edge once, in the order of the elements.
+        origins: how many of the edges are of which kind of element; what two have in common is the first one's.
+        passed_over: how many elements join nothing.
     """
 
     positions: Array
     edges: IntArray
+    origins: Mapping[str, int]
+    passed_over: int = 0
+
+    @property
+    def told(self) -> str:
+        """That in words."""
+        parts = ", ".join(f"{count:,} of {kind}" for kind, count in self.origins.items() if count)
+        points = f"; {self.passed_over:,} single points passed over" if self.passed_over else ""
+        return f"{len(self.positions):,} masses, {len(self.edges):,} springs: {parts}{points}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,19 +91,22 @@ class _Block:
         return [(i, (i + 1) % c) for i in range(c)] if self.kind == "polygon" else EDGES[self.kind]
 
 
-def read_mesh(path: Path) -> Mesh:
+def read_mesh(path: Path, diagonals: bool = False) -> Mesh:
     """The mesh in a file.
+
+    Args:
+        diagonals: whether quadrilaterals have both of theirs, too.
 
     Raises:
         InputError: naming the file, the vertex or element (counted from 1) and what was expected.
     """
     try:
-        return _mesh(path)
+        return _mesh(path, diagonals)
     except InputError as error:
         raise InputError(f"mesh file {path}: {error}") from None
 
 
-def _mesh(path: Path) -> Mesh:
+def _mesh(path: Path, diagonals: bool) -> Mesh:
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"expected a name that ends in {' or '.join(FORMATS)}")
     first_vertex = FORMATS[path.suffix.lower()]
@@ -99,11 +114,12 @@ def _mesh(path: Path) -> Mesh:
     positions, blocks = _positions(found.points, first_vertex), _blocks(found.cells)
     for block in blocks:
         _check(block, positions, first_vertex)
-    edges = _edges(blocks)
+    edges, origins = _edges(blocks, diagonals)
     unused = np.setdiff1d(np.arange(len(positions)), edges)
     if len(unused):
         raise InputError(f"vertex {unused[0] + first_vertex} is in no element: expected every vertex to be in one")
-    return Mesh(positions, edges)
+    passed_over = sum(len(block.data) for block in found.cells if block.type in PASSED_OVER)
+    return Mesh(positions, edges, origins, passed_over)
 
 
 def _read(path: Path) -> Any:
@@ -171,14 +187,19 @@ def _read_other(path: Path) -> Any:
 
 
 def _read_vtk(path: Path) -> Any:
-    """Only with elements: a grid without them can be larger, by a few numbers, than any memory."""
+    """Polydata, or a grid with elements: one without can be larger, by a few numbers, than any memory."""
     import meshio
+
+    from reference.files.vtk_polydata import read_polydata
 
     content = path.read_bytes()
     for kind in re.findall(rb"^\s*DATASET\s+(\S*)", content, re.IGNORECASE | re.MULTILINE):
+        if kind.upper() == b"POLYDATA":
+            return read_polydata(content)
         if kind.upper() != b"UNSTRUCTURED_GRID":
             other = kind.decode(errors="replace")
-            raise InputError(f"DATASET {other!r}: expected UNSTRUCTURED_GRID; ParaView can save it as such, or as .vtu")
+            wanted = "UNSTRUCTURED_GRID or POLYDATA"
+            raise InputError(f"DATASET {other!r}: expected {wanted}; ParaView can save it as such, or as .vtu")
     check_vtk_counts(content)
     return meshio.vtk.read(path)
 
@@ -279,8 +300,15 @@ def _check_extent(block: _Block, positions: Array, first_vertex: int) -> None:
         )
 
 
-def _edges(blocks: list[_Block]) -> IntArray:
-    pairs = np.concatenate([block.corners[:, block.edges].reshape(-1, 2).astype(np.int64) for block in blocks])
+def _edges(blocks: list[_Block], diagonals: bool) -> tuple[IntArray, dict[str, int]]:
+    """Each edge once, and how many there are by kind of element."""
+    parts = [(block.kind, block.corners[:, block.edges]) for block in blocks]
+    if diagonals:
+        parts += [("quad diagonals", b.corners[:, [(0, 2), (1, 3)]]) for b in blocks if b.kind == "quad"]
+    pairs = np.concatenate([corners.reshape(-1, 2).astype(np.int64) for _, corners in parts])
+    kinds = np.repeat([kind for kind, _ in parts], [corners.shape[0] * corners.shape[1] for _, corners in parts])
     pairs.sort(axis=1)
     _, first = np.unique(pairs, axis=0, return_index=True)
-    return pairs[np.sort(first)]
+    first.sort()
+    names = list(dict.fromkeys(kind for kind, _ in parts))
+    return pairs[first], {name: int((kinds[first] == name).sum()) for name in names}

@@ -36,6 +36,7 @@ the start.
     [mesh]
     file = "blanket.obj"        # beside the scene file, or a path from there
     scale = 0.01                # m in a unit of the mesh file; 1 where left out
+    diagonals = true            # quadrilaterals have springs along both diagonals, too; false where left out
     total_mass = 0.3            # kg, shared evenly; or masses = ..., kg, one number or one for each
     stiffness = 50.0            # N/m, of every spring
     damping = 0.02              # N s/m, of every spring, along it; 0 where left out
@@ -126,7 +127,7 @@ class SystemTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
     velocities: Vectors | None = None
     fixed: list[int] = []
 
-    def system(self, folder: Path | None = None) -> MassSpringSystem:
+    def system(self, folder: Path | None = None, remarks: list[str] | None = None) -> MassSpringSystem:
         """The system it describes, all of it here. Raises InputError as MassSpringSystem does."""
         n = len(self.positions)
         for place, i in enumerate(self.fixed):
@@ -155,20 +156,26 @@ class MeshTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
     masses: Numbers | None = None
     total_mass: float | None = None
     scale: float = 1.0
+    diagonals: bool = False
     damping: float = 0.0
     drag: float = 0.0
     gravity: Numbers = 9.81
     fixed: list[int] = []
 
-    def system(self, folder: Path) -> MassSpringSystem:
-        """The system it describes, its file looked for from a folder. Raises InputError, as `read_mesh` too."""
+    def system(self, folder: Path, remarks: list[str]) -> MassSpringSystem:
+        """The system it describes, its file looked for from a folder. Raises InputError, as `read_mesh` too.
+
+        Args:
+            remarks: how many springs come of which elements is added to these.
+        """
         for name in ("scale", "total_mass"):
             value = getattr(self, name)
             if value is not None and not 0 < value < np.inf:
                 raise InputError(f"mesh.{name} = {value:g}: expected a number > 0 [{'m' if name == 'scale' else 'kg'}]")
         if (self.masses is None) == (self.total_mass is None):
             raise InputError("mesh: expected either masses or total_mass")
-        mesh = read_mesh(folder / self.file)
+        mesh = read_mesh(folder / self.file, self.diagonals)
+        remarks.append(f"mesh file {self.file}: {mesh.told}")
         names = ("stiffness", "damping", "drag", "gravity", "fixed", *BESIDES)
         shared: dict[str, Any] = {name: getattr(self, name) for name in names}
         with np.errstate(over="ignore"):
@@ -286,19 +293,20 @@ def load(path: Path, settings: Mapping[str, Any], dt: float | None = None, durat
 def _setup(
     path: Path, content: SceneFile, settings: Mapping[str, Any], dt: float | None, duration: float | None
 ) -> Setup:
-    driven = _driven(path, content, settings)
+    remarks: list[str] = []
+    driven = _driven(path, content, settings, remarks)
     scene = find(content.scene) if content.scene is not None else None
     own_dt, own_duration = (scene.dt, scene.duration) if scene else (1e-3, 0.5)
     dt = next(value for value in (dt, content.dt, own_dt) if value is not None)
     duration = next(value for value in (duration, content.duration, own_duration) if value is not None)
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
     _refuse_both(changes, driven.drives)
-    setup = Setup(path.stem, driven.system, dt, duration, (*driven.changes(dt, duration), *changes))
+    setup = Setup(path.stem, driven.system, dt, duration, (*driven.changes(dt, duration), *changes), tuple(remarks))
     setup.check()
     return setup
 
 
-def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driven:
+def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any], remarks: list[str]) -> Driven:
     """The system, its obstacles, and what drives it."""
     if [content.scene, content.system, content.mesh].count(None) != 2:
         raise InputError('expected either scene = "..." or a table [system] or a table [mesh]')
@@ -314,7 +322,7 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any]) -> Driv
         if settings or content.parameters:
             name = next(iter([*settings, *content.parameters]))
             raise InputError(f"{name}: expected no parameters, the system is written out")
-        driven = Driven(written_out.system(path.parent))
+        driven = Driven(written_out.system(path.parent, remarks))
     else:
         driven = find(content.scene or "").driven({**content.parameters, **settings})
     system, drives = driven.system, driven.drives

@@ -139,6 +139,7 @@ class Setup:
         dt: the step [s].
         duration: how long [s].
         changes: parameters that change on the fly, those by what drives the system included.
+        remarks: what there is to say of how it was read.
     """
 
     name: str
@@ -146,6 +147,7 @@ class Setup:
     dt: float
     duration: float
     changes: tuple[Change, ...] = ()
+    remarks: tuple[str, ...] = ()
 
     @property
     def steps(self) -> int:

@@ -5,6 +5,7 @@ Words of options are given their meaning here, so that a command gets dictionari
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from functools import wraps
@@ -137,7 +138,10 @@ def setup_options(command: Command) -> Command:
         from reference.files.setup import setup_for
 
         _refuse_stepper(scene)
-        return command(setup=setup_for(scene, dt, duration, settings, changes, (*ramps, *sines)), **others)
+        setup = setup_for(scene, dt, duration, settings, changes, (*ramps, *sines))
+        for remark in setup.remarks:
+            print(f"springlab: {remark}", file=sys.stderr)
+        return command(setup=setup, **others)
 
     decorated: Command = with_setup
     for option in (
