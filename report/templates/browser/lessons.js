@@ -1,6 +1,5 @@
 // Six lessons after the slides: how each is set up, and when its task is done.
 
-const withDt = (name, part) => (lab.limits[name] || {}).limit * part;
 const lessonState = {saidLimit: false, hungAt: null};
 
 const LESSONS = [
@@ -41,3 +40,6 @@ function lessonDone(typed) {
   if (!lesson) return false;
   return lesson.answer ? lesson.answer(Number(String(typed).replace(",", "."))) : lesson.check();
 }
+
+// Whether the page has the scene of a lesson: one made for some scenes only may not.
+const isHere = k => k === 0 || Boolean(LESSONS[k - 1] && sceneNamed(/s=(\w+)/.exec(LESSONS[k - 1].state)[1]));

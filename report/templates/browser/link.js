@@ -1,7 +1,5 @@
 // A link is a state: all that was set, behind the #; and the command, the table and the picture of what is seen.
 
-const LETTERS = {scene: "s", lanes: "w", dt: "dt", at: "at", time: "t"};
-
 function stateText() {
   const words = [["v", 1], ["s", lab.scene.name], ["w", lab.lanes.map(lane => lane.scheme).join(",")], ["dt", String(startDt())]];
   const changes = lab.changes.filter(change => !(change.time === 0 && change.parameter === "dt"));
