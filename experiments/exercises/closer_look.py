@@ -39,10 +39,14 @@ NOT_FOR = ("not_written_yet", "syntax", "missing_module", "missing_function", "r
 
 @dataclass(frozen=True)
 class Effort:
-    """How long is searched, of processor time [s]: single changes, and pairs of them."""
+    """How long is searched, of processor time [s]: single changes, and pairs of them.
+
+    Where the mistake has a name already no pairs are tried, and single changes for this share of the time.
+    """
 
     singles: float = 2.5
     pairs: float = 1.5
+    named: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -105,6 +109,8 @@ def look_closer(
     if verdict.outcome in NOT_SEARCHED or any(f.name in NOT_FOR for f in verdict.findings) or not exercise.searched:
         return CloserLook()
     effort = effort or Effort()
+    if verdict.outcome in ("mistake", "mistakes"):
+        effort = Effort(effort.named * effort.singles, 0.0)
     catalogue = catalogue_of(exercise, seed, None)
     cases = behaviour.cases(catalogue) if verdict.outcome != "error" else []
     groups = _groups(exercise, seed, verdict)

@@ -47,7 +47,7 @@ COLUMNS = (
 
 
 #: How long is searched unless told otherwise; and in a class, where many wait.
-EFFORT, EFFORT_IN_CLASS = Effort(), Effort(0.8, 0.4)
+EFFORT, EFFORT_IN_CLASS = Effort(), Effort(0.7, 0.3, named=0.3)
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,7 @@ def questions(random: np.random.Generator, hidden: bool, seed: str) -> list[Ques
 DEPTHS = np.array([1e-3, 0.04, 0.15, 0.3, 0.45, 0.55, 0.75, 0.9, 0.999, 1.001, 1.1, 1.3, 2.0, 6.0])
 
 #: How fast they come in [m/s]; how fast they slide; less than nothing is the other way.
-COMES_IN, SLIDES = np.array([1.0, -1.0, 1e-4, 20.0, 0.0]), np.array([1.0, -1.0, 20.0, -1e-4, 0.0])
+COMES_IN, SLIDES = np.array([1.0, -1.0, 1e-4, 20.0]), np.array([1.0, -1.0, 20.0, -1e-4])
 
 
 def _of_all_kinds(random: np.random.Generator) -> Question:

@@ -86,11 +86,13 @@ def test_two_slips_are_both_found(trusted: None) -> None:
 
 
 def sampled(full: bool) -> list[tuple[int, str]]:
-    """Mutants of model solutions, one change each: one of a few exercises, or all."""
+    """Mutants of model solutions, one change each: one of a few exercises, or a quarter of all."""
     chosen = []
     for number in (1, 2, 3, 4, 5, 6, 7, 9, 10) if full else (1, 2, 3, 7):
         texts = [text for _, text in mutants(model(number)) if f"EXERCISE = {number}\n" in text]
-        chosen += [(number, text) for text in (texts if full else texts[len(texts) // 2 :: len(texts)])]
+        chosen += [
+            (number, text) for text in (texts[number % 4 :: 4] if full else texts[len(texts) // 2 :: len(texts)])
+        ]
     return chosen
 
 
