@@ -9,6 +9,7 @@ from itertools import groupby
 from engines.crash_cases import crash_cases
 from engines.engine import CAPABILITIES, Engine, absence, installed_version, recorded_settings, registry
 from experiments.engine_versions.baseline import read
+from report.page.derived_formulas import formulas_of
 
 #: The cases that engines are identified in, as people say them.
 CASES = {"plain": "undamped", "damping": "damped springs", "drag": "drag"}
@@ -22,6 +23,7 @@ class EngineCard:
         settings: what was chosen, and the precision, as "name = value".
         schemes: the scheme it claims to step by, by case.
         here: what this report identified it as, and how closely; empty where it did not.
+        derived: the formulas of its step, recovered from the outside, a line each; none where none are known.
         can, lacks: what a system may ask of it, and what not.
         semantics: what its stiffness, damping and drag mean in SI units.
     """
@@ -30,6 +32,7 @@ class EngineCard:
     settings: Sequence[str]
     schemes: Mapping[str, str]
     here: str
+    derived: Sequence[str]
     can: Sequence[str]
     lacks: Sequence[str]
     semantics: str
@@ -78,6 +81,7 @@ def _card(engine: Engine, here: str) -> EngineCard:
         [f"{name} = {_in_words(value)}" for name, value in recorded_settings(engine).items()],
         {words: engine.identified_as[case] for case, words in CASES.items() if case in engine.identified_as},
         here,
+        formulas_of(engine),
         [words for name, words in CAPABILITIES.items() if name in engine.capabilities],
         [words for name, words in CAPABILITIES.items() if name not in engine.capabilities],
         engine.semantics,
