@@ -20,7 +20,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 
 #: The most it may take [bytes]: it is text, but for nothing. And what has no business in it.
-LARGEST, NO_BUSINESS = 1_000_000, ("tests/", "report/docs/", "report/pictures/", "report/sample/", "report/python/")
+LARGEST, NO_BUSINESS = 2_000_000, ("tests/", "report/docs/", "report/pictures/", "report/sample/", "report/python/")
 
 
 @pytest.fixture(scope="module")
