@@ -70,6 +70,12 @@ CAPABILITIES = {
 }
 
 
+#: All that masses on linear springs ask for, and nothing else: for engines to take from, and to leave out of.
+LINEAR_SPRINGS = frozenset(
+    {"1d", "3d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
+    | {"drag", "tilted gravity", "no fixed mass"}
+)
+
 #: In which floating-point numbers an engine keeps positions and velocities.
 Precision = Literal["double", "single"]
 

@@ -13,7 +13,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, LAWS, OBSTACLES, changed, refuse_beyond
+from engines.engine import LINEAR_SPRINGS, changed, refuse_beyond
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -39,7 +39,7 @@ class DrakeSprings:
     name: str
     stepping: Stepping
     package: str = "drake"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(OBSTACLES) - set(LAWS) - {"drag"}
+    capabilities: frozenset[str] = LINEAR_SPRINGS - {"drag"}
 
     @property
     def identified_as(self) -> Mapping[str, str]:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, LAWS, OBSTACLES, Precision, changed, refuse_beyond
+from engines.engine import LINEAR_SPRINGS, Precision, changed, refuse_beyond
 from reference.errors import Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -41,7 +41,7 @@ class NewtonParticles:
     iterations: int | None = None
     package: str = "newton"
     precision: Precision = "single"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(OBSTACLES) - set(LAWS) - {"drag"}
+    capabilities: frozenset[str] = LINEAR_SPRINGS - {"drag"}
 
     @property
     def identified_as(self) -> Mapping[str, str]:
@@ -97,7 +97,8 @@ class NewtonSimulation:
             builder.color()
         self._model = builder.finalize(device="cpu")
         self._model.particle_max_velocity = FASTEST
-        self._model.particle_max_radius = 0.0  # nothing collides, not even masses that are at one place
+        # nothing collides, not even masses that are at one place
+        self._model.particle_grid, self._model.particle_max_radius = None, 0.0
         options = {} if engine.iterations is None else {"iterations": engine.iterations}
         self._solver = getattr(newton.solvers, engine.solver)(self._model, **options)
         self._now, self._then = self._model.state(), self._model.state()

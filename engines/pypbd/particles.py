@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, LAWS, OBSTACLES, changed, refuse_beyond
+from engines.engine import LINEAR_SPRINGS, changed, refuse_beyond
 from reference.errors import Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -31,9 +31,7 @@ class PbdParticles:
     substeps: int = 1
     sweeps: int = SWEEPS
     package: str = "pyPBD"
-    capabilities: frozenset[str] = (
-        frozenset(CAPABILITIES) - {"damping", "dampings", "drag", "tilted gravity"} - set(OBSTACLES) - set(LAWS)
-    )
+    capabilities: frozenset[str] = LINEAR_SPRINGS - {"damping", "dampings", "drag", "tilted gravity"}
 
     @property
     def identified_as(self) -> Mapping[str, str]:

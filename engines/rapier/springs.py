@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, LAWS, OBSTACLES, Precision, changed, refuse_beyond
+from engines.engine import LINEAR_SPRINGS, Precision, changed, refuse_beyond
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -32,7 +32,7 @@ class RapierSprings:
     substeps: int = SUBSTEPS
     package: str = "rapier3d"
     precision: Precision = "single"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(OBSTACLES) - set(LAWS)
+    capabilities: frozenset[str] = LINEAR_SPRINGS
 
     @property
     def identified_as(self) -> Mapping[str, str]:
