@@ -84,3 +84,12 @@ def shifted(system: MassSpringSystem, by: float, length: int = 3) -> Trajectory:
     positions = np.repeat(system.positions[None], length, axis=0)
     positions[1:, -1, 0] += by
     return Trajectory(np.linspace(0.0, DT * (length - 1), length), positions, np.zeros_like(positions))
+
+
+#: Of the wide catalogue, which scheme each is without damping and drag.
+WIDE_SAME_AS = {
+    "kick_drift_drag_afterwards": "kick_drift",
+    "kick_drift_exponential_drag": "kick_drift",
+    "leapfrog_kick_drift_kick": "velocity_verlet",
+    "stormer_verlet": "velocity_verlet",
+}

@@ -78,13 +78,16 @@ def test_the_same_positions_with_other_velocities_are_another_scheme() -> None:
     beeman = run.velocities.copy()
     beeman[1:] = np.diff(run.positions, axis=0) / DT + DT * (2 * a[1:] + a[:-1]) / 6
     beeman[:, system.fixed] = 0.0
-    found = identify(Recorded(Outcome("done", "", replace(run, velocities=beeman))), system, DT, 50)
+    outcome = Outcome("done", "", replace(run, velocities=beeman))
+    assert identify(Recorded(outcome), system, DT, 50).identified_as is None
+    found = identify_run("recorded", outcome, system, {"velocity_verlet": run})
     assert found.identified_as is None
     assert found.ranking[0].scheme == "velocity_verlet"
     assert (found.ranking[0].positions, found.ranking[0].velocities > found.tolerance) == (0.0, True)
     assert "by its velocities times the step; its positions are the same to 0 m" in found.reason
     silent = np.concatenate([beeman[:1], np.full_like(beeman[1:], np.nan)])
-    told_by_positions = identify(Recorded(Outcome("done", "", replace(run, velocities=silent))), system, DT, 50)
+    by_positions = Outcome("done", "", replace(run, velocities=silent))
+    told_by_positions = identify_run("recorded", by_positions, system, {"velocity_verlet": run})
     assert told_by_positions.identified_as == "velocity_verlet"
 
 
