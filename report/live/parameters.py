@@ -72,6 +72,9 @@ def _slider(system: MassSpringSystem, name: str) -> Slider:
         # what would damp a mass on one spring critically, 2 sqrt(k m)
         most = 2 * float(np.sqrt(system.stiffness.max(initial=1.0) * system.masses.max()))
         return Slider(name, unit, value, min(1e-4 * most, value or most), max(most, value), True)
+    if value == 0:  # springs without rest length, or without stiffness
+        most = system.scale if name == "rest_length" else 1e3
+        return Slider(name, unit, value, 1e-4 * most, most, True)
     return Slider(name, unit, value, value / REACH, value * REACH, False)
 
 
