@@ -24,6 +24,8 @@ from engines.pymunk.springs import PymunkSprings
 from experiments.runs import task as task_module
 from experiments.runs.task import Task, digest
 from reference.changes import Change
+from reference.collisions import Collisions
+from reference.nonlinear import NonlinearSprings
 from reference.obstacles import Circle
 from tests.experiments.runs import tasks
 from tests.experiments.runs.tasks import STRING, numbered, stepped
@@ -216,9 +218,12 @@ def test_equal_tasks_have_equal_keys_in_every_process(tmp_path: Path) -> None:
         assert said.out.split() == [asked.key, asked.question], said.err
 
 
+#: What a plain string has none of.
+GIVEN = {"nonlinear": NonlinearSprings(hardening=np.array([1.0])), "collisions": Collisions(np.array([1e-3]))}
+
 CHANGED = {
     **{
-        f"system.{f.name}": {"system": replace(STRING, **{f.name: other(getattr(STRING, f.name))})}
+        f"system.{f.name}": {"system": replace(STRING, **{f.name: GIVEN.get(f.name) or other(getattr(STRING, f.name))})}
         for f in fields(STRING)
     },
     "dt": {"dt": math.nextafter(1e-3, 1)},
