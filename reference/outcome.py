@@ -124,10 +124,11 @@ def _stretch_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: S
 def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change] = ()) -> Array:
     """Of every spring the longer of its rest length and its length at the start [m], shape (s,).
 
-    Infinite of those that may be of any length: they only push, or break.
+    One without rest length is as long as its force lets it be: at least as long as the system is large. Infinite of
+    those that may be of any length: they only push, or break.
     """
     natural = np.maximum(system.rest_lengths, spring_lengths(trajectory.positions[0], system.springs))
-    natural = np.where(natural > 0, natural, system.scale)
+    natural = np.where(system.rest_lengths > 0, natural, np.maximum(natural, system.scale))
     if system.nonlinear is not None:
         natural = np.where(system.nonlinear.may_open, np.inf, natural)
     return np.where(_may_break(system, changes), np.inf, natural)

@@ -118,3 +118,15 @@ def test_a_pendulum_that_turns_too_fast_has_blown_up(times: float, ending: str) 
     velocities[1, 2, 1] = times * np.sqrt(2 * given / STRING.masses[2])
     run = Trajectory(np.array([0.0, 0.1]), np.repeat(STRING.positions[None], 2, axis=0), velocities)
     assert outcome_of(STRING, run).ending == ending
+
+
+@pytest.mark.parametrize(("dt", "blown_up"), [(1e-3, False), (0.011, True)])
+def test_a_spring_without_rest_length_is_measured_by_the_system(dt: float, blown_up: bool) -> None:
+    """A slinky's lowest spring hangs 0.4 mm long, and is stretched by metres once its coils fall through one another.
+
+    The fastest mode has h w = 2 at h = sqrt(m / k) = sqrt((1/50 kg) / (490 N/m)) = 6.4 ms: beyond, the run blows up.
+    """
+    slinky = find_scene("slinky").system({})
+    ended = stepper_named("kick_drift").run(slinky, dt, round(0.5 / dt))
+    assert ended.trajectory is not None
+    assert (blow_up(slinky, ended.trajectory, ratio=20.0) is not None) == blown_up
