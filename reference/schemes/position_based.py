@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from reference.errors import SolverError
 from reference.jit import compiled
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import scheme
@@ -106,9 +107,17 @@ def vertex_block_descent(
     for _ in range(iterations):
         for masses in [every] if jacobi else every[:, None]:
             force, hessian = blocks(it, inertial, lengths, h)
-            it.x[masses] += np.linalg.solve(hessian[masses], force[masses, :, None])[..., 0]
+            it.x[masses] += _solved(hessian[masses], force[masses, :, None])[..., 0]
     it.v[:] = (it.x - start) / h
     return it.state(state.time + dt)
+
+
+def _solved(matrices: Array, sides: Array) -> Array:
+    """Raises SolverError where a block has no inverse, as with numbers beyond all bounds."""
+    try:
+        return np.asarray(np.linalg.solve(matrices, sides))
+    except np.linalg.LinAlgError:
+        raise SolverError("vertex block descent: a block of its matrix is singular at these numbers") from None
 
 
 def slow_down(it: SolverNumbers, h: Array) -> None:

@@ -128,7 +128,10 @@ def radau_iia(motion: MotionOfSprings, state: State, dt: float) -> State:
             for j in range(2):
                 here = dt * RADAU[i, j] * by_velocity + dt**2 * (RADAU @ RADAU)[i, j] * by_position
                 matrix[i * size : (i + 1) * size, j * size : (j + 1) * size] = (i == j) * np.diag(mass) - here
-        change = np.linalg.solve(matrix, np.concatenate([mass * r[free].ravel() for r in left])).reshape(2, -1)
+        try:
+            change = np.linalg.solve(matrix, np.concatenate([mass * r[free].ravel() for r in left])).reshape(2, -1)
+        except np.linalg.LinAlgError:
+            break
         for i in range(2):
             moved = np.zeros(shape)
             moved[free] = change[i].reshape(-1, system.dimension)

@@ -23,7 +23,8 @@ class Hostile:
     limits: Limits = AMPLE
 
 
-_STEP = "\ndef step(y, v, dt, spring):\n    return y, v\n"
+# written, unlike the starter's, and wrong
+_STEP = "\ndef step(y, v, dt, spring):\n    return 1 * y, v\n"
 
 HOSTILE = {
     "infinite_loop": Hostile("while True:\n    pass\n", "timed out", "timed_out", Limits(seconds=1, wall_clock=3600.0)),

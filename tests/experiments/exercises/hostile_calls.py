@@ -9,7 +9,8 @@ from __future__ import annotations
 from experiments.exercises.sandbox import Limits
 from tests.experiments.exercises.hostile import Hostile
 
-_STEP = "\ndef step(y, v, dt, spring):\n    return y, v\n"
+# written, unlike the starter's, and wrong
+_STEP = "\ndef step(y, v, dt, spring):\n    return 1 * y, v\n"
 
 #: By kind: the calls of x86-64 with their arguments, as Python's ctypes takes them.
 CALLS = {
