@@ -8,6 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
+from reference.breaking import breaking, tensions
 from reference.distance_constraints import RopeMotion
 from reference.errors import SolverError
 from reference.forces import SpringMotion
@@ -69,6 +70,7 @@ def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
     else:
         state = equilibrium(system)
     _refuse_overlap(system, state)
+    _refuse_breaking(system, state)
     scale = min(system.shortest, system.size or 1.0)
     return Equilibrium(SpringMotion(tangent_system(system, state)), state, ~system.fixed, scale, contacts)
 
@@ -83,6 +85,15 @@ def _refuse_overlap(system: MassSpringSystem, state: State) -> None:
         raise SolverError(
             f"no equilibrium: masses {i} and {j} would be in one another, and rest on one another instead"
         )
+
+
+def _refuse_breaking(system: MassSpringSystem, state: State) -> None:
+    """Springs must hold at rest: of one that breaks there, there is no such rest."""
+    broken = breaking(system, state).tolist()
+    if broken:
+        j = broken[0]
+        force = float(tensions(system, state.positions, state.velocities)[j])
+        raise SolverError(f"no equilibrium: spring {j} would carry {force:.4g} N at rest, and breaks there")
 
 
 def equilibrium_on_obstacles(system: MassSpringSystem) -> tuple[Equilibrium, str]:

@@ -69,6 +69,11 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    """The public names alone."""
+    return sorted(__all__)
+
+
 def _version() -> str:
     from importlib import metadata
 

@@ -84,6 +84,7 @@ def scene(
     """
     from reference.files.setup import setup_for
 
+    _refuse_no_number(dt=dt, duration=duration)
     fixed, drives = _changing(changes)
     if isinstance(name, str | Path):
         return Scene(setup_for(str(name), dt, duration, parameters, fixed, drives))
@@ -99,6 +100,15 @@ def scene(
     setup = replace(setup, changes=(*setup.changes, *fixed))
     setup.check()
     return Scene(setup)
+
+
+def _refuse_no_number(**times: Any) -> None:
+    """Times are numbers; whether they make sense is looked at where the setup is."""
+    from numbers import Real
+
+    for name, value in times.items():
+        if value is not None and not isinstance(value, Real):
+            raise InputError(f"{name} = {value!r}: expected a number > 0 [s]")
 
 
 def system(positions: Any, springs: Any, *, masses: Any, stiffness: Any, **others: Any) -> MassSpringSystem:

@@ -35,7 +35,11 @@ def stepper_of(given: Any, time_limit: float | None = None) -> Stepper:
     if time_limit is not None and not (isfinite(time_limit) and time_limit > 0):
         raise InputError(f"time_limit = {time_limit:g}: expected a finite number > 0 [s]")
     if not isinstance(given, str | Path):
-        raise InputError(f"stepper {given!r}: expected a name of schemes() or engines(), or a file")
+        what = getattr(given, "__name__", type(given).__name__)
+        raise InputError(
+            f"stepper {what}: expected a name of schemes() or engines(), or a file; "
+            'a function of your own goes into a file, given as "my_step.py"'
+        )
     known = set(remarks)
     (found,) = find_steppers([str(given)])
     for remark in [remark for remark in remarks if remark not in known]:
@@ -49,4 +53,7 @@ def stepper_of(given: Any, time_limit: float | None = None) -> Stepper:
 def steppers_of(given: Sequence[Any], time_limit: float | None = None) -> list[Stepper]:
     """All of them, each once; lists among them are read, too. Raises InputError as `stepper_of` does."""
     flat = [each for item in given for each in (item if isinstance(item, list | tuple) else [item])]
+    for each in flat:
+        if not isinstance(each, str | Path):
+            stepper_of(each)  # says what was expected
     return [stepper_of(each, time_limit) for each in dict.fromkeys(flat)]

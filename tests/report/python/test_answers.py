@@ -225,3 +225,36 @@ def test_a_page_is_written_and_says_what_was_found(tmp_path: Path) -> None:
     assert page.path == tmp_path / "page" / "index.html"
     assert page.findings[0] in page.path.read_text(encoding="utf-8").replace("&#39;", "'")
     assert str(page.path) in page._repr_html_()
+
+
+@pytest.mark.parametrize("name", ["dt", "duration"])
+def test_a_time_that_is_no_number_is_named(name: str) -> None:
+    """With its value."""
+    with pytest.raises(lab.InputError, match=f"{name} = 'a'"):
+        lab.simulate("string", "euler", **{name: "a"})
+
+
+def test_a_function_or_an_object_as_a_stepper_is_refused_in_one_short_line() -> None:
+    """By its name, and with the way out: a file. What has no hash is refused as well."""
+    for given in (test_a_page_is_written_and_says_what_was_found, {"a": 1}):
+        for call in (lambda it: lab.identify(it), lambda it: lab.simulate("string", it)):
+            with pytest.raises(lab.InputError, match=r"my_step\.py") as told:
+                call(given)
+            assert len(str(told.value)) < 250
+
+
+def test_only_public_names_are_listed() -> None:
+    """What `dir` lists is what the package offers."""
+    assert dir(lab) == sorted(lab.__all__)
+
+
+@pytest.mark.parametrize(("force", "holds"), [(0.5, False), (1.5, True)])
+def test_a_spring_that_would_break_at_rest_has_no_rest(force: float, holds: bool) -> None:
+    """It carries m g = 0.1 kg 9.81 m/s^2 = 0.981 N there."""
+    one: dict[str, Any] = {"masses": 0.1, "stiffness": 40.0, "fixed": [0], "gravity": 9.81, "breaking_force": force}
+    hung = lab.system([[0.0, 0.0], [0.0, -0.5]], [[0, 1]], **one)
+    if holds:
+        assert lab.modes(hung).equilibrium[1, 1] == pytest.approx(-0.5 - 0.981 / 40.0)
+        return
+    with pytest.raises(lab.SolverError, match=r"spring 0 would carry 0\.981 N"):
+        lab.modes(hung)
