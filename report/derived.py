@@ -31,7 +31,8 @@ def matrix_lines(explanation: Explanation) -> list[str]:
     letters = "a = h^2 k/m, g = h (c + Cd)/m" if by_sum else letters
     seen = [word for word, there in (("damping", matrix.damped), ("drag", matrix.dragged)) if not there]
     without = f"; without {' and '.join(seen)}" if seen else ""
-    return [*lines, f"with {letters}{without}"]
+    only = f"; at h = {matrix.only_at:g} s only: h stands in it by itself" if matrix.only_at is not None else ""
+    return [*lines, f"with {letters}{without}{only}"]
 
 
 def _times(entry: str, of: str) -> str:
@@ -55,6 +56,8 @@ def tableau_lines(explanation: Explanation) -> list[str]:
 
 def name_line(explanation: Explanation) -> str:
     """What it is: its name, or that it has none, and what it is then."""
+    from reference.schemes import catalogue
+
     found = explanation.identification
     if found.identified_as == explanation.stepper:
         ties = f"; on the string it was run on it cannot be told from {', '.join(found.ties)}" if found.ties else ""
@@ -62,8 +65,10 @@ def name_line(explanation: Explanation) -> str:
     if found.identified_as is not None:
         return f"{found}. {found.remark}".rstrip(". ")
     if not found.ranking:
-        return f"{explanation.stepper} cannot be told: {explanation.reason}"
+        return f"{explanation.stepper} cannot be told: {found.reason}"
     words = f"{explanation.stepper} is not in the catalogue"
+    if explanation.stepper in {**catalogue.schemes(), **catalogue.wide_schemes()}:
+        words = f"{explanation.stepper} is in the catalogue by this name, but its motion was not identified"
     if explanation.tableau is not None:
         kind = "an explicit" if explanation.tableau.explicit else "an implicit"
         words += f": {kind} Runge-Kutta method of {explanation.tableau.stages} stages and order {explanation.order}"
@@ -96,18 +101,20 @@ def _order(explanation: Explanation) -> Iterator[str]:
     elif explanation.order is not None:
         follows = explanation.follows
         known = []
+        matrix = explanation.matrix
+        left_out = ", as drag is not in it" if matrix and matrix.dragged and not matrix.asks("d") else ""
         if follows is not None and explanation.of_one_step:
-            known.append(f"{follows.undamped_order} on the oscillator, {follows.order} with damping and drag")
+            known.append(f"{follows.undamped_order} on the oscillator, {follows.order} with damping and drag{left_out}")
         if explanation.nonlinear_order is not None:
             known.append(f"{explanation.nonlinear_order} measured on a spring that turns, without damping")
         yield f"Order {explanation.order} without damping: {'; '.join(known)}"
 
 
 def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:
-    yield f"Stable up to h w = {limits(follows.imaginary_axis)} without damping"
+    yield stability("h w", follows.imaginary_axis, "damping")
     if follows.real_axis is not None:
         letter = "c" if explanation.matrix is not None and explanation.matrix.damped else "Cd"
-        yield f"Stable up to h {letter}/m = {limits(follows.real_axis)} without stiffness"
+        yield stability(f"h {letter}/m", follows.real_axis, "stiffness")
     symplectic = "symplectic" if explanation.symplectic else "not symplectic"
     reversible = "reversible" if follows.reversible else "not reversible"
     yield f"{symplectic.capitalize()}, and {reversible}, without damping"
@@ -115,6 +122,17 @@ def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]
         yield f"Implicit in {' and '.join(follows.implicit)}"
     for s, period, amplitude in follows.periods:
         yield f"At h w = {s:g}: period x {period:.5f}, amplitude x {amplitude:.4g} in a period"
+
+
+def stability(of: str, windows: Windows, without: str) -> str:
+    """Up to which step it is stable, in a sentence."""
+    from reference.derivation.consequences import FAR
+
+    if windows[0][1] >= FAR:
+        return f"Stable without {without} at any dt"
+    if windows == ((0.0, 0.0),):
+        return f"Unstable without {without} at any dt"
+    return f"Stable up to {of} = {limits(windows)} without {without}"
 
 
 def limits(windows: Windows) -> str:
@@ -136,7 +154,20 @@ def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
         ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
         ("Derived: the Butcher tableau", tableau_lines(explanation)),
         ("What follows", [f"- {line}." for line in property_lines(explanation)]),
-        ("What cannot be told, and why", [f"- {reason}." for reason in explanation.reasons]),
+        ("What cannot be told, and why", [f"- {reason}." for reason in _beside_the_name(explanation)]),
         ("What it should not do", [f"- {remark}." for remark in explanation.remarks]),
     ]
     return [(title, lines) for title, lines in found if lines]
+
+
+def _beside_the_name(explanation: Explanation) -> list[str]:
+    """The reasons that the line with the name does not have; each failure once, under its first heading."""
+    found = explanation.identification
+    said = set() if found.ranking or found.identified_as else {found.reason}
+    left: list[str] = []
+    for reason in explanation.reasons:
+        what = reason.partition(": ")[2] or reason
+        if not {reason, what} & said:
+            left.append(reason)
+        said |= {reason, what}
+    return left

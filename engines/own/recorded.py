@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -27,12 +28,18 @@ def recording_of(make: Callable[[], OwnStep]) -> Recording | None:
     if step.form not in ("slope", "acceleration", "system"):
         return None
     timed = step.form == "slope" and "time" in step.roles
+    made: list[OwnStep] = []
+
+    def advance() -> Advance:
+        made.append(make())
+        return _advance(made[-1])
+
     try:
-        found = record(lambda: _advance(make()), timed)
+        found = record(advance, timed)
     except (Fault, TooManyCalls):
         return None
     asked = found.solved is not None or any(s.points for row in found.unit for s in row)
-    return found if asked else None
+    return replace(found, timed=timed and any(step.tells_time for step in made)) if asked else None
 
 
 def _advance(step: OwnStep) -> Advance:

@@ -170,6 +170,8 @@ def own_stepper(word: str) -> OwnStepper:
     except UnicodeDecodeError:
         raise InputError(f"stepper {word!r}: expected a text file in UTF-8") from None
     if file.suffix == ".c":
+        if function not in ("", python_file.DEFAULT):
+            raise InputError(f"stepper {word!r}: expected {path} or {path}:step, as a C file has its step by that name")
         return OwnStepper(OwnFile(str(file.resolve()), source, "step", c_file.ROLES))
     name, roles = python_file.step_in(file.name, source, function or None)
     return OwnStepper(OwnFile(str(file.resolve()), source, name, roles))
@@ -220,6 +222,8 @@ def look_at(engine: OwnFile | OwnFunction) -> tuple[str, ...]:
     remarks = []
     if first.changes_input:
         remarks.append("changes the arrays it is given: it was given copies")
+    if not all(np.isfinite(part).all() for part in one):
+        return (*(f"{engine.name} {remark}" for remark in remarks), f"{engine.name} returns NaN or infinity")
     if not all(map(np.array_equal, one, same)):
         remarks.append("is random: the same step twice is not the same")
     elif not all(map(np.array_equal, two, fresh)):

@@ -27,6 +27,7 @@ class OwnStep:
 
     Attributes:
         changes_input: whether it has written into what it was given.
+        tells_time: whether it has told f a time.
     """
 
     def __init__(self, name: str, function: Function, roles: Sequence[str], system: MassSpringSystem) -> None:
@@ -42,7 +43,7 @@ class OwnStep:
             self.given = exercise_spring(system)
         else:
             self.given = OwnSystem(system)
-        self.changes_input = False
+        self.changes_input = self.tells_time = False
 
     def __call__(self, x: Array, v: Array, time: float, dt: float) -> tuple[Array, Array]:
         """Positions and velocities after dt [s], each (n, d). Raises Fault for what it does that a step may not."""
@@ -80,7 +81,7 @@ class OwnStep:
 
         given = y.copy()
         end = self.called(slope=asked, state=given, time=time, dt=dt)
-        self.changes_input |= not np.array_equal(given, y)
+        self.changes_input |= not np.array_equal(given, y, equal_nan=True)
         return self._array(end, "y", y.shape)
 
     def _told_apart(self, arguments: Sequence[Any], shape: tuple[int, ...], time: float) -> tuple[float, Array]:
@@ -89,6 +90,7 @@ class OwnStep:
         times = [float(a) for a in arguments if np.shape(a) == ()]
         if len(arrays) != 1 or len(times) > 1 or len(arguments) != len(arrays) + len(times):
             raise TypeError(f"f is called with {len(arguments)} arguments: expected y of shape {shape}, and t")
+        self.tells_time |= bool(times)
         return (times[0] if times else time), arrays[0].copy()
 
     def _by_arrays(self, x: Array, v: Array, time: float, dt: float) -> tuple[Array, Array]:
@@ -107,7 +109,7 @@ class OwnStep:
 
         given = x.copy(), v.copy()
         end = self.called(positions=given[0], velocities=given[1], time=time, dt=dt, acceleration=asked, system=system)
-        self.changes_input |= not (np.array_equal(given[0], x) and np.array_equal(given[1], v))
+        self.changes_input |= not all(np.array_equal(*pair, equal_nan=True) for pair in zip(given, (x, v), strict=True))
         return self._pair(end, x.shape)
 
     def _of_exercise(self, x: Array, v: Array, time: float, dt: float) -> tuple[Array, Array]:

@@ -6,26 +6,49 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from reference.derivation.consequences import FAR, Consequences, Windows, consequences
 from reference.derivation.implicit import implicit_tableau, tableau_by_points
-from reference.derivation.near import nearest_known
+from reference.derivation.near import SAME_TABLEAU, nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order
 from reference.derivation.of_schemes import updates_of_scheme
-from reference.derivation.oscillators import ASIDE, Run, oscillator, runs_of
+from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_of
 from reference.derivation.oscillators import DT as OSCILLATOR_DT
 from reference.derivation.pasts import Pasts, pasts
-from reference.derivation.recording import Recording
+from reference.derivation.recording import LENGTHS, Recording
 from reference.derivation.step_matrix import StepMatrix, step_matrix
 from reference.derivation.tableau import Tableau, tableau_of
 from reference.derivation.updates import Updates, updates_of
 from reference.errors import Unsupported
 from reference.identification import Identification, identify
 from reference.identification.scale import precision_of
+from reference.outcome import Outcome
 from reference.scenes import find as find_scene
 from reference.stepper import SchemeStepper, Stepper
 
 #: What it is identified on: a string of few masses, so many steps of dt [s], with damping and drag where it can.
 MASSES, DT, STEPS, DAMPING, DRAG = 4, 2e-3, 60, 2.0, 0.1
+
+#: Nothing, beside a metre.
+SMALL = 1e-6
+
+#: What is said of a step that brings what is at rest elsewhere, its position and velocity exchanged.
+SWAPPED = "no step matrix: velocity stands where position is: are they returned in the other order?"
+
+#: Of one whose matrix is another at another h.
+ONLY_AT = f"h stands in its step matrix by itself, beside a, b and d: it is this at h = {OSCILLATOR_DT:g} s only"
+
+#: Of one that returns nothing finer.
+IN_SINGLE = "it computes in single precision: rounding is about 6e-08 of its numbers, which hides finer things"
+
+#: Of one whose tableau and motion are at odds.
+CONTRADICTION = (
+    "a contradiction: its tableau, read off at dt = "
+    + " and ".join(f"{h:g}" for h in LENGTHS)
+    + f" s, is a known method's, but on a string at dt = {DT:g} s it does not move so: its rule changes with dt, "
+    "or from call to call"
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,6 +80,11 @@ class Explanation:
     nearest: str = ""
     reasons: tuple[str, ...] = ()
     remarks: tuple[str, ...] = ()
+
+    @property
+    def failed(self) -> bool:
+        """Whether nothing could be told, as no run came to an end."""
+        return not self.identification.ranking and self.matrix is None and self.tableau is None
 
     @property
     def explicit(self) -> bool | None:
@@ -139,20 +167,33 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     """
     reasons: list[str] = []
     runs, precision = runs_of(stepper), precision_of(stepper)
-    (first,) = runs([Run(oscillator(0.5, 0.0, 0.0, ASIDE), OSCILLATOR_DT)])
+    if precision == "double" and _rounds_to_single(runs):
+        precision = "single"
+        reasons.append(IN_SINGLE)
+    begun = (ASIDE, 0.0)
+    first, rest = runs([Run(oscillator(0.5, 0.0, 0.0, x), OSCILLATOR_DT) for x in begun])
     if first.ending in ("crashed", "timed out"):
         nothing = Identification(stepper.name, (), 0.0, first.reason)
         return Explanation(stepper.name, nothing, reasons=(first.reason,))
     tell("its step matrix")
     matrix = _tried(lambda: step_matrix(runs, precision), reasons, "no step matrix: ")
     damped, dragged = (matrix.damped, matrix.dragged) if matrix else (False, False)
+    swapped = _swapped(rest)
+    if swapped:
+        reasons.append(SWAPPED)
+        matrix = None
+    if matrix is not None and matrix.only_at is not None:
+        reasons.append(f"{ONLY_AT}: no limits of stability follow")
     tell("its past")
     past = _tried(lambda: pasts(runs, precision, damped, dragged), reasons, "whether it looks back: ")
     if past is not None and not past.deterministic:
         nothing = Identification(stepper.name, (), 0.0, "it is random")
         return Explanation(stepper.name, nothing, past, reasons=("it is random: the same step twice is not the same",))
     tell("its slopes")
-    updates, tableau, remarks = _asked(stepper, reasons)
+    of_slopes: list[str] = []
+    updates, tableau, remarks = _asked(stepper, of_slopes)
+    # rounding, not the formulas, is why these are not found
+    reasons += of_slopes if IN_SINGLE not in reasons else []
     tell("its order")
     seen = None if precision == "single" else nonlinear_order(runs, False, False)
     tell("its name")
@@ -160,10 +201,12 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     nearest = ""
     if identification.identified_as is None:
         reasons.append(f"not identified: {identification.reason}")
-        nearest = nearest_known(tableau, updates, matrix)
+        nearest = nearest_known(tableau, updates, None if past is not None and past.one_step is False else matrix)
+        if nearest.startswith(SAME_TABLEAU):
+            reasons.append(CONTRADICTION)
     if past is not None and past.one_step is False:
         reasons.append("it remembers earlier steps: its step matrix is that of a first step")
-    follows = consequences(matrix) if matrix else None
+    follows = consequences(matrix) if matrix and matrix.only_at is None else None
     return Explanation(
         stepper.name,
         identification,
@@ -177,6 +220,24 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         tuple(reasons),
         remarks,
     )
+
+
+def _rounds_to_single(runs: Runs) -> bool:
+    """Whether numbers that a step comes to, of a system whose own are not round, are all of single precision."""
+    (outcome,) = runs([Run(oscillator(0.31, 0.0, 0.0, 0.0371, 0.7123), OSCILLATOR_DT)])
+    run = outcome.trajectory
+    if run is None or len(run) < 2:
+        return False
+    ends = np.array([run.positions[-1][1, 0], run.velocities[-1][1, 0]])
+    return bool(ends.all() and np.array_equal(ends, ends.astype(np.float32)))
+
+
+def _swapped(rest: Outcome) -> bool:
+    """Whether a step from rest at -1 m comes to 0 m, at -1 m/s."""
+    run = rest.trajectory
+    if run is None or len(run) < 2:
+        return False
+    return bool(abs(run.positions[-1][1, 0]) < SMALL and abs(run.velocities[-1][1, 0] + 1) < SMALL)
 
 
 def _identified(stepper: Stepper, damped: bool, dragged: bool) -> Identification:
@@ -214,7 +275,7 @@ def _asked(stepper: Stepper, reasons: list[str]) -> tuple[Updates | None, Tablea
     if solved is not None:
         found = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes)
         if found is None:
-            reasons.append("no tableau: it iterates, and what it comes to is no Runge-Kutta method of few stages")
+            reasons.append("no tableau: it iterates, and its stages were not found among the points that it asks at")
         return None, found, remarks
     updates = _tried(lambda: updates_of(recording), reasons, "no update formulas: ")
     tableau = tableau_of(updates, recording.timed) if updates else None

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
@@ -44,8 +44,10 @@ def tableau_by_points(
         start: y0, all unknowns in a row; end: y1.
         points: all P that it asked at, in order; slopes: f there.
     """
-    kept = [i for i in _distinct(points) if not _differenced(points, i)][-LAST:]
-    for stages in range(1, MOST_STAGES + 1):
+    distinct = _distinct(points)
+    # iterates that have all but converged look like a Jacobian's differences: where the others fail, these are tried
+    ways = [i for i in distinct if not _differenced(points, i)][-LAST:], distinct[-LAST:]
+    for stages, kept in product(range(1, MOST_STAGES + 1), ways):
         for chosen in reversed(list(combinations(kept, stages))):
             matrix = h * np.stack([slopes[i] for i in chosen], axis=1)
             rows = [_coefficients(matrix, target - start) for target in (end, *(points[i] for i in chosen))]

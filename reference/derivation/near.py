@@ -24,6 +24,9 @@ from reference.stepper import SchemeStepper
 #: So many numbers may differ; with more the nearest is not near.
 MOST = 4
 
+#: How what is said of one with a known tableau begins.
+SAME_TABLEAU = "its tableau is that of "
+
 #: Entries of step matrices that are as near as this are the same.
 SAME = 1e-9
 
@@ -44,7 +47,7 @@ def _by_tableau(tableau: Tableau) -> str:
         return ""
     scheme, differences = found
     if not differences:
-        return f"its tableau is that of {scheme}"
+        return f"{SAME_TABLEAU}{scheme}"
     return ", ".join(f"{which} is {number(mine)} where {scheme} has {number(its)}" for which, mine, its in differences)
 
 
@@ -97,7 +100,7 @@ def _by_matrix(matrix: StepMatrix) -> str:
     if found[name][0] and found[name][1] > MOST // 2:
         return ""
     if not any(found[name]):
-        return f"its step matrix is that of {name}: they differ in motion that is not linear"
+        return f"its step matrix is that of {name}: they differ in motion that is not linear, or by rounding"
     mine, its = matrix.text(), step_matrix(runs_of(SchemeStepper(catalogue.find(name)))).text()
     places = [(i, j) for i, j in product(range(2), range(2)) if mine[i][j] != its[i][j]]
     return ", ".join(f"m{i + 1}{j + 1} is {mine[i][j]} where {name} has {its[i][j]}" for i, j in places)

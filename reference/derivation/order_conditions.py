@@ -43,7 +43,8 @@ def order_of(a: Sequence[Sequence[Number]], b: Sequence[Number]) -> tuple[int, s
             found: Number = sum((w * u for w, u in zip(b, weights, strict=True)), start=Fraction(0))
             if abs(float(found) * gamma(tree) - 1) > SAME:
                 name = WRITTEN.get(tree, "a sum")
-                return order - 1, f"of order {order}, {name} is {number(found)}, not 1/{gamma(tree)}"
+                expected = number(Fraction(1, gamma(tree)))
+                return order - 1, f"of order {order}, {name} is {number(found)}, not {expected}"
     return HIGHEST, ""
 
 

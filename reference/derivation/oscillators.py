@@ -82,20 +82,20 @@ def oscillator(a: float, b: float, d: float, x: float = 0.0, v: float = 0.0, dt:
     )
 
 
-def one_by_one(runs: Runs, at: Samples) -> Array:
+def one_by_one(runs: Runs, at: Samples, dt: float = DT) -> Array:
     """Step matrices, shape (n, 2, 2), every oscillator in a system of its own.
 
     Raises:
         Unsupported: where the stepper cannot step one, with its reason.
     """
     cases = list(zip(at.a.tolist(), at.b.tolist(), at.d.tolist(), strict=True))
-    systems = [oscillator(*case, x, v) for case in cases for x, v in ((ASIDE, 0.0), (0.0, ASIDE / DT))]
-    ends = [_end(outcome) for outcome in runs([Run(system, DT) for system in systems])]
-    moved = np.array([[-1.0 - x[1, 0], -DT * v[1, 0]] for x, v in ends]) / ASIDE
+    systems = [oscillator(*case, x, v, dt) for case in cases for x, v in ((ASIDE, 0.0), (0.0, ASIDE / dt))]
+    ends = [_end(outcome) for outcome in runs([Run(system, dt) for system in systems])]
+    moved = np.array([[-1.0 - x[1, 0], -dt * v[1, 0]] for x, v in ends]) / ASIDE
     return moved.reshape(len(cases), 2, 2).swapaxes(1, 2)
 
 
-def side_by_side(runs: Runs, at: Samples) -> Array:
+def side_by_side(runs: Runs, at: Samples, dt: float = DT) -> Array:
     """The same, all oscillators in one system: drag is one number there, and masses differ instead.
 
     Raises:
@@ -109,19 +109,19 @@ def side_by_side(runs: Runs, at: Samples) -> Array:
         springs=np.arange(2 * n).reshape(n, 2),
         masses=np.repeat(mass, 2),
         rest_lengths=np.array(1.0),
-        stiffness=at.a * mass / DT**2,
-        damping=at.b * mass / DT,
-        drag=1 / DT if dragged else 0.0,
+        stiffness=at.a * mass / dt**2,
+        damping=at.b * mass / dt,
+        drag=1 / dt if dragged else 0.0,
         gravity=np.zeros(1),
         fixed=np.arange(2 * n) % 2 == 0,
     )
     aside = np.where(system.fixed, 0.0, -ASIDE)[:, None]
     begun = [
         replace(system, positions=system.positions + aside),
-        replace(system, velocities=aside / DT),
+        replace(system, velocities=aside / dt),
     ]
-    ends = [_end(outcome) for outcome in runs([Run(s, DT) for s in begun])]
-    columns = [np.stack([-1.0 - x[1::2, 0], -DT * v[1::2, 0]], axis=1) / ASIDE for x, v in ends]
+    ends = [_end(outcome) for outcome in runs([Run(s, dt) for s in begun])]
+    columns = [np.stack([-1.0 - x[1::2, 0], -dt * v[1::2, 0]], axis=1) / ASIDE for x, v in ends]
     return np.stack(columns, axis=2)
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
 
 from reference.derivation.fit import Samples, formula_of
 from reference.derivation.formula import Formula
-from reference.derivation.oscillators import FEW, MANY, ROUNDINGS, Runs, one_by_one, samples, side_by_side
+from reference.derivation.oscillators import DT, FEW, MANY, ROUNDINGS, Runs, one_by_one, samples, side_by_side
 from reference.errors import Unsupported
 from reference.identification.scale import ROUNDING, Precision
 from reference.state import Array
@@ -31,6 +32,7 @@ class StepMatrix:
         dragged: whether it was seen with drag.
         samples: where it was measured.
         measured: what was, shape (n, 2, 2).
+        only_at: the h [s] it is seen at, where it is another at another h and the same a, b and d; else None.
     """
 
     entries: tuple[Formula, Formula, Formula, Formula]
@@ -38,6 +40,7 @@ class StepMatrix:
     dragged: bool
     samples: Samples
     measured: Array
+    only_at: float | None = None
 
     @property
     def exact(self) -> bool:
@@ -86,9 +89,22 @@ def step_matrix(runs: Runs, precision: Precision = "double") -> StepMatrix:
         m11, m12, m21, m22 = entries
         if m11 is not None and m12 is not None and m21 is not None and m22 is not None:
             found = StepMatrix((m11, m12, m21, m22), damped, dragged, at, measured)
+            if np.abs(measured - np.eye(2)).max() <= noise:
+                raise Unsupported("a step changes nothing: the state stays as it is")
             if not found.asks("a"):
                 raise Unsupported("a step does not depend on the springs' stiffness: springs are rods to it")
-            return found
+            return replace(found, only_at=DT) if _asks_for_h(runs, found, measure, 100 * noise) else found
         lost = ", ".join(f"m{i}{j}" for (i, j), e in zip(product((1, 2), (1, 2)), entries, strict=True) if e is None)
         reason = f"no small rational function of a, b and d gives {lost} of its step matrix"
     raise Unsupported(reason)
+
+
+def _asks_for_h(runs: Runs, found: StepMatrix, measure: Callable[..., Array], noise: float) -> bool:
+    """Whether at half the step, with a, b and d as they were, the matrix is another."""
+    at = found.samples
+    few = Samples(at.a[:FEW], at.b[:FEW], at.d[:FEW])
+    try:
+        again = measure(runs, few, DT / 2)
+    except Unsupported:
+        return False
+    return bool(np.abs(again - found.at(few.a, few.b, few.d)).max() > noise)

@@ -21,6 +21,9 @@ ROUNDING = 1e-14
 #: How far a number may be off the fraction that it is taken for.
 OFF = 4e-15
 
+#: What is said of those that do not.
+NOT_LINEAR = "its result is not linear in the slopes it asks for: something is clipped, smoothed, rounded or remembered"
+
 #: Dense steps agree with the formulas to this part of their size.
 AGREEMENT = 1e-10
 
@@ -179,7 +182,7 @@ def _check(found: Updates, recording: Recording) -> None:
                 for s, c in form.items():
                     expected = expected + float(c.number) * step.h**c.power * _vector(row, last, s, found.reused)
                 if np.abs(expected - value).max() > AGREEMENT * max(1.0, float(np.abs(value).max())):
-                    raise Unsupported("it is not linear in the slopes it asks for: something is clipped or smoothed")
+                    raise Unsupported(NOT_LINEAR)
 
 
 def _vector(row: Sequence[Step], last: int, s: Symbol, reused: bool) -> Array:

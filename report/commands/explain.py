@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -46,6 +47,8 @@ def explain_command(stepper: str, as_json: bool, plot: Path | None) -> None:
         _show(explanation)
     if plot is not None:
         say(f"written: {plot}")
+    if explanation.failed:
+        sys.exit(1)
 
 
 def _show(explanation: Explanation) -> None:
