@@ -66,6 +66,8 @@ class Spring:
 
     def with_oscillation(self, hertz: float, damping_ratio: float) -> Spring:
         """The spring on the same masses that has this frequency [Hz] and damping ratio."""
+        if hertz < 0:
+            raise InputError(f"hertz = {hertz:g}: expected a number >= 0 [1/s]")
         omega = 2 * pi * hertz
         mass = self.effective_mass
         return replace(self, stiffness=mass * omega**2, damping=2 * damping_ratio * mass * omega)

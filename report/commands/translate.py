@@ -123,6 +123,8 @@ def _typed(translation: Translation, words: Sequence[str]) -> tuple[Translation,
             values = []
         if not values:
             raise InputError(f"{word!r}: expected SETTING=NUMBER, or numbers as in solref=0.02,1")
+        if name == "solref" and len(values) != 2:
+            raise InputError(f"{word!r}: expected two numbers, as in solref=0.02,1")
         parts = {name: values[0]} if len(values) == 1 else {f"{name}_{i}": value for i, value in enumerate(values)}
         typed |= parts
     for other in translations().values():
