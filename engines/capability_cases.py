@@ -60,6 +60,7 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
         "tilted gravity": replace(plain, gravity=np.array([3.0, -9.0])),
         "no fixed mass": replace(triangles, fixed=np.zeros(4, dtype=bool)),
         "no rest length": replace(plain, rest_lengths=np.array(0.0), stiffness=np.array(20.0)),
+        "pulls": replace(plain, pulls=0.1 * thrown),
         "collisions": replace(plain, collisions=Collisions(np.array(0.03))),
         "restitution": replace(plain, collisions=Collisions(np.array(0.03), 0.5)),
         **{name: replace(plain, velocities=thrown, nonlinear=law) for name, law in LAWS.items()},

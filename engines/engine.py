@@ -19,6 +19,7 @@ from engines.process.available import how_to_install
 from engines.process.available import installed_version as installed_version
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
+from reference.pulls import is_pull
 from reference.registry import Registry, imported, plug_ins
 from reference.state import Array
 from reference.system import BREAK, MassSpringSystem, Value
@@ -64,6 +65,7 @@ CAPABILITIES = {
     "tilted gravity": "gravity along any axis but the vertical",
     "no fixed mass": "a system with no fixed mass",
     "no rest length": "springs of rest length 0",
+    "pulls": "forces that pull on masses",
     **LAWS,
     **COLLISIONS,
     **OBSTACLES,
@@ -154,6 +156,11 @@ ASKED_BY: Mapping[str, tuple[str, ...]] = {
 }
 
 
+def asked_by(parameter: str) -> tuple[str, ...]:
+    """The capabilities that a change of a parameter may ask for."""
+    return ("pulls",) if is_pull(parameter) else ASKED_BY[parameter]
+
+
 def demands(system: MassSpringSystem) -> list[str]:
     """The capabilities a system asks for."""
     return [name for name in CAPABILITIES if _needed(name, system)]
@@ -182,6 +189,7 @@ _NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
     "tilted gravity": lambda system: system.gravity[: system.vertical_axis].any() or system.gravity[2:].any(),
     "no fixed mass": lambda system: not system.fixed.any(),
     "no rest length": lambda system: not system.rest_lengths.all(),
+    "pulls": lambda system: system.pulls.any(),
     "collisions": lambda system: system.collisions,
     "restitution": lambda system: system.collisions and system.collisions.restitution > 0,
     "tension_only": lambda system: system.nonlinear and system.nonlinear.tension_only.any(),
@@ -206,7 +214,7 @@ def changed(engine: Engine, system: MassSpringSystem, parameter: str, value: Val
         Unsupported: where it then asks for what it did not ask for before, and the engine cannot.
     """
     other = system.with_parameter(parameter, value)
-    for demand in ASKED_BY[parameter]:
+    for demand in asked_by(parameter):
         asked = parameter == BREAK or (_needed(demand, other) and not _needed(demand, system))
         if demand not in engine.capabilities and asked:
             raise Unsupported(f"{engine.name} cannot do {CAPABILITIES[demand]}, asked for by a change of {parameter}")

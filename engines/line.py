@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from engines.engine import Engine, Simulation, refuse_beyond
-from reference.line import on_line, system_in_plane, value_in_plane
+from reference.line import on_line, parameter_in_plane, system_in_plane, value_in_plane
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -43,4 +43,4 @@ class SimulationOnLine:
 
     def change(self, parameter: str, value: Value) -> None:
         """Set a parameter on the fly, as on the line."""
-        self._simulation.change(parameter, value_in_plane(parameter, value))
+        self._simulation.change(parameter_in_plane(parameter), value_in_plane(parameter, value))

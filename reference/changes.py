@@ -28,7 +28,8 @@ class Change:
 
     Attributes:
         time: when [s]; it takes effect at the start of the first step that begins then or later.
-        parameter: one of PARAMETERS; or `hold` or `release`, of masses; or `break`, of springs.
+        parameter: one of PARAMETERS; or a pull, `pull.MASS.AXIS`; or `hold` or `release`, of masses; or `break`, of
+            springs.
         value: the new value, one number for all, or one for each mass, spring or axis (kept as a tuple); of masses that
             are held where they are, or let go from rest, and of springs that break, their numbers.
     """

@@ -10,7 +10,10 @@ from reference.system import MassSpringSystem
 
 
 def energy(system: MassSpringSystem, state: State) -> float:
-    """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + that of the law of a spring - sum m g.x."""
+    """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + that of the law of a spring - sum m g.x.
+
+    A pull F on a mass counts as its weight does: -F.x, among the gravitational.
+    """
     return energy_parts(system, state)["total"]
 
 
@@ -20,7 +23,7 @@ def energy_parts(system: MassSpringSystem, state: State) -> dict[str, float]:
     stretch = np.linalg.norm(state.positions[b] - state.positions[a], axis=1) - system.rest_lengths
     kinetic = 0.5 * system.masses @ (state.velocities**2).sum(axis=1)
     elastic = energy_of_springs(system, stretch).sum()
-    weight = system.masses @ (state.positions @ system.gravity)
+    weight = system.masses @ (state.positions @ system.gravity) + (system.pulls * state.positions).sum()
     return {
         "kinetic": float(kinetic),
         "elastic": float(elastic),
@@ -36,7 +39,8 @@ def energies(system: MassSpringSystem, trajectory: Trajectory) -> Array:
     stretch = np.linalg.norm(x[:, b] - x[:, a], axis=2) - system.rest_lengths
     kinetic = 0.5 * (trajectory.velocities**2).sum(axis=2) @ system.masses
     elastic = energy_of_springs(system, stretch).sum(axis=1)
-    return np.asarray(kinetic + elastic - (x @ system.gravity) @ system.masses)
+    weight = (x @ system.gravity) @ system.masses + (x * system.pulls).sum(axis=(1, 2))
+    return np.asarray(kinetic + elastic - weight)
 
 
 def momentum(system: MassSpringSystem, state: State) -> Array:

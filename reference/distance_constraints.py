@@ -64,6 +64,8 @@ class RopeMotion:
             )
         if not system.rest_lengths.all():
             raise InputError("no rope: expected rest lengths > 0, a rod of none is no rod")
+        if system.pulls.any():
+            raise InputError("no rope: expected no force that pulls on a mass, its rods know none")
         if system.nonlinear is not None:
             raise InputError(f"no rope: rods have no {', '.join(system.nonlinear.asked)}")
         if system.obstacles:

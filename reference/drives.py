@@ -13,8 +13,9 @@ import numpy as np
 
 from reference.changes import Change, whole_steps
 from reference.errors import InputError, unknown_name
+from reference.pulls import is_pull
 from reference.state import Array
-from reference.system import FIELDS, PARAMETERS, MassSpringSystem
+from reference.system import PARAMETERS, MassSpringSystem
 
 
 @dataclass(frozen=True)
@@ -22,7 +23,7 @@ class Ramp:
     """A parameter goes from the value that the system has to another one: a Drive.
 
     Attributes:
-        parameter: one of PARAMETERS.
+        parameter: one of PARAMETERS, or a pull (`pull.3.y`).
         begin, end: when [s].
         value: what it is from then on, one number for all.
     """
@@ -41,7 +42,7 @@ class Ramp:
 
     def changes(self, system: MassSpringSystem, dt: float, duration: float) -> list[Change]:
         """One at every step between begin and end, and the last value after it."""
-        target = _own(system.with_parameter(self.parameter, self.value), self.parameter)
+        target = system.with_parameter(self.parameter, self.value).numbers_of(self.parameter)
 
         def value(times: Array, first: Array) -> Array:
             part = np.clip((times - self.begin) / (self.end - self.begin), 0.0, 1.0)
@@ -55,7 +56,7 @@ class Sine:
     """A parameter swings about the value that the system has, by A sin(2 pi f (t - begin)): a Drive.
 
     Attributes:
-        parameter: one of PARAMETERS.
+        parameter: one of PARAMETERS, or a pull.
         begin: when that begins [s].
         amplitude: A, in the parameter's unit; of gravity downwards, as its number is.
         frequency: f [Hz].
@@ -77,9 +78,9 @@ class Sine:
 
     def changes(self, system: MassSpringSystem, dt: float, duration: float) -> list[Change]:
         """One at every step from begin on. Raises InputError where the parameter would become what it cannot be."""
-        along = np.ones_like(_own(system, self.parameter))
+        along = np.ones_like(system.numbers_of(self.parameter))
         if self.parameter == "gravity":
-            along = _own(system.with_parameter("gravity", 1.0), "gravity")
+            along = system.with_parameter("gravity", 1.0).numbers_of("gravity")
 
         def value(times: Array, first: Array) -> Array:
             phase = 2 * np.pi * self.frequency * (times - self.begin)
@@ -90,13 +91,8 @@ class Sine:
 
 
 def _known(parameter: str) -> None:
-    if parameter not in PARAMETERS:
+    if parameter not in PARAMETERS and not is_pull(parameter):
         raise unknown_name("parameter", parameter, PARAMETERS)
-
-
-def _own(system: MassSpringSystem, parameter: str) -> Array:
-    """A parameter's numbers, of every spring, mass or axis, or the one there is: shape (k,)."""
-    return np.atleast_1d(np.asarray(getattr(system, FIELDS.get(parameter, parameter)), dtype=float))
 
 
 def _changes(
@@ -104,7 +100,7 @@ def _changes(
 ) -> list[Change]:
     """A change at every step at which the parameter is another than before."""
     starts: Array = dt * np.arange(whole_steps(dt, duration), dtype=float)
-    first = _own(system, parameter)
+    first = system.numbers_of(parameter)
     values = value(starts + dt / 2, first)
     another = (np.diff(values, axis=0, prepend=first[None]) != 0).any(axis=1)
     pairs = zip(starts[another].tolist(), values[another].tolist(), strict=True)

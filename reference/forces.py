@@ -1,11 +1,11 @@
 """The forces on a mesh of springs, and so its equations of motion: the lecture's slides 4-5 and 9-10, on any mesh.
 
 A spring pulls the two masses it joins together with the force that the law of a spring gives (`spring_law`), and a mass
-feels its springs, its weight m g, and the drag -Cd v. Every spring is computed once; then each mass sums the forces of
-its own springs in their order. A mass alone (`acceleration_of`) is given exactly the bits it has within the whole. A
-spring of no length, which has no direction, gives forces that are not numbers, and so a run that diverges, unless its
-rest length is zero, too: then it has no force. A spring that is not linear (`nonlinear_law`) has at every state the
-stiffness and damping that make its force there.
+feels its springs, its weight m g, the drag -Cd v, and what pulls on it besides. Every spring is computed once; then
+each mass sums the forces of its own springs in their order. A mass alone (`acceleration_of`) is given exactly the bits
+it has within the whole. A spring of no length, which has no direction, gives forces that are not numbers, and so a run
+that diverges, unless its rest length is zero, too: then it has no force. A spring that is not linear (`nonlinear_law`)
+has at every state the stiffness and damping that make its force there.
 
 The functions at the top are compiled (`jit`): they are loops over numbers.
 """
@@ -142,6 +142,9 @@ class SpringMotion:
         self.system = system
         self.start = system.start
         self._masses_and_weight = (system.masses, system.drag, system.gravity, system.fixed, *springs_of_masses(system))
+        self._pulled = None
+        if system.pulls.any():
+            self._pulled = np.where(system.fixed[:, None], 0.0, system.pulls / system.masses[:, None])
         self._none = np.zeros(len(system.springs))
         self._forces = np.empty((len(system.springs), system.dimension))
 
@@ -154,14 +157,14 @@ class SpringMotion:
         out = np.empty_like(state.positions)
         springs = self._springs_at(state, damping)
         _all_accelerations(*_rows(state), *springs, *self._masses_and_weight, self._forces, out)
-        return out
+        return out if self._pulled is None else out + self._pulled
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Acceleration of mass i alone [m/s^2], shape (d,): all the lecture's per-link function sees."""
         out = np.empty_like(state.positions)
         springs = self._springs_at(state)
         _one_acceleration(i, *_rows(state), *springs, *self._masses_and_weight, self._forces, out)
-        return out[i]
+        return out[i] if self._pulled is None else out[i] + self._pulled[i]
 
     def _springs_at(self, state: State, damping: bool = True) -> tuple[IntArray, Array, Array, Array]:
         """What springs join, their rest lengths, and the stiffness and damping they have at a state."""

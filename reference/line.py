@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from reference.obstacles import Obstacle, Plane
+from reference.pulls import is_pull
 from reference.state import Array, Trajectory
 from reference.system import MassSpringSystem, Value
 
@@ -36,6 +37,7 @@ def system_in_plane(system: MassSpringSystem) -> MassSpringSystem:
         positions=in_plane(system.positions),
         velocities=in_plane(system.velocities),
         gravity=in_plane(system.gravity),
+        pulls=in_plane(system.pulls),
         obstacles=tuple(map(obstacle_in_plane, system.obstacles)),
     )
 
@@ -47,6 +49,7 @@ def system_on_line(system: MassSpringSystem) -> MassSpringSystem:
         positions=on_line(system.positions),
         velocities=on_line(system.velocities),
         gravity=on_line(system.gravity),
+        pulls=on_line(system.pulls),
     )
 
 
@@ -60,6 +63,11 @@ def obstacle_in_plane(obstacle: Obstacle) -> Obstacle:
     if not isinstance(obstacle, Plane) or obstacle.dimension != 1:
         return obstacle
     return Plane((0.0, *obstacle.point), (0.0, *obstacle.normal))
+
+
+def parameter_in_plane(parameter: str) -> str:
+    """The name of a parameter of a system along a line, for the same system in the plane: pulls are along y there."""
+    return f"{parameter[:-1]}y" if is_pull(parameter) and parameter.endswith(".x") else parameter
 
 
 def value_in_plane(parameter: str, value: Value) -> Value:

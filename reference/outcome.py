@@ -12,6 +12,7 @@ import numpy as np
 from reference.changes import Change
 from reference.lengths import lengths, spring_lengths
 from reference.nonlinear_law import energy_of_springs
+from reference.pulls import is_pull, place_of_pull
 from reference.state import Array, Trajectory
 from reference.system import BREAK, FIELDS, BoolArray, MassSpringSystem
 
@@ -151,7 +152,8 @@ def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: 
     fastest = np.linalg.norm(trajectory.velocities[0], axis=1).max(initial=0.0)
     natural = _natural_lengths(system, trajectory, changes)
     reach = system.size + natural[np.isfinite(natural)].sum() or 1.0
-    allowed = reach + fastest * t + np.linalg.norm(_most(system, "gravity", changes)) * t**2 / 2
+    pull = _strongest_pulls(system, changes).sum() / _least_mass(system, changes)
+    allowed = reach + fastest * t + (np.linalg.norm(_most(system, "gravity", changes)) + pull) * t**2 / 2
     with np.errstate(over="ignore", invalid="ignore"):
         return np.asarray(lengths(trajectory.positions - trajectory.positions[0]) / allowed[:, None])
 
@@ -159,8 +161,9 @@ def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: 
 def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Array, changes: Sequence[Change]) -> Array:
     """Kinetic and elastic energy over all that a system can have been given, in every frame, shape (m,).
 
-    That is what both were at the start, what gravity does at most on the way, sum m g |x - x0|, and what would stretch
-    every spring to twice its natural length, a scale for what starts at rest. Zero where all of that is zero.
+    That is what both were at the start, what gravity and pulls do at most on the way, sum (m g + F) |x - x0|, and
+    what would stretch every spring to twice its natural length, a scale for what starts at rest. Zero where all of that
+    is zero.
 
     Args:
         length: of every spring in every frame [m], shape (m, s).
@@ -178,7 +181,7 @@ def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Arr
         energy = 0.5 * np.einsum("mnd,mnd,n->m", v, v, mass) + kept
         given = 0.5 * mass @ (v[0] ** 2).sum(axis=1) + elastic[0].sum()
         given += energy_of_springs(stiffest, np.where(np.isfinite(natural), natural, system.rest_lengths)).sum()
-        given = given + gravity * lengths(x - y) @ mass
+        given = given + lengths(x - y) @ (gravity * mass + _strongest_pulls(system, changes))
         return np.where(given > 0, energy / given, 0.0)
 
 
@@ -187,3 +190,19 @@ def _most(system: MassSpringSystem, parameter: str, changes: Sequence[Change]) -
     first = np.asarray(getattr(system, FIELDS.get(parameter, parameter)))
     later = [np.asarray(change.value) for change in changes if change.parameter == parameter]
     return np.asarray(reduce(np.maximum, (np.abs(value) for value in later), np.abs(first)))
+
+
+def _strongest_pulls(system: MassSpringSystem, changes: Sequence[Change]) -> Array:
+    """No less than the strongest pull that every mass ever has [N], shape (n,)."""
+    most = np.abs(system.pulls)
+    for change in changes:
+        if is_pull(change.parameter):
+            place = place_of_pull(change.parameter, most)
+            most[place] = max(most[place], float(np.abs(change.value).max()))
+    return lengths(most)
+
+
+def _least_mass(system: MassSpringSystem, changes: Sequence[Change]) -> float:
+    """The smallest mass that there ever is [kg]."""
+    later = [float(np.min(change.value)) for change in changes if change.parameter == "mass"]
+    return min(float(system.masses.min()), *later) if later else float(system.masses.min())

@@ -93,6 +93,8 @@ def why_no_pendulum(system: MassSpringSystem) -> str | None:
         return "expected masses that do not collide"
     if not system.rest_lengths.all():
         return "expected rest lengths > 0: a rod of none is no rod"
+    if system.pulls.any():
+        return "expected no force that pulls on a mass: its equations know none"
     if system.nonlinear is not None:
         return f"expected linear springs: rods have no {', '.join(system.nonlinear.asked)}"
     if system.obstacles:

@@ -58,10 +58,12 @@ def numbers_of(system: MassSpringSystem, state: State, order: str, single: bool)
 
     Raises:
         InputError: for an unknown order of springs.
-        Unsupported: for springs that are not linear.
+        Unsupported: for springs that are not linear, or a force that pulls on a mass.
     """
     if not system.rest_lengths.all():
         raise Unsupported("solvers of constraints have springs of a rest length only")
+    if system.pulls.any():
+        raise Unsupported("solvers of constraints have no force that pulls on a mass")
     if system.nonlinear is not None:
         raise Unsupported("solvers of constraints have linear springs only")
     kind: Any = np.float32 if single else np.float64

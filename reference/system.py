@@ -19,6 +19,7 @@ from reference.collisions import Collisions
 from reference.errors import InputError, unknown_name
 from reference.nonlinear import NonlinearSprings
 from reference.obstacles import Obstacle, checked_obstacles
+from reference.pulls import PULL, UNIT, is_pull, place_of_pull
 from reference.state import Array, State
 
 T = TypeVar("T")
@@ -72,6 +73,7 @@ class MassSpringSystem:
         obstacles: what free masses may not enter; they are projected out at the end of every step, in this order.
         nonlinear: what springs have besides stiffness and damping; None where all are linear.
         collisions: which masses are round and collide with one another; None where none do.
+        pulls: constant forces on the masses [N], shape (n, d); zero unless given. What is fixed does not feel its own.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.
@@ -90,6 +92,7 @@ class MassSpringSystem:
     obstacles: tuple[Obstacle, ...] = ()
     nonlinear: NonlinearSprings | None = None
     collisions: Collisions | None = None
+    pulls: Array = field(default_factory=lambda: np.zeros(1))
 
     def __post_init__(self) -> None:
         positions = finite("positions", self.positions, "m")
@@ -99,6 +102,8 @@ class MassSpringSystem:
         springs = checked_springs(self.springs, n)
         s = len(springs)
         gravity = finite("gravity", self.gravity, "m/s^2")
+        # no pull at all fits any number of masses, so that `replace` may give a system others
+        pulls = finite("pulls", self.pulls, UNIT) if np.any(self.pulls) else np.zeros(1)
         checked = {
             "positions": positions,
             "springs": springs,
@@ -108,6 +113,7 @@ class MassSpringSystem:
             "damping": in_range("damping", self.damping, (s,), "N s/m"),
             "gravity": shaped("gravity", _downwards(gravity, d), (d,)),
             "velocities": shaped("velocities", finite("velocities", self.velocities, "m/s"), (n, d)),
+            "pulls": shaped("pulls", pulls, (n, d)),
             "fixed": shaped("fixed", _truths("fixed", self.fixed), (n,)),
         }
         object.__setattr__(self, "drag", float(in_range("drag", self.drag, (), "N s/m")))
@@ -189,7 +195,7 @@ class MassSpringSystem:
         """The same system with one of PARAMETERS set: one number for all, or one for each mass, spring or axis.
 
         Or with masses held or released, or springs broken: `hold` and `release` take the number of a mass, or several,
-        `break` that of springs.
+        `break` that of springs. Or with a mass pulled along an axis: `pull.3.y` takes a force [N].
 
         Nothing else is looked at again: a parameter may change at every step of a run.
 
@@ -200,8 +206,10 @@ class MassSpringSystem:
             return self._with_held(name, value)
         if name == BREAK:
             return self._broken(value)
+        if is_pull(name):
+            return self._pulled(name, value)
         if name not in PARAMETERS:
-            raise unknown_name("parameter", name, [*PARAMETERS, *HELD, BREAK])
+            raise unknown_name("parameter", name, [*PARAMETERS, *HELD, BREAK, f"{PULL}MASS.AXIS"])
         changed = copy(self)
         object.__setattr__(changed, FIELDS.get(name, name), self._checked_parameter(name, value))
         return changed
@@ -215,6 +223,22 @@ class MassSpringSystem:
         changed = copy(self)
         object.__setattr__(changed, "fixed", fixed)
         return changed
+
+    def _pulled(self, name: str, value: Value) -> MassSpringSystem:
+        place, force = place_of_pull(name, self.pulls), finite(name, value, UNIT)
+        if force.size != 1:
+            raise InputError(f"{name} has {force.size} numbers: expected one [{UNIT}]")
+        pulls, changed = self.pulls.copy(), copy(self)
+        pulls[place] = force.item()
+        pulls.flags.writeable = False
+        object.__setattr__(changed, "pulls", pulls)
+        return changed
+
+    def numbers_of(self, parameter: str) -> Array:
+        """A parameter's numbers as they are, of every spring, mass or axis, or the one there is: shape (k,)."""
+        if is_pull(parameter):
+            return np.array([self.pulls[place_of_pull(parameter, self.pulls)]])
+        return np.atleast_1d(np.asarray(getattr(self, FIELDS.get(parameter, parameter)), dtype=np.float64))
 
     def _broken(self, value: Value) -> MassSpringSystem:
         """Springs that break have neither stiffness nor damping from then on, and are linear."""
@@ -251,7 +275,18 @@ class MassSpringSystem:
 
     def check_sizes(self) -> None:
         """Refuse numbers of which products would be no floats, as nothing has them. Raises InputError."""
-        for name in ("positions", "velocities", "masses", "rest_lengths", "stiffness", "damping", "drag", "gravity"):
+        sizes = (
+            "positions",
+            "velocities",
+            "masses",
+            "rest_lengths",
+            "stiffness",
+            "damping",
+            "drag",
+            "gravity",
+            "pulls",
+        )
+        for name in sizes:
             check_sizes(name, getattr(self, name), divided_by=name == "masses")
 
     def renumbered(self, order: npt.ArrayLike) -> MassSpringSystem:
@@ -264,6 +299,7 @@ class MassSpringSystem:
             velocities=self.velocities[old],
             masses=self.masses[old],
             fixed=self.fixed[old],
+            pulls=self.pulls[old],
             springs=new_of_old[self.springs],
             collisions=self.collisions and self.collisions.renumbered(old),
         )
@@ -290,6 +326,8 @@ class MassSpringSystem:
         for name in ("nonlinear", "collisions"):
             given = values.pop(name)
             values |= {name: given.to_dict()} if given else {}
+        if not self.pulls.any():
+            del values["pulls"]
         return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
 
 

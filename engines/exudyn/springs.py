@@ -132,7 +132,7 @@ class Items:
     def __init__(self, exudyn: ModuleType, mbs: Any, system: MassSpringSystem) -> None:
         self._mbs = mbs
         self._free = np.flatnonzero(~system.fixed)
-        self._bodies, self._weights, self._drags = [], [], []
+        self._bodies, self._weights, self._drags, self._pulls = [], [], [], []
         self._by_law = system.nonlinear is not None  # and also once all springs that were not linear are broken
         item = importlib.import_module("exudyn.itemInterface")
         flat = system.dimension == 2
@@ -149,6 +149,7 @@ class Items:
             self._bodies.append(mbs.AddObject(body_type(nodeNumber=node)))
             body = mbs.AddMarker(item.MarkerBodyMass(bodyNumber=self._bodies[-1]))
             self._weights.append(mbs.AddLoad(item.LoadMassProportional(markerNumber=body)))
+            self._pulls.append(mbs.AddLoad(item.Force(markerNumber=ends[-1])))
             self._drags.append(mbs.AddObject(item.CartesianSpringDamper(markerNumbers=[ground, ends[-1]])))
         self._springs = [mbs.AddObject(item.SpringDamper(markerNumbers=[ends[a], ends[b]])) for a, b in system.springs]
         mbs.Assemble()
@@ -160,6 +161,8 @@ class Items:
             mbs.SetObjectParameter(body, "mass", mass)
         for weight in self._weights:
             mbs.SetLoadParameter(weight, "loadVector", _three(system.gravity))
+        for load, pull in zip(self._pulls, system.pulls[self._free], strict=True):
+            mbs.SetLoadParameter(load, "loadVector", _three(pull))
         for drag in self._drags:
             mbs.SetObjectParameter(drag, "damping", [system.drag] * 3)
             mbs.SetObjectParameter(drag, "activeConnector", system.drag > 0)

@@ -41,7 +41,7 @@ class MujocoFlex:
     name: str
     integrator: Integrator
     package: str = "mujoco"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS} - {"no rest length"}
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS} - {"no rest length", "pulls"}
     semantics: str = (
         "stiffness is k [N/m] and damping c [N s/m] of the edges of a flex, explicit; drag is Cd [N s/m] as damping of "
         "every slide joint, explicit"

@@ -43,7 +43,9 @@ class MujocoRope:
     package: str = "mujoco"
     impedance: float = 0.9999
     weight: float = 1e-3
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - set(OBSTACLES) - {*LAWS, *COLLISIONS} - {"no rest length"}
+    capabilities: frozenset[str] = (
+        frozenset(CAPABILITIES) - set(OBSTACLES) - {*LAWS, *COLLISIONS} - {"no rest length", "pulls"}
+    )
     semantics: str = (
         "stiffness: infinite, whatever is given; damping: without effect, as nothing stretches for long; "
         "drag is Cd [N s/m] as damping of every slide joint, explicit"

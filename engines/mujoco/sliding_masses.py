@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from reference.pulls import is_pull
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -33,6 +34,7 @@ class SlidingMasses(ABC):
         free, fixed = np.flatnonzero(~system.fixed), np.flatnonzero(system.fixed)
         self._q[:] = self._coordinates(system.positions[free])
         self._v[:] = self._coordinates(system.velocities[free])
+        self._write_pulls()
         # what a state is read from: the free masses first, then the fixed; in order only once taken out
         order = np.concatenate([free, fixed])
         self._order = np.argsort(order)
@@ -46,10 +48,19 @@ class SlidingMasses(ABC):
     def go_on_with(self, system: MassSpringSystem, parameter: str) -> None:
         """Let a parameter be that of another system from here on; the state stays where it is, to the last bit."""
         self._system = system
-        if parameter == "gravity":  # MuJoCo keeps nothing of it, so it may change at every step at no cost
+        if is_pull(parameter):
+            pass  # of the data, not of the model
+        elif parameter == "gravity":  # MuJoCo keeps nothing of it, so it may change at every step at no cost
             self._model.opt.gravity[:] = three(system.gravity)
         else:
             self._write_parameters()
+        self._write_pulls()
+
+    def _write_pulls(self) -> None:
+        """On every body at its centre, until it is another; body 0 is the world."""
+        system = self._system
+        if len(self._data.xfrc_applied) > 1 and (system.pulls.any() or self._data.xfrc_applied.any()):
+            self._data.xfrc_applied[1:, : system.dimension] = system.pulls[~system.fixed]
 
     def step(self) -> None:
         """One mj_step."""

@@ -41,7 +41,7 @@ class PymunkSprings:
     capabilities: frozenset[str] = frozenset(
         {"1d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
         | {"drag", "tilted gravity", "no fixed mass", "circle", "plane", "box"}
-        | {"no rest length", *LAWS, *COLLISIONS}
+        | {"no rest length", "pulls", *LAWS, *COLLISIONS}
     )
 
     @property
@@ -111,10 +111,13 @@ class PymunkSimulation:
         self._rows = self._rows_of(bodies)
 
     def step(self) -> None:
-        """One Space.step, with the drag as a force."""
+        """One Space.step, with the drag and what pulls as forces, which Pymunk forgets after each."""
+        pulls = self._system.pulls[~self._system.fixed].tolist() if self._system.pulls.any() else []
         if self._system.drag:
             for body in self._moving:
                 body.force = -self._system.drag * body.velocity
+        for body, pull in zip(self._moving, pulls, strict=False):
+            body.force += tuple(pull)
         self._space.step(self._dt)
 
     def bare_step(self) -> Callable[[], object]:

@@ -81,7 +81,8 @@ def step_of(scheme: Scheme, motion: Equations) -> Step:
     as_written = scheme.on(motion)
     if scheme.needs != "accelerations of one mass" or not isinstance(motion, SpringMotion):
         return as_written
-    compiled = len(motion.system.masses) >= COMPILED_FROM and motion.system.nonlinear is None
+    system = motion.system
+    compiled = len(system.masses) >= COMPILED_FROM and system.nonlinear is None and not system.pulls.any()
     loops = _trusted(scheme) if compiled else None
     return as_written if loops is None else _step_by(loops, motion.system)
 

@@ -13,6 +13,10 @@
     parameter = "stiffness"
     value = 100.0
 
+    [[pulls]]                   # and forces that pull on masses
+    mass = 3
+    force = [0.0, -2.0]         # N
+
     [ground_motion]             # the ground moves, and all supports with it (`reference.scenes.ground_motion`)
     from_frequency = 0.5        # Hz; or, in place of the numbers of a sweep, file = "record.csv" and its scale
     to_frequency = 5.0          # Hz
@@ -66,6 +70,7 @@ from reference.collisions import Collisions
 from reference.drives import Ramp, Sine
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
+from reference.files.pull_tables import PullTable, pulls_of
 from reference.files.regular_file import check_file
 from reference.files.toml_message import plain
 from reference.nonlinear import KINDS, ONE_SIDED, NonlinearSprings
@@ -256,6 +261,7 @@ class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
     changes: list[ChangeTable] = []
     ramps: list[RampTable] = []
     sines: list[SineTable] = []
+    pulls: list[PullTable] = []
     obstacles: list[dict[str, Any]] = []
     ground_motion: GroundMotionTable | None = None
 
@@ -326,6 +332,8 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any], remarks
     else:
         driven = find(content.scene or "").driven({**content.parameters, **settings})
     system, drives = driven.system, driven.drives
+    if content.pulls:
+        system = replace(system, pulls=pulls_of(system, content.pulls))
     if content.obstacles:
         given = tuple(_obstacle(i, table) for i, table in enumerate(content.obstacles))
         system = replace(system, obstacles=(*system.obstacles, *given))

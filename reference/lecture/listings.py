@@ -14,7 +14,7 @@ from math import sqrt
 import numpy as np
 
 from reference.changes import Change, changes_by_step
-from reference.line import system_in_plane, trajectory_on_line, value_in_plane
+from reference.line import parameter_in_plane, system_in_plane, trajectory_on_line, value_in_plane
 from reference.obstacles import Circle
 from reference.outcome import Outcome, outcome_of
 from reference.state import Array, State, Trajectory
@@ -200,7 +200,7 @@ class LectureListing:
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """See reference.stepper.Stepper. A string along a line hangs straight down in the plane."""
         if system.dimension == 1:
-            values = [replace(change, value=value_in_plane(change.parameter, change.value)) for change in changes]
+            values = [_in_plane(change) for change in changes]
             outcome = self.run(system_in_plane(system), dt, steps, values)
             trajectory = outcome.trajectory
             return outcome if trajectory is None else replace(outcome, trajectory=trajectory_on_line(trajectory))
@@ -232,12 +232,19 @@ class LectureListing:
         return None
 
 
+def _in_plane(change: Change) -> Change:
+    parameter = parameter_in_plane(change.parameter)
+    return replace(change, parameter=parameter, value=value_in_plane(change.parameter, change.value))
+
+
 def why_no_string(system: MassSpringSystem) -> str | None:
     """Why a system is not the lecture's string, or None if it is."""
     if system.dimension != 2 or not system.is_string:
         return "the lecture's listings step strings only, in 2D and hung at their first mass"
     if system.collisions is not None:
         return "the lecture's masses do not collide with one another"
+    if system.pulls.any():
+        return "the lecture's listings know no force that pulls on a mass"
     if system.nonlinear is not None:
         return f"the lecture's springs are linear: they have no {', '.join(system.nonlinear.asked)}"
     if system.damping.any():

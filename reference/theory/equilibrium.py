@@ -26,7 +26,8 @@ def equilibrium(system: MassSpringSystem) -> State:
         )
     # along a line a string may stand, too: there is no side to fall to
     hangs = system.is_string and system.dimension > 1 and system.stiffness.all() and system.gravity.any()
-    return hanging_string(system) if hangs and system.nonlinear is None else least_energy(system)
+    other = system.nonlinear is not None or system.pulls.any()
+    return hanging_string(system) if hangs and not other else least_energy(system)
 
 
 def hanging_string(system: MassSpringSystem) -> State:
@@ -38,10 +39,11 @@ def hanging_string(system: MassSpringSystem) -> State:
     Raises:
         InputError: unless the system is a string with stiffness everywhere.
     """
-    if not system.is_string or not system.stiffness.all() or system.nonlinear is not None:
+    linear = system.nonlinear is None
+    if not system.is_string or not system.stiffness.all() or not linear or system.pulls.any():
         raise InputError(
             "system is no string: expected springs from each mass to the next, the first fixed, all with stiffness > 0 "
-            "and linear"
+            "and linear, and no mass pulled"
         )
     g = float(np.linalg.norm(system.gravity))
     downwards = -np.eye(system.dimension)[min(1, system.dimension - 1)]

@@ -12,6 +12,7 @@ the system is pushed along its eigenvector, to either side, and goes on downhill
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -90,7 +91,7 @@ class Descent:
     def __init__(self, system: MassSpringSystem, carried: Array) -> None:
         """What every mass weighs on the springs [N], shape (n, d)."""
         self.system = system
-        self._motion = SpringMotion(system.with_parameter("gravity", [0.0] * system.dimension))
+        self._motion = SpringMotion(replace(system, gravity=np.zeros(system.dimension), pulls=np.zeros(1)))
         self._free = ~system.fixed
         self.size = system.size or 1.0
         self._loads = carried[self._free].ravel()

@@ -68,7 +68,23 @@ def loads(system: MassSpringSystem, parts: Parts) -> Array:
         members = parts.of_mass == part
         carried[members] = (system.masses[members] - system.masses[members].mean()) if system.drag else 0.0
     carried[system.fixed] = 0.0
-    return carried[:, None] * system.gravity
+    return carried[:, None] * system.gravity + _pulled(system, parts)
+
+
+def _pulled(system: MassSpringSystem, parts: Parts) -> Array:
+    """What pulls on the masses [N]; of a part that nothing holds, in the frame that the whole pull accelerates.
+
+    Raises:
+        SolverError: for such a part with drag.
+    """
+    pulls = np.where(system.fixed[:, None], 0.0, system.pulls)
+    for part in np.flatnonzero(~parts.held) if pulls.any() else ():
+        members = parts.of_mass == part
+        if pulls[members].any() and system.drag:
+            raise SolverError("no equilibrium: a mass is pulled, and with drag, that nothing holds; hold it")
+        masses = system.masses[members]
+        pulls[members] -= masses[:, None] * (pulls[members].sum(axis=0) / masses.sum())
+    return pulls
 
 
 def falling_velocities(system: MassSpringSystem) -> Array:

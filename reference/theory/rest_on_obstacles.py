@@ -53,6 +53,11 @@ def rest_on_obstacles(system: MassSpringSystem) -> tuple[State, Contacts]:
     return _balanced(descent, q)
 
 
+def _loads(system: MassSpringSystem) -> Array:
+    """What every free mass weighs, and what pulls on it [N], shape (n, d)."""
+    return (system.masses[:, None] * system.gravity + system.pulls) * ~system.fixed[:, None]
+
+
 class _OutsideObstacles(Descent):
     """The energy of a system with a barrier around every obstacle. All masses weigh, also what nothing holds.
 
@@ -65,7 +70,7 @@ class _OutsideObstacles(Descent):
     quasi_newton_up_to = 0  # it has no use for an energy that is infinite somewhere
 
     def __init__(self, system: MassSpringSystem) -> None:
-        super().__init__(system, (system.masses * ~system.fixed)[:, None] * system.gravity)
+        super().__init__(system, _loads(system))
         # so that no step leads in at one side of an obstacle and out at the other
         self.longest = min(0.1 * self.size, *(0.5 * _half_width(obstacle) for obstacle in system.obstacles))
 

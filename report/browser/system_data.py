@@ -37,7 +37,11 @@ KNOWN = frozenset(
 )
 
 #: What people call those that it does not.
-_WORDS = {"nonlinear": "springs that are not linear", "collisions": "masses that collide"}
+_WORDS = {
+    "nonlinear": "springs that are not linear",
+    "collisions": "masses that collide",
+    "pulls": "forces that pull on masses",
+}
 
 
 def system_data(system: MassSpringSystem) -> dict[str, Any]:

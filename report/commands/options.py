@@ -45,7 +45,7 @@ changes_option = click.option(
     metavar="T:KEY=VALUE",
     callback=lambda context, option, words: parse_changes(words),
     help="Change a parameter at a time [s], on the fly; one number, or one for each, as 1,-9.81. Or hold or release "
-    "masses, as 0.2:release=0, or break springs, as 0.3:break=4.",
+    "masses, as 0.2:release=0, or break springs, as 0.3:break=4, or pull masses [N], as 0.2:pull.3.y=-2.",
 )
 ramps_option = click.option(
     "--ramp",

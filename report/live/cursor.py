@@ -28,6 +28,7 @@ def with_cursor(system: MassSpringSystem, mass: int, place: Array) -> MassSpring
         velocities=np.vstack([system.velocities, np.zeros(system.dimension)]),
         masses=np.append(system.masses, system.masses[mass]),
         fixed=np.append(system.fixed, True),
+        pulls=np.vstack([system.pulls, np.zeros(system.dimension)]),
         springs=np.vstack([system.springs, [mass, n]]),
         rest_lengths=np.append(system.rest_lengths, length),
         stiffness=np.append(system.stiffness, stiffness),

@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
-from engines.engine import ASKED_BY, CAPABILITIES, Engine, demands, find, registry, version
+from engines.engine import CAPABILITIES, Engine, asked_by, demands, find, registry, version
 from reference.errors import InputError
 from reference.outcome import Outcome
 from reference.system import BREAK
@@ -57,7 +57,7 @@ def lacking(engine: Engine, case: Case) -> set[str]:
     for change in case.changes:
         system = system.with_parameter(change.parameter, change.value)
         always = {"breaking"} if change.parameter == BREAK else set()
-        asked |= always | set(ASKED_BY[change.parameter]).intersection(demands(system))
+        asked |= always | set(asked_by(change.parameter)).intersection(demands(system))
     return asked - engine.capabilities
 
 
