@@ -42,7 +42,7 @@ class KickDrift:
         length = np.linalg.norm(separation, axis=1)
         u = separation / length[:, None]
         spring_force = self.stiffness() * (length - system.rest_lengths) + system.damping * (u * w).sum(axis=1)
-        force = system.masses[:, None] * system.gravity - system.drag * self.v
+        force = system.masses[:, None] * system.gravity + system.pulls - system.drag * self.v
         np.add.at(force, a, spring_force[:, None] * u)
         np.subtract.at(force, b, spring_force[:, None] * u)
         return np.where(system.fixed[:, None], 0.0, force / system.masses[:, None])

@@ -45,6 +45,7 @@ def test_what_stands_besides_is_read(tmp_path: Path) -> None:
     for form in (NAMED, WRITTEN_OUT):
         setup = loaded(tmp_path, form + BESIDES)
         assert len(setup.system.obstacles) == 1
+        assert setup.system.pulls[2].tolist() == [0.0, -2.0]
         assert [change.parameter for change in setup.changes].count("stiffness") == 1
         assert [change.parameter for change in setup.changes].count("gravity") > 100
 
