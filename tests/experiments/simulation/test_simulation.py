@@ -34,7 +34,8 @@ def test_a_sheet_of_exercises_is_answered_by_one_command(force: list[str]) -> No
     """With m 1.6 kg, k 4000 N/m, c 8 N s/m, F 80 N, from u = -0.08 m at 1 m/s: u(1 s) = 0.01183 m.
 
     u = F/k + e^(-z w t) (A cos wd t + B sin wd t) with w = 50/s, z = 0.05. As a weight of 80 N, or a
-    pull, it hangs on the spring: u is what the mass is below the spring's rest length. RK4's error at w dt = 0.0125 is below 1e-6 of 0.1 m.
+    pull, it hangs on the spring: u is what the mass is below the spring's rest length. RK4's error at
+    w dt = 0.0125 is below 1e-6 of 0.1 m.
     """
     words = ["mass=1.6", "stiffness=4000", "damping=8", "stretch=-0.08", "velocity=-1", "rest_length=1"]
     times = ("--dt", "2.5e-4", "--duration", "1")
