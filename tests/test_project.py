@@ -39,6 +39,7 @@ BARE_REFERENCE = (
     "measured_stability",
     "nonlinear",
     "nonlinear_law",
+    "pulls",
     *(f"obstacles.{name}" for name in ("kinds", "obstacle", "validation")),
     "obstacles",
     "outcome",
