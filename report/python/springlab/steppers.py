@@ -35,7 +35,8 @@ def stepper_of(given: Any, time_limit: float | None = None) -> Stepper:
     if time_limit is not None and not (isfinite(time_limit) and time_limit > 0):
         raise InputError(f"time_limit = {time_limit:g}: expected a finite number > 0 [s]")
     if not isinstance(given, str | Path):
-        what = getattr(given, "__name__", type(given).__name__)
+        shown = getattr(given, "__name__", repr(given))
+        what = shown if len(shown) <= 60 else f"of type {type(given).__name__}"
         raise InputError(
             f"stepper {what}: expected a name of schemes() or engines(), or a file; "
             'a function of your own goes into a file, given as "my_step.py"'
