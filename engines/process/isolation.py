@@ -154,7 +154,7 @@ class EngineStepper:
     def run_each(self, runs: Sequence[tuple[MassSpringSystem, float, int]]) -> list[Outcome]:
         """What `run` does, of many systems with their dt [s] and steps, all in one process: for short runs."""
         if self.version is None:
-            return [Outcome("unsupported", f"{self.engine.package} is not installed")] * len(runs)
+            return [Outcome("unsupported", absence(self.engine))] * len(runs)
         cases = [tuple(run) for run in runs]
         # many short runs are no run to be kept
         call = in_this_process if self.isolate is in_this_process else isolated
