@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import floor, log, log1p, sqrt
+from math import floor, log, log1p
 
 import numpy as np
 
@@ -38,10 +38,10 @@ PRECISION = 1e-4
 
 #: The steps at which runs are made are whole powers of 1 + PRECISION, so far from the one below the predicted limit:
 #: where to look is expected, what is found is not.
-LADDER: tuple[int, ...] = (-1000, -300, -100, -10, -1, 0, 1, 2, 10, 100, 300, 1000)
+LADDER = (-1000, -100, -1, 0, 1, 2, 100, 1000)
 
-#: These first: where the limit is between two of them that are neighbours, the others need not be run.
-FIRST_RUNGS: tuple[int, ...] = (-1000, -100, -1, 0, 1, 2, 100, 1000)
+#: Between two of them that are no neighbours, so many further ones at once are run, evenly spread.
+BETWEEN = 7
 
 #: Growth in a step that is more than rounding and what is not linear, and the size of a perturbation as a part of the
 #: shortest spring: in double and in single precision.
@@ -118,19 +118,24 @@ def _along_modes(
         if above.growth < margin:
             return slow
     below = floor(log(predicted.dt) / log1p(PRECISION))
-    rungs = FIRST_RUNGS
-    while True:
-        steps = [(1 + PRECISION) ** (below + further) for further in rungs]
-        growths = watched.growths(steps)
+
+    def growths_at(rungs: Sequence[int]) -> list[float] | Outcome | None:
+        return watched.growths([(1 + PRECISION) ** (below + rung) for rung in rungs])
+
+    rungs: Sequence[int] = LADDER
+    growths = growths_at(rungs)
+    if growths is None or isinstance(growths, Outcome):
+        return growths
+    factors = (1 + growths[LADDER.index(-100)], 1 + growths[LADDER.index(100)])
+    while (first := _first_unstable(growths, margin)) is not None:
+        low, high = rungs[first - 1], rungs[first]
+        if high - low == 1:
+            return Limit((1 + PRECISION) ** (below + low + 0.5), factors=factors, grows_beyond=True)
+        rungs = sorted({round(rung) for rung in np.linspace(low, high, BETWEEN + 2)})
+        growths = growths_at(rungs)
         if growths is None or isinstance(growths, Outcome):
             return growths
-        first = _first_unstable(growths, margin)
-        if first is None:
-            return slow
-        if rungs == LADDER or rungs[first] - rungs[first - 1] == 1:
-            factors = (1 + growths[rungs.index(-100)], 1 + growths[rungs.index(100)])
-            return Limit(sqrt(steps[first - 1] * steps[first]), factors=factors, grows_beyond=True)
-        rungs = LADDER
+    return slow
 
 
 @dataclass(frozen=True)

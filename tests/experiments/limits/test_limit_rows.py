@@ -7,12 +7,16 @@ import pytest
 from engines.engine import Engine, demands, registry, version
 from engines.process.isolation import EngineStepper
 from engines.process.packages import APART
+from experiments.limits.engine_limit import measure_engine
 from experiments.limits.limit_rows import Row, stability_rows
+from experiments.limits.predictions import Predictions
 from reference.lecture.listings import listings
+from reference.limit import Limit
 from reference.scenes import find
 from reference.schemes import catalogue
 from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import spring_equilibrium
 from tests.conformance.doctored import Doctored, KickDrift
 
 #: Limits are measured to 1e-4 of themselves, and growth of 8e-4 in a step is seen: together below a thousandth.
@@ -89,6 +93,28 @@ def test_an_engine_with_a_limit_of_its_own_is_caught() -> None:
     with pytest.raises(AssertionError):
         check_as_predicted(Row(row.stepper, row.kind, system, scheme.predicted, row.measured))
     assert row.measured.dt == pytest.approx(2 * (scheme.predicted.dt or 0.0), rel=TOLERANCE)
+
+
+class Stiffer(KickDrift):
+    """Kick-drift on springs stiffer by a hundredth than it is told."""
+
+    def __init__(self, system: MassSpringSystem, dt: float) -> None:
+        super().__init__(system.with_parameter("stiffness", (1.01 * system.stiffness).tolist()), dt)
+
+
+def test_a_limit_that_is_not_where_it_is_expected_is_found_as_exactly() -> None:
+    """Of an engine that claims kick-drift and is stiffer: h^2 w^2 = 4, so that its limit is 1 / sqrt(1.01) of it.
+
+    Without weight both rest alike. Steps are looked at to 1e-4 of themselves, growth to 2e-8 in a step.
+    """
+    system = find("string").system({"masses": 2, "gravity": 0.0})
+    predictions, scheme = Predictions(system, spring_equilibrium(system)), SchemeStepper(catalogue.find("kick_drift"))
+    predicted = predictions.of(scheme)
+    found = measure_engine(EngineStepper(Doctored(Stiffer)), predictions, scheme, predicted)
+    assert isinstance(found, Limit)
+    assert predicted.dt is not None
+    assert found.dt == pytest.approx(predicted.dt / 1.01**0.5, rel=1e-4)
+    assert found.dt != pytest.approx(predicted.dt, rel=1e-3)
 
 
 def test_a_listing_is_unsupported_with_its_reason() -> None:
