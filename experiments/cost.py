@@ -24,7 +24,7 @@ from experiments.runs.comparison import finite
 from experiments.runs.environment import processor
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
-from experiments.runs.steppers import all_steppers
+from experiments.runs.steppers import steppers_here
 from reference.compiled.kernels import advance, arrays_of, compiled, lists, loops_for
 from reference.compiled.tracing import why_not_compiled
 from reference.errors import SolverError
@@ -128,7 +128,7 @@ def result_of(costs: Sequence[Cost]) -> Result:
 
 def steppers() -> Iterator[SchemeStepper | EngineStepper]:
     """The right schemes and the engines."""
-    for stepper in all_steppers().values():
+    for stepper in steppers_here().values():
         if isinstance(stepper, SchemeStepper | EngineStepper) and stepper.kind in ("scheme", "engine"):
             yield stepper
 

@@ -16,7 +16,7 @@ from experiments.experiment import Experiment, Result, Table
 from experiments.runs.comparison import finite
 from experiments.runs.progress import Progress
 from experiments.runs.side_by_side import side_by_side
-from experiments.runs.steppers import all_steppers
+from experiments.runs.steppers import steppers_here
 from reference.conserved import angular_momentum, energies, energy, momentum
 from reference.identification import candidates, identify_beginning, scheme_of
 from reference.motion import EquationsOf
@@ -103,7 +103,7 @@ class Bench:
 def run(progress: Progress) -> Result:
     """Every stepper on the undamped string, and on the free one."""
     progress("catalogue of schemes")
-    measured = side_by_side(list(all_steppers().values()), partial(measure, on=bench()), progress)
+    measured = side_by_side(list(steppers_here().values()), partial(measure, on=bench()), progress)
     return result_of([row for _, row in measured])
 
 

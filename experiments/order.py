@@ -17,7 +17,7 @@ from experiments.runs.comparison import finite
 from experiments.runs.progress import Progress
 from experiments.runs.side_by_side import side_by_side
 from experiments.runs.step_size_series import engine_series
-from experiments.runs.steppers import all_steppers
+from experiments.runs.steppers import steppers_here
 from reference.forces import SpringMotion
 from reference.identification import candidates, identify_beginning, scheme_of
 from reference.motion import EquationsOf
@@ -115,7 +115,7 @@ def run(progress: Progress) -> Result:
     """Every stepper, dt after dt, against the true motion."""
     progress("true motion")
     benches = [bench(name) for name in STRINGS]
-    measured = side_by_side(list(all_steppers().values()), partial(measure, benches=benches), progress)
+    measured = side_by_side(list(steppers_here().values()), partial(measure, benches=benches), progress)
     return result_of([row for _, row in measured])
 
 

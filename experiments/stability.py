@@ -8,7 +8,7 @@ from functools import partial
 from experiments.experiment import Experiment, Result, Table
 from experiments.limits.limit_rows import Row, stability_rows
 from experiments.runs.progress import Progress
-from experiments.runs.steppers import all_steppers
+from experiments.runs.steppers import steppers_here
 from reference.scenes import find
 
 #: The cases of spring damping [N s/m] and drag [N s/m] that the report shows.
@@ -20,7 +20,7 @@ def run(progress: Progress) -> Result:
 
     Engines' own schemes are left out: their limits are what the engines' are predicted to be.
     """
-    steppers = [s for s in all_steppers().values() if s.kind in ("scheme", "in_place", "engine")]
+    steppers = [s for s in steppers_here().values() if s.kind in ("scheme", "in_place", "engine")]
     rows = []
     for case in CASES:
         rows += stability_rows(find("string").system(case), steppers, partial(_tell, progress, _label(case)))

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from engines.engine import absence, registry
 from engines.own.stepper import is_own, own_stepper
 from engines.process.isolation import EngineStepper
+from engines.process.packages import APART
 from experiments.runs.runner import answer
 from reference.cache import remarks
 from reference.errors import InputError, unknown_name
@@ -26,9 +27,21 @@ def installed_engines() -> list[EngineStepper]:
     return [s for s in all_steppers().values() if isinstance(s, EngineStepper) and s.version is not None]
 
 
+def steppers_here() -> dict[str, Stepper]:
+    """All that are run where none is named: engines in environments of their own once these have been made.
+
+    `springlab list` has the others, with what makes their environments.
+    """
+
+    def unmade(stepper: Stepper) -> bool:
+        return isinstance(stepper, EngineStepper) and stepper.version is None and stepper.engine.package in APART
+
+    return {name: stepper for name, stepper in all_steppers().items() if not unmade(stepper)}
+
+
 def default_steppers() -> list[Stepper]:
     """What `compare` runs if nothing is named: all but the pendulum schemes, which are another system's."""
-    return [stepper for stepper in all_steppers().values() if stepper.kind != "pendulum"]
+    return [stepper for stepper in steppers_here().values() if stepper.kind != "pendulum"]
 
 
 def _scheme_named(name: str, known: Iterable[str]) -> Stepper:

@@ -59,10 +59,10 @@ def stability_command(
 def _limits(scene: str, settings: Mapping[str, str], names: Sequence[str]) -> list[Row]:
     """The limits of steppers of these names, or of all that theory knows on springs."""
     from experiments.limits.limit_rows import stability_rows
-    from experiments.runs.steppers import all_steppers, find_steppers
+    from experiments.runs.steppers import find_steppers, steppers_here
     from reference.files.setup import setup_for
 
-    known = all_steppers().values()
+    known = steppers_here().values()
     steppers = find_steppers(names) if names else [s for s in known if s.kind not in ("lecture", "pendulum")]
     rows = []
     with progress("stability") as tell:

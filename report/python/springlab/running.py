@@ -368,11 +368,6 @@ def compare(
     from experiments.runs import comparison
     from experiments.runs.steppers import default_steppers
 
-    chosen = steppers_of(steppers or [each.name for each in default_steppers() if _there(each)], time_limit)
+    chosen = steppers_of(steppers or [each.name for each in default_steppers()], time_limit)
     found = comparison.compare(setup_of(scene, dt, duration, changes, parameters), chosen, patient=bool(steppers))
     return Comparison(tuple(Compared(found.setup, run) for run in found.runs), found)
-
-
-def _there(stepper: Any) -> bool:
-    """Whether it can be run here: an engine may not be installed."""
-    return stepper.kind != "engine" or stepper.version is not None

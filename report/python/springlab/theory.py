@@ -84,9 +84,9 @@ def stability(scene: AnyScene, *steppers: AnyStepper | Sequence[AnyStepper], **p
         SolverError: where the scene comes to no rest.
     """
     from experiments.limits.limit_rows import stability_rows
-    from experiments.runs.steppers import all_steppers
+    from experiments.runs.steppers import steppers_here
 
-    known = [s.name for s in all_steppers().values() if s.kind not in ("lecture", "pendulum")]
+    known = [s.name for s in steppers_here().values() if s.kind not in ("lecture", "pendulum")]
     system = setup_of(scene, None, None, (), parameters).system
     return Stability(tuple(stability_rows(system, steppers_of(steppers or known), lambda _: None)))
 
