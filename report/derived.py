@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
+from reference.errors import InputError
+
 if TYPE_CHECKING:
     from reference.derivation.consequences import Consequences, Windows
     from reference.derivation.explanation import Explanation
@@ -56,8 +58,6 @@ def tableau_lines(explanation: Explanation) -> list[str]:
 
 def name_line(explanation: Explanation) -> str:
     """What it is: its name, or that it has none, and what it is then."""
-    from reference.schemes import catalogue
-
     found = explanation.identification
     if found.identified_as == explanation.stepper:
         ties = f"; on the string it was run on it cannot be told from {', '.join(found.ties)}" if found.ties else ""
@@ -67,12 +67,23 @@ def name_line(explanation: Explanation) -> str:
     if not found.ranking:
         return f"{explanation.stepper} cannot be told: {found.reason}"
     words = f"{explanation.stepper} is not in the catalogue"
-    if explanation.stepper in {**catalogue.schemes(), **catalogue.wide_schemes()}:
+    if _in_catalogue(explanation.stepper):
         words = f"{explanation.stepper} is in the catalogue by this name, but its motion was not identified"
     if explanation.tableau is not None:
         kind = "an explicit" if explanation.tableau.explicit else "an implicit"
         words += f": {kind} Runge-Kutta method of {explanation.tableau.stages} stages and order {explanation.order}"
     return words + (f"; {explanation.nearest}" if explanation.nearest else "")
+
+
+def _in_catalogue(name: str) -> bool:
+    """Whether a scheme can be asked for by that name, solvers and names with parameters included."""
+    from reference.stepper import stepper_named
+
+    try:
+        stepper_named(name)
+    except InputError:
+        return False
+    return True
 
 
 def property_lines(explanation: Explanation) -> Iterator[str]:
