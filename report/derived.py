@@ -72,7 +72,9 @@ def name_line(explanation: Explanation) -> str:
     if explanation.tableau is not None:
         kind = "an explicit" if explanation.tableau.explicit else "an implicit"
         words += f": {kind} Runge-Kutta method of {explanation.tableau.stages} stages and order {explanation.order}"
-    return words + (f"; {explanation.nearest}" if explanation.nearest else "")
+    # beside a nearest one by motion, which is among the reasons
+    by = "" if explanation.nearest.startswith("its ") else "nearest by coefficients: "
+    return words + (f"; {by}{explanation.nearest}" if explanation.nearest else "")
 
 
 def _in_catalogue(name: str) -> bool:

@@ -34,7 +34,7 @@ MASSES, DT, STEPS, DAMPING, DRAG = 4, 2e-3, 60, 2.0, 0.1
 SMALL = 1e-6
 
 #: What is said of a step that brings what is at rest elsewhere, its position and velocity exchanged.
-SWAPPED = "no step matrix: velocity stands where position is: are they returned in the other order?"
+SWAPPED = "no step matrix: velocity stands where position is, as if they were returned in the other order"
 
 #: Of one whose matrix is another at another h.
 ONLY_AT = f"h stands in its step matrix by itself, beside a, b and d: it is this at h = {OSCILLATOR_DT:g} s only"
@@ -200,7 +200,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     identification = _identified(stepper, damped, dragged)
     nearest = ""
     if identification.identified_as is None:
-        reasons.append(f"not identified: {identification.reason}")
+        reasons.append(f"not identified by its motion: {identification.reason}")
         nearest = nearest_known(tableau, updates, None if past is not None and past.one_step is False else matrix)
         if nearest.startswith(SAME_TABLEAU):
             reasons.append(CONTRADICTION)

@@ -47,6 +47,11 @@ def test_bad_input_is_one_line() -> None:
     assert (said.code, said.err.strip()) == (2, "springlab: unknown stepper 'huen': did you mean 'heun'?")
 
 
+def test_a_solver_is_in_the_catalogue() -> None:
+    """It is found by its name, so it is not said to be a stranger."""
+    assert "is in the catalogue" in springlab("explain", "vertex_block_descent").out
+
+
 def test_a_file_of_the_users_own_is_explained(tmp_path: Path) -> None:
     """Heun with weights 2/3 and 1/3: no name, and the mistake in numbers."""
     file = tmp_path / "mine.py"
