@@ -128,7 +128,7 @@ class Engine(Protocol):
     def identified_as(self) -> Mapping[str, str]:
         """The scheme it claims to step by: "plain", with "damping" of the springs, with "drag".
 
-        By its name in the catalogue, with parameters where they are not the scheme's own: sweeps(rounds=3).
+        By its name in the catalogue, with parameters where they are not the scheme's own: xpbd_jacobi(iterations=3).
         """
 
     @property

@@ -103,7 +103,7 @@ def wide_catalogue() -> Mapping[str, SchemeStepper]:
 
 
 def stepper_named(name: str) -> SchemeStepper:
-    """The catalogued stepper of a name, which may be an alias or have parameters: sweeps(rounds=3).
+    """The catalogued stepper of a name, which may be an alias or have parameters: xpbd_jacobi(iterations=3).
 
     Raises:
         InputError: with a suggestion, where there is none; for a parameter that its scheme does not have.

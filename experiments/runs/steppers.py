@@ -54,7 +54,7 @@ def _scheme_named(name: str, known: Iterable[str]) -> Stepper:
 
 
 def find_steppers(names: Iterable[str]) -> list[Stepper]:
-    """The steppers of these names; of schemes also aliases, parameters, as in sweeps(rounds=3), and solvers.
+    """The steppers of these names; of schemes also aliases, parameters, as in xpbd_jacobi(iterations=3), and solvers.
 
     A name may be a file of the user's own, FILE.py, FILE.py:FUNCTION or FILE.c (`engines.own`). What such a file does
     that a step should not is among `cache.remarks`.

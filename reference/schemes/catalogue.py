@@ -86,7 +86,7 @@ class Scheme:
 
     @cached_property
     def name(self) -> str:
-        """The function's name, and the parameters that are not as it has them: sweeps(rounds=3)."""
+        """The function's name, and the parameters that are not as it has them: xpbd_jacobi(iterations=3)."""
         words = ", ".join(f"{name}={value}" for name, value in self.given)
         return f"{self.step.__name__}({words})" if words else self.step.__name__
 
@@ -229,7 +229,7 @@ def aliases() -> Mapping[str, Scheme]:
 
 
 def find(name: str) -> Scheme:
-    """The scheme of that name, an alias, or a name with parameters: sweeps(rounds=3).
+    """The scheme of that name, an alias, or a name with parameters: xpbd_jacobi(iterations=3).
 
     Raises:
         InputError: with a suggestion, where there is none; for a parameter it does not have.
@@ -237,7 +237,9 @@ def find(name: str) -> Scheme:
     known = {**_SCHEMES.all(), **aliases()}
     parts = re.fullmatch(r"([^(]*)(?:\((.*)\))?", name, re.S)
     if parts is None:
-        raise InputError(f"scheme {name!r}: expected a name, or a name with parameters, as in sweeps(rounds=3)")
+        raise InputError(
+            f"scheme {name!r}: expected a name, or a name with parameters, as in xpbd_jacobi(iterations=3)"
+        )
     base, parameters = parts.groups()
     if base not in known:
         raise unknown_name("scheme", base, known)

@@ -57,7 +57,7 @@ def checked(names: Sequence[str]) -> tuple[str, ...]:
     """The names of steppers, if they are known and not too many.
 
     Args:
-        names: of engines; of schemes, which may be aliases, or have parameters: sweeps(rounds=3).
+        names: of engines; of schemes, which may be aliases, or have parameters: xpbd_jacobi(iterations=3).
 
     Raises:
         InputError: for an unknown name, no name, or too many; for a parameter that a scheme does not have.
