@@ -17,6 +17,9 @@ from experiments.exercises.naming import SINGLE
 from tests.experiments.exercises import here
 from tests.experiments.exercises.corpus import solution, wrong
 
+#: What they are warned of (np.matrix, for one) ends nothing in the sandbox, and here neither.
+pytestmark = pytest.mark.filterwarnings("ignore")
+
 BLIND = Path(__file__).parent / "blind"
 
 #: By file: whether it is right, and what it is in the words of who wrote it.
