@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from engines.translation.program import ELONGATION, written
 from engines.translation.translation import Settings, Spring, Stepping, Translation, newtons
-from reference.errors import Unsupported
+from reference.errors import InputError, Unsupported
 from reference.system import MassSpringSystem
 
 
@@ -138,6 +138,11 @@ def solref_meaning(typed: Settings, masses: Spring, stepping: Stepping) -> Sprin
     mass = masses.effective_mass
     if first <= 0 and second <= 0:
         return replace(masses, stiffness=-first * mass, damping=-second * mass)
+    if first <= 0 or second <= 0:
+        raise InputError(
+            f"solref = {first:g},{second:g}: expected a time constant and a damping ratio > 0, or minus a stiffness "
+            "and minus a damping, both <= 0; of other numbers MuJoCo takes its own"
+        )
     constant = max(first, 2 * stepping.dt)
     return replace(masses, stiffness=mass / (constant * second) ** 2, damping=2 * mass / constant)
 

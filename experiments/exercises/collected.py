@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 import zipfile
+import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from datetime import datetime
@@ -17,8 +18,8 @@ from pathlib import Path, PurePosixPath
 from experiments.exercises.submission import LARGEST, SUFFIXES
 from reference.errors import InputError
 
-#: How many files are taken out of a zip at most.
-MOST_FILES = 10_000
+#: How many files a zip may have, and how much [bytes] is taken out of it at most.
+MOST_FILES, MOST_BYTES = 10_000, 2**28
 
 MOODLE = re.compile(r"^(?P<name>.+?)_(?P<id>\d+)_assignsubmission_\w+$")
 BRIGHTSPACE = re.compile(r"^(?P<id>\d+-\d+) - (?P<name>.+?) - .+$")
@@ -76,7 +77,7 @@ def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
         if path.suffix.lower() == ".zip":
             # the whole class in one zip has students inside; a student's own zip is the student's
             prefix = "" if path == folder else f"{PurePosixPath(name).with_suffix('')}/"
-            found += _out_of_zip(path, prefix, unpacked / f"zip{len(found)}")
+            found += _of_zip(path, name, prefix, unpacked / f"zip{len(found)}")
         elif path.suffix.lower() in SUFFIXES:
             found.append(HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime)))
     if not found:
@@ -84,19 +85,38 @@ def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
     return found
 
 
+def _of_zip(path: Path, name: str, prefix: str, into: Path) -> list[HandedIn]:
+    """What is in a zip. A student's own that cannot be read, or has no program in it, stands for itself: it is told."""
+    try:
+        inside = list(_out_of_zip(path, prefix, into))
+    except InputError:
+        if not prefix:
+            raise
+        inside = []
+    if inside or not prefix:
+        return inside
+    return [HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime))]
+
+
 def _out_of_zip(path: Path, prefix: str, into: Path) -> Iterator[HandedIn]:
     """The programs and notebooks of a zip; whatever leads out of it, or is too large, is left."""
     try:
         with zipfile.ZipFile(path) as archive:
-            for i, entry in enumerate(archive.infolist()[:MOST_FILES]):
+            taken = 0
+            if len(archive.infolist()) > MOST_FILES:
+                raise ValueError(f"it has more than {MOST_FILES} files")
+            for i, entry in enumerate(archive.infolist()):
                 inside = PurePosixPath(entry.filename.replace("\\", "/"))
                 hidden = any(part.startswith((".", "__")) for part in inside.parts) or inside.is_absolute()
                 if hidden or inside.suffix.lower() not in SUFFIXES or entry.file_size > LARGEST:
                     continue
+                taken += entry.file_size
+                if taken > MOST_BYTES:
+                    raise ValueError(f"its programs have more than {MOST_BYTES} bytes")
                 file = into / f"{i}{inside.suffix.lower()}"
                 file.parent.mkdir(parents=True, exist_ok=True)
                 file.write_bytes(archive.read(entry))
                 name = f"{prefix}{inside}"
                 yield HandedIn(file, name, student_of(name), datetime(*entry.date_time))
-    except (zipfile.BadZipFile, RuntimeError, NotImplementedError, ValueError) as error:
+    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, ValueError) as error:
         raise InputError(f"{path}: expected a zip that can be read: {error}") from None

@@ -84,6 +84,8 @@ def source_of(path: Path, name: str) -> str:
     """The text of a program, or that of a notebook's code cells. Raises InputError where there is none."""
     if path.is_symlink() or not path.is_file():
         raise InputError(f"{name}: expected a file")
+    if path.suffix.lower() == ".zip":
+        raise InputError(f"{name}: expected a Python file or a notebook, or a zip of such that can be read")
     if path.stat().st_size > LARGEST:
         raise InputError(f"{name} has {path.stat().st_size} bytes: expected at most {LARGEST}")
     text = decoded(path.read_bytes(), name)

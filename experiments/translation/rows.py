@@ -86,8 +86,11 @@ def backward(
     whole = translation.typed(typed)
     try:
         spring = translation.meaning(whole, masses, stepping)
-    except (Unsupported, ZeroDivisionError) as error:
+    except Unsupported as error:
         raise InputError(f"{translation.name}: {error}") from None
+    except ZeroDivisionError:
+        zero = ", ".join(f"{field} = 0" for field, value in typed.items() if value == 0)
+        raise InputError(f"{translation.name}: {zero}: expected a number that is not zero") from None
     return row_of(translation, whole, spring, stepping, measure)
 
 

@@ -44,15 +44,11 @@ def translate_command(
     predict: bool,
     as_json: bool,
 ) -> None:
-    r"""Say what to type into engines for a spring of k and c, or for the springs of SCENE; with --from, the reverse.
+    """Say what to type into engines for a spring of k and c, or for the springs of SCENE; with --from, the reverse.
 
     Of each: the stiffness and damping that it really has at this dt, predicted from the matrix of its step, and
     measured by a run of the snippet where the engine is installed; the largest stable dt, for the spring alone.
-
-    \b
-    springlab translate --stiffness 200 --damping 0.5 --mass 0.2 --dt 0.004
-    springlab translate cloth --engine pymunk
-    springlab translate --from box2d hertz=4 damping_ratio=0.7
+    As in: springlab translate --from box2d hertz=4 damping_ratio=0.7
     """
     from engines.translation.translation import Stepping, find
 

@@ -173,6 +173,32 @@ def test_students_get_their_findings_back_and_not_the_change(a_class: Path, tmp_
     assert any(eve["words"] in text for text in told.values())
 
 
+def test_a_students_zip_that_cannot_be_read_is_a_row_of_the_student(a_class: Path, tmp_path: Path) -> None:
+    """Damaged inside, with programs outside of it only, dated on no day: nobody else goes without a mark."""
+    with zipfile.ZipFile(a_class / "damaged.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("euler.py", RIGHT)
+    whole = bytearray((a_class / "damaged.zip").read_bytes())
+    whole[40:50] = b"\xff" * 10
+    (a_class / "damaged.zip").write_bytes(whole)
+    with zipfile.ZipFile(a_class / "outside.zip", "w") as archive:
+        archive.writestr("../euler.py", RIGHT)
+    with zipfile.ZipFile(a_class / "undated.zip", "w") as archive:
+        archive.writestr(zipfile.ZipInfo("euler.py", (1980, 0, 0, 0, 0, 0)), RIGHT)
+    book = booked(a_class, tmp_path)
+    for student in ("damaged", "outside", "undated"):
+        assert book[student]["finding"] == "not_a_submission"
+    assert book["Bob Noyce"]["outcome"] == "right"
+
+
+def test_a_zip_of_too_much_is_not_unpacked(a_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither of too many files nor of too many bytes; of a class in one zip that is an error."""
+    for name, limit in (("MOST_FILES", 1), ("MOST_BYTES", 10)):
+        with monkeypatch.context() as patched:
+            patched.setattr(collected, name, limit)
+            with pytest.raises(InputError, match=r"eve\.zip"):
+                collect(a_class / "eve.zip", tmp_path / name)
+
+
 def test_what_cannot_be_opened_is_refused(tmp_path: Path) -> None:
     """Nothing there, nothing in it, no zip."""
     (tmp_path / "empty").mkdir()

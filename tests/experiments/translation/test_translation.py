@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,7 @@ from engines.translation.translation import Settings, Spring, Stepping, find, tr
 from experiments.translation.measured import spring_of_elongations
 from experiments.translation.oscillation import largest_stable_dt, spring_of_step, step_matrix
 from experiments.translation.rows import Row, backward, forward
+from reference.errors import InputError
 
 #: An engine, k [N/m], c [N s/m], m [kg], the other m, dt [s], sub-steps.
 FORWARD: list[tuple[str, float, float, float, float | None, float, int | None]] = [
@@ -147,3 +150,20 @@ def test_elongations_of_a_known_oscillation_give_its_spring() -> None:
     assert found == pytest.approx((2 * (81 + 1.5**2), 6.0), rel=1e-6)
     assert spring_of_elongations(0.1 * np.exp(3 * t), Spring(81.0, 0.0, 2.0), 0.01) is None
     assert spring_of_elongations(0.1 * 1e-9**t, Spring(1.0, 0.0, 2.0), 0.5) is None
+
+
+@pytest.mark.parametrize(
+    ("engine", "typed", "said"),
+    [
+        ("mujoco_solref", {"solref_0": -5.0, "solref_1": 1.0}, "solref = -5,1"),
+        ("mujoco_solref", {"solref_0": 5.0, "solref_1": -1.0}, "solref = 5,-1"),
+        ("mujoco_solref", {"solref_0": 0.02, "solref_1": 0.0}, "solref = 0.02,0"),
+        ("xpbd", {"compliance": 0.0}, "compliance = 0:"),
+    ],
+)
+def test_numbers_that_are_no_spring_are_named_as_they_were_typed(
+    engine: str, typed: dict[str, float], said: str
+) -> None:
+    """MuJoCo takes numbers of its own for a pair of mixed signs; no compliance is a rod."""
+    with pytest.raises(InputError, match=re.escape(said)):
+        backward(find(engine), typed, Spring(1.0, 0.0, 1.0), Stepping(0.002), measure=False)
