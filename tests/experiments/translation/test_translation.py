@@ -153,7 +153,7 @@ def test_elongations_of_a_known_oscillation_give_its_spring() -> None:
 
 
 @pytest.mark.parametrize(
-    ("engine", "typed", "said"),
+    ("name", "typed", "said"),
     [
         ("mujoco_solref", {"solref_0": -5.0, "solref_1": 1.0}, "solref = -5,1"),
         ("mujoco_solref", {"solref_0": 5.0, "solref_1": -1.0}, "solref = 5,-1"),
@@ -161,9 +161,7 @@ def test_elongations_of_a_known_oscillation_give_its_spring() -> None:
         ("xpbd", {"compliance": 0.0}, "compliance = 0:"),
     ],
 )
-def test_numbers_that_are_no_spring_are_named_as_they_were_typed(
-    engine: str, typed: dict[str, float], said: str
-) -> None:
+def test_numbers_that_are_no_spring_are_named_as_they_were_typed(name: str, typed: dict[str, float], said: str) -> None:
     """MuJoCo takes numbers of its own for a pair of mixed signs; no compliance is a rod."""
     with pytest.raises(InputError, match=re.escape(said)):
-        backward(find(engine), typed, Spring(1.0, 0.0, 1.0), Stepping(0.002), measure=False)
+        backward(find(name), typed, Spring(1.0, 0.0, 1.0), Stepping(0.002), measure=False)
