@@ -38,9 +38,9 @@ def draw(explanation: Explanation, stepper: Stepper) -> Picture:
     widest = _extent(follows.imaginary_axis)
     highest = _extent(follows.real_axis) if follows.real_axis is not None else 1.0
     w, damping = np.meshgrid(np.linspace(0, widest, FINE), np.linspace(0, highest, FINE))
-    stable = _growth(matrix.at(w**2, *_damped(damping, across))) <= NONE
-    axes.contourf(w, damping, stable, levels=[0.5, 1.5], colors=[COLOURS[5]], alpha=0.5)
-    axes.contour(w, damping, stable, levels=[0.5], colors=[COLOURS[6]], linewidths=1.6)
+    growth = _growth(matrix.at(w**2, *_damped(damping, across)))
+    axes.contourf(w, damping, growth, levels=[-2, NONE], colors=[COLOURS[5]], alpha=0.5)
+    axes.contour(w, damping, growth, levels=[NONE], colors=[COLOURS[6]], linewidths=1.6)
     some = [(np.arange(COARSE) + 0.5) / COARSE * most for most in (widest, highest)]
     x, y = (values.ravel() for values in np.meshgrid(*some))
     y = y if matrix.damped or matrix.dragged else 0 * y
@@ -55,7 +55,7 @@ def draw(explanation: Explanation, stepper: Stepper) -> Picture:
     odd = int((grows != (_growth(matrix.at(x**2, *_damped(y, across))) > NONE)).sum())
     return Picture(
         figure,
-        f"Stability region of {explanation.stepper}: derived, {stable.mean():.0%} of the plane of h w up to "
+        f"Stability region of {explanation.stepper}: derived, {(growth <= NONE).mean():.0%} of the plane of h w up to "
         f"{widest:.3g} and h {letter}/m up to {highest:.3g}; of {len(x)} measured steps {len(x) - odd} agree with it.",
     )
 
