@@ -48,10 +48,16 @@ function drawPlots() {
   const within = value => Math.max(-20 * given, Math.min(20 * given, value));
   const most = Math.max(...changes.map(value => Math.abs(within(value))), 1e-3 * given, 1e-12);
   plot("energy", {lines: lab.lanes.map((lane, k) => ({k, points: rows.map(row => [row.time, row.energy[k] - first])})), low: -most, high: most, from: 0, to, unit: "J", axis: "s"});
+  document.getElementById("apart").parentElement.hidden = lab.lanes.length === 1;
+  if (lab.lanes.length > 1) drawDistances(rows, to);
+  drawGrowth();
+}
+
+// How far each lane is from the first, on a logarithmic scale.
+function drawDistances(rows, to) {
   const size = Math.max(view.width, view.height) / 2.5, distances = rows.flatMap(row => row.apart).filter(value => value > 0 && Number.isFinite(value));
   const least = Math.max(1e-16, Math.min(...distances, size)), largest = Math.min(Math.max(...distances, 10 * least), 1e3 * size);
   plot("apart", {lines: lab.lanes.map((lane, k) => ({k, points: k ? rows.filter(row => row.apart[k] > 0).map(row => [row.time, row.apart[k]]) : []})), low: least, high: largest, logarithmic: true, from: 0, to, unit: "m", axis: "s"});
-  drawGrowth();
 }
 
 // By what the fastest mode is multiplied in a step, by dt, for each lane's scheme; dt and the limits are marked.

@@ -10,6 +10,7 @@ const view = {yaw: 0.5, pitch: 0.35, scale: 1, centre: [0, 0, 0], zoom: 1, boxes
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 const colourOf = k => COLOURS[isDark() ? "dark" : "light"][k % 4];
 const ink = () => getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
+const sheet = () => getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
 const soft = () => getComputedStyle(document.documentElement).getPropertyValue("--soft").trim();
 
 // Where a place is seen from the camera [m]: right, up, and how near.
@@ -90,13 +91,15 @@ function draw() {
   drawNames();
 }
 
-// Who is who, with the marker of each.
+// Who is who, with the marker of each, on paper of its own: springs that blow up go everywhere.
 function drawNames() {
   paper.font = "14px system-ui, sans-serif"; paper.textAlign = "left"; paper.textBaseline = "middle";
   lab.lanes.forEach((lane, k) => {
     const [left, top] = view.boxes[k], y = top + 16 + (lab.beside ? 0 : 20 * k);
+    const name = nameOf(lane) + (lane.world.blownUp ? " ✕" : "");
+    paper.fillStyle = sheet(); paper.fillRect(left + 5, y - 10, 26 + paper.measureText(name).width, 20);
     paper.fillStyle = colourOf(k); drawMarker(paper, k, left + 14, y, 5);
-    paper.fillStyle = lane.world.blownUp ? soft() : ink(); paper.fillText(nameOf(lane) + (lane.world.blownUp ? " ✕" : ""), left + 26, y);
+    paper.fillStyle = lane.world.blownUp ? soft() : ink(); paper.fillText(name, left + 26, y);
   });
 }
 

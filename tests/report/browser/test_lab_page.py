@@ -72,6 +72,15 @@ def test_it_is_shown_without_a_request_or_a_complaint(browser: Any, file: Path, 
     shown.page.close()
 
 
+def test_one_lane_has_no_plot_of_distances(browser: Any, file: Path) -> None:
+    """There is nothing it could be far from: with a second lane the plot is there."""
+    for schemes, there in (("rk4", False), ("rk4,euler", True)):
+        shown = opened(browser, file, f"s=oscillator&w={schemes}")
+        assert shown.page.is_visible("#apart") == there
+        assert shown.page.is_visible("#energy")
+        shown.page.close()
+
+
 def test_chromium_ends_in_the_reference_s_bits(browser: Any, file: Path) -> None:
     """As Node does (`test_bits`): a few random systems by two schemes."""
     shown = opened(browser, file)
