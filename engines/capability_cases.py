@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from reference.collisions import Collisions
-from reference.nonlinear import NonlinearSprings
+from reference.collisions.round_masses import Collisions
 from reference.obstacles import Box, Circle, Cylinder, Plane, Sphere
 from reference.scenes import find
+from reference.springs.kinds import NonlinearSprings
 from reference.state import Array
 from reference.system import MassSpringSystem
 

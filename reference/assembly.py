@@ -16,8 +16,8 @@ import numpy as np
 from reference.errors import SolverError
 from reference.jit import compiled
 from reference.lengths import divisors
-from reference.nonlinear_law import damping_at, secant_stiffness, stretches, tangent_stiffness
-from reference.spring_law import force_by_rate, spring_force
+from reference.springs.linear_law import force_by_rate, spring_force
+from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches, tangent_stiffness
 from reference.state import Array, State
 from reference.system import BoolArray, IntArray, MassSpringSystem
 

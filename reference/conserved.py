@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.nonlinear_law import energy_of_springs
+from reference.springs.nonlinear_law import energy_of_springs
 from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 

@@ -1,11 +1,11 @@
 """The forces on a mesh of springs, and so its equations of motion: the lecture's slides 4-5 and 9-10, on any mesh.
 
-A spring pulls the two masses it joins together with the force that the law of a spring gives (`spring_law`), and a mass
-feels its springs, its weight m g, the drag -Cd v, and what pulls on it besides. Every spring is computed once; then
-each mass sums the forces of its own springs in their order. A mass alone (`acceleration_of`) is given exactly the bits
-it has within the whole. A spring of no length, which has no direction, gives forces that are not numbers, and so a run
-that diverges, unless its rest length is zero, too: then it has no force. A spring that is not linear (`nonlinear_law`)
-has at every state the stiffness and damping that make its force there.
+A spring pulls the two masses it joins together with the force that the law of a spring gives (`springs.linear_law`),
+and a mass feels its springs, its weight m g, the drag -Cd v, and what pulls on it besides. Every spring is computed
+once; then each mass sums the forces of its own springs in their order. A mass alone (`acceleration_of`) is given
+exactly the bits it has within the whole. A spring of no length, which has no direction, gives forces that are not
+numbers, and so a run that diverges, unless its rest length is zero, too: then it has no force. A spring that is not
+linear (`springs.nonlinear_law`) has at every state the stiffness and damping that make its force there.
 
 The functions at the top are compiled (`jit`): they are loops over numbers.
 """
@@ -16,8 +16,8 @@ import numpy as np
 
 from reference.assembly import Blocks, spring_blocks
 from reference.jit import array, compiled
-from reference.nonlinear_law import damping_at, secant_stiffness, stretches
-from reference.spring_law import spring_force
+from reference.springs.linear_law import spring_force
+from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches
 from reference.state import Array, Slope, State, Trajectory
 from reference.system import BoolArray, IntArray, MassSpringSystem
 

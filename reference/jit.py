@@ -54,7 +54,7 @@ def text_of(function: Callable[..., Any], kinds: Mapping[str, str] | None = None
     Args:
         kinds: see `compiled`.
 
-    >>> from reference.spring_law import spring_force
+    >>> from reference.springs.linear_law import spring_force
     >>> print(text_of(spring_force))
     @njit(cache=True, error_model='numpy')
     def spring_force(stiffness, stretch, damping, rate):

@@ -11,8 +11,8 @@ import numpy as np
 
 from reference.changes import Change
 from reference.lengths import lengths, spring_lengths
-from reference.nonlinear_law import energy_of_springs
 from reference.pulls import is_pull, place_of_pull
+from reference.springs.nonlinear_law import energy_of_springs
 from reference.state import Array, Trajectory
 from reference.system import BREAK, FIELDS, BoolArray, MassSpringSystem
 

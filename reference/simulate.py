@@ -6,14 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reference.breaking import after_breaking
 from reference.changes import Change, applied, changes_by_step, whole_steps
-from reference.colliding import collide
+from reference.collisions.impacts import collide
 from reference.compiled.in_place import step_of
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf
 from reference.obstacles import project_out
 from reference.schemes.catalogue import Scheme
+from reference.springs.breaking import after_breaking
 from reference.state import State, Trajectory
 from reference.system import MassSpringSystem
 

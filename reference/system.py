@@ -15,11 +15,11 @@ from reference.checked_numbers import LARGEST, SMALLEST, check_sizes, finite, in
 from reference.checked_springs import BoolArray as BoolArray
 from reference.checked_springs import IntArray as IntArray
 from reference.checked_springs import checked_springs, refuse_together
-from reference.collisions import Collisions
+from reference.collisions.round_masses import Collisions
 from reference.errors import InputError, unknown_name
-from reference.nonlinear import NonlinearSprings
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.pulls import PULL, UNIT, is_pull, place_of_pull
+from reference.springs.kinds import NonlinearSprings
 from reference.state import Array, State
 
 T = TypeVar("T")

@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from engines.engine import CAPABILITIES, COLLISIONS, OBSTACLES, changed, refuse_beyond
-from reference.nonlinear_law import damping_at, secant_stiffness
+from reference.springs.nonlinear_law import damping_at, secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 

@@ -15,11 +15,11 @@ from engines.process.available import interpreter
 from engines.process.packages import APART
 from engines.process.supervisor import supervisor
 from engines.process.worker_main import one_line
-from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step
 from reference.errors import Fault, InputError, Unsupported
 from reference.outcome import Outcome, outcome_of
 from reference.scenes import find
+from reference.springs.breaking import breaking
 from reference.state import State, Trajectory
 from reference.system import BREAK, HELD, MassSpringSystem
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from engines.engine import COLLISIONS, LAWS, Unsupported, changed, refuse_beyond
 from engines.pymunk.obstacles import add_balls, add_obstacles
-from reference.nonlinear_law import secant_stiffness
+from reference.springs.nonlinear_law import secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 

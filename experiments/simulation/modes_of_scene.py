@@ -11,8 +11,8 @@ import numpy as np
 from experiments.runs.comparison import finite
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
-from reference.breaking import tensions
 from reference.scenes import Setup
+from reference.springs.breaking import tensions
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper
 from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium

@@ -15,11 +15,11 @@ from experiments.runs.progress import Progress
 from experiments.runs.room import check_room
 from experiments.runs.side_by_side import side_by_side
 from experiments.simulation.spring_state import spring_frames
-from reference.breaking import breaks_of, tensions
 from reference.changes import Change
 from reference.conserved import energy_parts, momentum
 from reference.outcome import Outcome, first_blown_up_frame
 from reference.scenes import Setup
+from reference.springs.breaking import breaks_of, tensions
 from reference.state import Array, State, Trajectory
 from reference.stepper import SchemeStepper, Stepper
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.breaking import tensions
 from reference.conserved import energy_parts
-from reference.nonlinear_law import stretches
 from reference.scenes import Setup
+from reference.springs.breaking import tensions
+from reference.springs.nonlinear_law import stretches
 from reference.state import Array, State, Trajectory
 from reference.system import BREAK, MassSpringSystem
 

@@ -40,7 +40,7 @@ from reference.forces import SpringMotion, acceleration_of_mass, force_of_spring
 from reference.jit import HEADER, module, text_of
 from reference.motion import Equations
 from reference.schemes.catalogue import Scheme
-from reference.spring_law import spring_force
+from reference.springs.linear_law import spring_force
 from reference.state import State
 from reference.system import MassSpringSystem
 

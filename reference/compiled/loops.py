@@ -51,7 +51,7 @@ from dataclasses import dataclass
 from reference.compiled.expressions import Expression
 from reference.compiled.tracing import ObstacleProgram, Place, Program
 from reference.jit import HEADER, text_of
-from reference.spring_law import spring_force
+from reference.springs.linear_law import spring_force
 
 #: How many systems the innermost loop advances at once, where it advances many.
 LANES = 16

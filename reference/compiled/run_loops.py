@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 from reference.compiled.loops import Loops, indented
 from reference.jit import HEADER, text_of
-from reference.spring_law import spring_force
+from reference.springs.linear_law import spring_force
 
 #: How many terms of a sum are added at a time.
 TERMS = 4

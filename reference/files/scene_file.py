@@ -50,8 +50,8 @@ the start.
 
 [system] and [mesh] may say of springs, one number for all or one for each, what is not linear about them: hardening,
 largest_force, breaking_force, breaking_stretch; and tension_only or compression_only, which is true of all or of those
-whose numbers are given (`reference.nonlinear`). And of masses that collide with one another their radii, and the
-restitution (`reference.collisions`). A named scene has all of them among its [parameters].
+whose numbers are given (`reference.springs.kinds`). And of masses that collide with one another their radii, and the
+restitution (`reference.collisions.round_masses`). A named scene has all of them among its [parameters].
 """
 
 from __future__ import annotations
@@ -66,18 +66,18 @@ import msgspec
 import numpy as np
 
 from reference.changes import Change, Drive, Driven
-from reference.collisions import Collisions
+from reference.collisions.round_masses import Collisions
 from reference.drives import Ramp, Sine
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
 from reference.files.pull_tables import PullTable, pulls_of
 from reference.files.regular_file import check_file
 from reference.files.toml_message import plain
-from reference.nonlinear import KINDS, ONE_SIDED, NonlinearSprings
 from reference.obstacles import KINDS as OBSTACLES
 from reference.obstacles import Obstacle, obstacle_of
 from reference.scenes import Setup, find
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law, read_record
+from reference.springs.kinds import KINDS, ONE_SIDED, NonlinearSprings
 from reference.system import MassSpringSystem
 
 #: A file may be so large [bytes]: of larger systems only the mesh file is.

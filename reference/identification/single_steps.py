@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from reference.breaking import breaks_of
 from reference.changes import Change, changes_by_step
 from reference.errors import InputError, SolverError, Unsupported
 from reference.identification.ranking import ranked, tells_velocities
@@ -20,6 +19,7 @@ from reference.identification.result import Identification, Match
 from reference.identification.scale import ROUNDING, Precision, fastest_rate_bound, scale
 from reference.motion import Equations
 from reference.simulate import projected
+from reference.springs.breaking import breaks_of
 from reference.state import State, Trajectory
 from reference.stepper import SchemeStepper
 from reference.system import BoolArray, MassSpringSystem

@@ -16,11 +16,11 @@ import numpy as np
 
 from reference.changes import Change, Driven, changes_by_step, whole_steps
 from reference.checked_numbers import check_sizes
-from reference.collisions import Collisions
+from reference.collisions.round_masses import Collisions
 from reference.errors import InputError, unknown_name
-from reference.nonlinear import KINDS, with_kinds
 from reference.registry import Registry, origin, plug_ins
 from reference.scenes.parameters import PerItem, chosen, converted
+from reference.springs.kinds import KINDS, with_kinds
 from reference.system import ABOVE_ZERO, MassSpringSystem
 
 #: What masses that collide have, and all that every scene's parameters are besides its own.

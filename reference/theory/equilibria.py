@@ -8,13 +8,13 @@ from functools import cached_property
 
 import numpy as np
 
-from reference.breaking import breaking, tensions
 from reference.distance_constraints import RopeMotion
 from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.motion import Equations, EquationsOf
-from reference.nonlinear_law import tangent_system
 from reference.pendulum import PendulumMotion
+from reference.springs.breaking import breaking, tensions
+from reference.springs.nonlinear_law import tangent_system
 from reference.state import State
 from reference.system import BoolArray, MassSpringSystem
 from reference.theory.contacts import ContactLinearisation, Contacts

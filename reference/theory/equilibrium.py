@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from reference.errors import InputError, SolverError
-from reference.spring_law import stretch_under
+from reference.springs.linear_law import stretch_under
 from reference.state import State
 from reference.system import MassSpringSystem
 from reference.theory.least_energy import least_energy

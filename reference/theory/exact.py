@@ -11,11 +11,11 @@ from functools import partial
 import numpy as np
 import numpy.typing as npt
 
-from reference.breaking import breaking
 from reference.changes import Change, applied, changes_by_step
 from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.motion import EquationsOf, Motion
+from reference.springs.breaking import breaking
 from reference.state import Array, State, Trajectory
 from reference.system import BREAK, IntArray, MassSpringSystem
 
@@ -78,7 +78,7 @@ def exact(
     """The true trajectory at the times 0, dt, 2 dt, ..., to about 1e-11 of its size while it is not chaotic.
 
     A parameter that changes does so at the start of the step it acts on, as it does for every stepper, and a spring
-    breaks at the end of a step (`breaking`): the solver stops there and starts anew.
+    breaks at the end of a step (`springs.breaking`): the solver stops there and starts anew.
 
     Args:
         equations: what to make of the system; `pendulum.PendulumMotion` hangs rods in place of the springs.

@@ -21,7 +21,7 @@ from reference.assembly import Blocks, assemble, spring_blocks
 from reference.errors import SolverError
 from reference.forces import SpringMotion
 from reference.lengths import divisors
-from reference.nonlinear_law import energy_of_springs, secant_stiffness
+from reference.springs.nonlinear_law import energy_of_springs, secant_stiffness
 from reference.state import Array, State
 from reference.system import MassSpringSystem
 from reference.theory.inertia import negative_eigenvalues

@@ -21,7 +21,7 @@ from reference.errors import InputError, Unsupported
 from reference.jit import text_of
 from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.schemes.catalogue import Scheme, schemes
-from reference.spring_law import elastic_energy, force_by_rate, force_by_stretch, spring_force
+from reference.springs.linear_law import elastic_energy, force_by_rate, force_by_stretch, spring_force
 from reference.theory.keeps_to_surfaces import keeps_to_surfaces
 from reference.theory.runge_kutta import stability_polynomial
 from report.browser.javascript import Translation, definitions, of_expression, plain_function

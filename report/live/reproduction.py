@@ -16,7 +16,7 @@ import numpy as np
 
 from reference.changes import Change
 from reference.files.setup import is_file
-from reference.nonlinear import ONE_SIDED
+from reference.springs.kinds import ONE_SIDED
 from reference.state import State
 from reference.system import MassSpringSystem
 from report.live.segment import Segment

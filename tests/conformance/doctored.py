@@ -11,8 +11,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from engines.engine import CAPABILITIES, Unsupported, refuse_beyond
-from reference.nonlinear_law import secant_stiffness, stretches
 from reference.obstacles import project_out
+from reference.springs.nonlinear_law import secant_stiffness, stretches
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 

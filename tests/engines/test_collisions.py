@@ -7,7 +7,7 @@ import pytest
 
 from engines.engine import find, registry
 from engines.process.isolation import run_engine
-from reference.collisions import Collisions
+from reference.collisions.round_masses import Collisions
 from reference.stepper import stepper_named
 from reference.system import MassSpringSystem
 

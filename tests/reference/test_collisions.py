@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from reference.colliding import collide
-from reference.collisions import TREE_FROM, Collisions
+from reference.collisions.impacts import collide
+from reference.collisions.round_masses import TREE_FROM, Collisions
 from reference.compiled.kernels import advance
 from reference.conserved import energy, momentum
 from reference.errors import InputError, SolverError, Unsupported

@@ -24,9 +24,9 @@ from engines.pymunk.springs import PymunkSprings
 from experiments.runs import task as task_module
 from experiments.runs.task import Task, digest
 from reference.changes import Change
-from reference.collisions import Collisions
-from reference.nonlinear import NonlinearSprings
+from reference.collisions.round_masses import Collisions
 from reference.obstacles import Circle
+from reference.springs.kinds import NonlinearSprings
 from tests.experiments.runs import tasks
 from tests.experiments.runs.tasks import STRING, numbered, stepped
 from tests.reference.systems import property_test

@@ -9,8 +9,8 @@ import pytest
 
 from reference.errors import InputError
 from reference.files.scene_file import load
-from reference.nonlinear import NonlinearSprings
 from reference.scenes import find
+from reference.springs.kinds import NonlinearSprings
 
 #: Two springs.
 WRITTEN_OUT = """\

@@ -25,7 +25,7 @@ PLACES = {
         ("report/docs/start.md", "[a](../../README.md)", "[a](readme.md)"),
         ("report/docs/start.md", "[a](api.md)", "[a](api.md)"),
         ("report/docs/notebooks/first-look.ipynb", "[a](../start.md)", "[a](../start.md)"),
-        ("README.md", "[the law](reference/spring_law.py)", "the law (`reference/spring_law.py`)"),
+        ("README.md", "[the law](reference/springs/linear_law.py)", "the law (`reference/springs/linear_law.py`)"),
         ("README.md", "[a](#here) and [b](https://example.org)", "[a](#here) and [b](https://example.org)"),
     ],
 )

@@ -14,8 +14,8 @@ import numpy as np
 
 from reference.changes import Change, changes_by_step
 from reference.lengths import rates_of
-from reference.nonlinear_law import damping_at, secant_stiffness, stretches
-from reference.spring_law import spring_force
+from reference.springs.linear_law import spring_force
+from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches
 from reference.state import Array, State, Trajectory
 from reference.system import BREAK, IntArray, MassSpringSystem
 

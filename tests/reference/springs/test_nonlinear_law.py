@@ -10,17 +10,17 @@ import pytest
 from scipy.integrate import quad
 
 from reference.assembly import assemble, spring_blocks
-from reference.breaking import tensions
 from reference.compiled.in_place import step_of
 from reference.compiled.kernels import advance
 from reference.conserved import energies
 from reference.errors import InputError, SolverError, Unsupported
 from reference.forces import SpringMotion
-from reference.nonlinear import NonlinearSprings
-from reference.nonlinear_law import damping_at, energy_of_springs, secant_stiffness, tangent_stiffness
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
+from reference.springs.breaking import tensions
+from reference.springs.kinds import NonlinearSprings
+from reference.springs.nonlinear_law import damping_at, energy_of_springs, secant_stiffness, tangent_stiffness
 from reference.state import Array, State
 from reference.stepper import stepper_named
 from reference.system import MassSpringSystem

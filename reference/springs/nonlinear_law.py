@@ -1,4 +1,4 @@
-"""The law of springs that are not linear, for all springs of a system at once; of linear ones it is `spring_law` alone.
+"""The law of springs that are not linear, for all springs of a system at once; of linear ones it is `linear_law` alone.
 
 What a spring carries at rest is still (a stiffness) times (its stretch), of a stiffness that depends on the stretch:
 the secant stiffness. With the stretch s, k [N/m] and k3 [N/m^3]
@@ -20,8 +20,8 @@ import numpy as np
 
 from reference.errors import SolverError
 from reference.lengths import spring_lengths
-from reference.nonlinear import NonlinearSprings
-from reference.spring_law import elastic_energy, force_by_stretch
+from reference.springs.kinds import NonlinearSprings
+from reference.springs.linear_law import elastic_energy, force_by_stretch
 from reference.state import Array, State
 from reference.system import BoolArray, MassSpringSystem
 

@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reference import spring_law
+from reference.springs import linear_law
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 #: Another law, with a hardening term: force k (s + B s^3) + c rate, and all that follows from it.
 HARDENING = '''"""A law for a test: a spring that hardens."""
@@ -52,7 +52,7 @@ PROGRAM = """
 import json
 import sys
 import numpy as np
-from reference import spring_law
+from reference.springs import linear_law
 from reference.assembly import assemble, spring_blocks
 from reference.compiled.kernels import advance
 from reference.compiled.sweep import sweep
@@ -91,7 +91,7 @@ asked = {
     "cloth at rest": lambda: float(np.abs(SpringMotion(slack).acceleration(equilibrium(slack))).max()) / 9.81,
     "end": lambda: run.positions[-1].tolist(),
     "exact": lambda: exact(system, 1e-3, 50).positions[-1].tolist(),
-    "file": lambda: spring_law.__doc__,
+    "file": lambda: linear_law.__doc__,
 }
 print(json.dumps({name: asked[name]() for name in sys.argv[1:] or asked}))
 """
@@ -112,7 +112,7 @@ def answers(folder: Path, *names: str) -> dict[str, object]:
 def copy_with(law: str, folder: Path) -> Path:
     """A copy of the reference with another law of a spring."""
     shutil.copytree(ROOT / "reference", folder / "reference", ignore=shutil.ignore_patterns("__pycache__"))
-    (folder / "reference" / "spring_law.py").write_text(law, encoding="utf-8")
+    (folder / "reference" / "springs" / "linear_law.py").write_text(law, encoding="utf-8")
     return folder
 
 
@@ -132,7 +132,7 @@ def test_another_law_in_its_one_file_is_followed_everywhere(tmp_path: Path) -> N
     The hardening term moves masses by more than 0.01 mm in 0.05 s. Kernels of the law before are on this machine's
     disk, and are not taken.
     """
-    before = answers(copy_with((ROOT / "reference" / "spring_law.py").read_text(), tmp_path / "hooke"))
+    before = answers(copy_with((ROOT / "reference" / "springs" / "linear_law.py").read_text(), tmp_path / "hooke"))
     after = answers(copy_with(HARDENING, tmp_path / "hardening"))
     for found in (before, after):
         assert {"kernel", "sweep", "energy", "jacobian", "string at rest", "cloth at rest"} <= found.keys()
@@ -160,11 +160,11 @@ def test_a_law_whose_parts_do_not_belong_together_is_seen(tmp_path: Path, part: 
 def test_the_parts_of_the_law_belong_together() -> None:
     """F = dE/ds and its derivatives by differences, which of a linear force and a square are exact to rounding."""
     k, c, s, h = np.array([200.0, 3.0]), np.array([0.5, 2.0]), np.array([-0.02, 0.7]), 1e-4
-    energy, force, none = spring_law.elastic_energy, spring_law.spring_force, np.zeros(2)
+    energy, force, none = linear_law.elastic_energy, linear_law.spring_force, np.zeros(2)
     slope = (energy(k, s + h) - energy(k, s - h)) / (2 * h)
     assert force(k, s, c, none) == pytest.approx(slope, rel=1e-10)
     by_stretch = (force(k, s + h, c, none) - force(k, s - h, c, none)) / (2 * h)
-    assert spring_law.force_by_stretch(k, s) == pytest.approx(by_stretch, rel=1e-10)
+    assert linear_law.force_by_stretch(k, s) == pytest.approx(by_stretch, rel=1e-10)
     by_rate = (force(k, s, c, none + h) - force(k, s, c, none - h)) / (2 * h)
-    assert spring_law.force_by_rate(c) == pytest.approx(by_rate, rel=1e-10)
-    assert force(k, spring_law.stretch_under(k, np.array([2.0, 5.0])), c, none) == pytest.approx([2.0, 5.0])
+    assert linear_law.force_by_rate(c) == pytest.approx(by_rate, rel=1e-10)
+    assert force(k, linear_law.stretch_under(k, np.array([2.0, 5.0])), c, none) == pytest.approx([2.0, 5.0])

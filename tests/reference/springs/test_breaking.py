@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference.breaking import breaks_of, tensions
 from reference.changes import Change
 from reference.drives import Ramp
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
+from reference.springs.breaking import breaks_of, tensions
 from reference.state import Trajectory
 from reference.stepper import stepper_named
 from reference.system import BREAK, MassSpringSystem

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.collisions import ROUNDING, Collisions
+from reference.collisions.round_masses import ROUNDING, Collisions
 from reference.jit import array, compiled
 from reference.state import Array
 from reference.system import IntArray

@@ -1,4 +1,4 @@
-"""Which masses collide with one another, and how: what a system says of it. The rule is in `colliding`.
+"""Which masses collide with one another, and how: what a system says of it. The rule is in `impacts`.
 
 Needs NumPy only; of many masses SciPy finds the pairs.
 """
