@@ -67,7 +67,7 @@ def name_line(explanation: Explanation) -> str:
     if not found.ranking:
         return f"{explanation.stepper} cannot be told: {found.reason}"
     words = f"{explanation.stepper} is not in the catalogue"
-    if _in_catalogue(explanation.stepper):
+    if in_catalogue(explanation.stepper):
         words = f"{explanation.stepper} is in the catalogue by this name, but its motion was not identified"
     if explanation.tableau is not None:
         kind = "an explicit" if explanation.tableau.explicit else "an implicit"
@@ -77,7 +77,7 @@ def name_line(explanation: Explanation) -> str:
     return words + (f"; {by}{explanation.nearest}" if explanation.nearest else "")
 
 
-def _in_catalogue(name: str) -> bool:
+def in_catalogue(name: str) -> bool:
     """Whether a scheme can be asked for by that name, solvers and names with parameters included."""
     from reference.stepper import stepper_named
 
@@ -93,7 +93,7 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
     past = explanation.pasts
     if past is not None:
         if not past.deterministic:
-            yield "It is random: the same step twice is not the same"
+            yield "The same step twice is not the same"
         elif past.one_step is False:
             yield f"It remembers earlier steps: begun anew, a step is {past.apart:.2g} of the displacement off"
         else:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -13,7 +13,7 @@ import numpy as np
 
 from engines.engine import CAPABILITIES, COLLISIONS, LAWS, changed, refuse_beyond
 from engines.own import c_file, python_file
-from engines.own.forms import roles_of
+from engines.own.forms import EXPECTED, roles_of
 from engines.own.recorded import recording_of
 from engines.own.stepping import OwnStep
 from engines.process.isolation import EngineStepper, in_this_process
@@ -75,7 +75,7 @@ class OwnFile:
 
 @dataclass(frozen=True)
 class OwnFunction:
-    """A function of this process as an engine."""
+    """A function of this process as an engine. What it remembers is not begun anew with each run, as a file is."""
 
     function: Callable[..., Any]
     name: str
@@ -138,6 +138,11 @@ class OwnStepper(EngineStepper):
     kind: str = "own"
 
     @property
+    def begins_anew(self) -> bool:
+        """Whether it remembers nothing of other runs: a file is read anew for each."""
+        return isinstance(self.engine, OwnFile)
+
+    @property
     def version(self) -> str:
         """What tells its text from another's; of a function, nothing."""
         return sha256(self.engine.source.encode()).hexdigest()[:8] if isinstance(self.engine, OwnFile) else ""
@@ -197,10 +202,32 @@ def stepper_of(function: Callable[..., Any], name: str | None = None) -> OwnStep
     Raises:
         InputError: where its parameters are of no form.
     """
-    called = str(name or getattr(function, "__name__", "own step"))
-    given = inspect.signature(function).parameters.values()
-    names = [p.name for p in given if p.default is p.empty and p.kind is not p.VAR_KEYWORD]
-    return OwnStepper(OwnFunction(function, called, roles_of(called, names)), isolate=in_this_process)
+    called = str(name or _name_of(function))
+    try:
+        given = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        raise InputError(f"{called} does not tell its parameters: {EXPECTED}") from None
+    asked = [p for p in given if p.default is p.empty and p.kind is not p.VAR_KEYWORD]
+    roles = roles_of(called, [p.name for p in asked])
+    by_name = [p.name for p in asked if p.kind is p.KEYWORD_ONLY]
+    taken = _by_position(function, by_name) if by_name else function
+    return OwnStepper(OwnFunction(taken, called, roles), isolate=in_this_process)
+
+
+def _name_of(function: Callable[..., Any]) -> str:
+    """What a function is called; of a partial one or an object, what stands behind it."""
+    found = getattr(function, "__name__", None) or getattr(getattr(function, "func", None), "__name__", None)
+    return str(found or type(function).__name__)
+
+
+def _by_position(function: Callable[..., Any], by_name: Sequence[str]) -> Callable[..., Any]:
+    """A function whose last parameters go by name only, called by position."""
+
+    def called(*values: Any) -> Any:
+        first = len(values) - len(by_name)
+        return function(*values[:first], **dict(zip(by_name, values[first:], strict=True)))
+
+    return called
 
 
 def record_own(engine: OwnFile | OwnFunction) -> Recording | None:
@@ -210,6 +237,8 @@ def record_own(engine: OwnFile | OwnFunction) -> Recording | None:
 
 def look_at(engine: OwnFile | OwnFunction) -> tuple[str, ...]:
     """What it does in two steps of a small system that it should not; nothing where it cannot do these at all."""
+    from reference.derivation.explanation import OR_REMEMBERS
+
     system, dt = _small(), 1 / 64
     try:
         first, again = (OwnStep(engine.name, engine.load(), engine.roles, system) for _ in range(2))
@@ -225,7 +254,8 @@ def look_at(engine: OwnFile | OwnFunction) -> tuple[str, ...]:
     if not all(np.isfinite(part).all() for part in one):
         return (*(f"{engine.name} {remark}" for remark in remarks), f"{engine.name} returns NaN or infinity")
     if not all(map(np.array_equal, one, same)):
-        remarks.append("is random: the same step twice is not the same")
+        or_remembers = "" if isinstance(engine, OwnFile) else f", {OR_REMEMBERS}"
+        remarks.append(f"is random: the same step twice is not the same{or_remembers}")
     elif not all(map(np.array_equal, two, fresh)):
         remarks.append("remembers earlier calls: the same step with another past is not the same")
     return tuple(f"{engine.name} {remark}" for remark in remarks)

@@ -58,8 +58,9 @@ class OwnStep:
         """What the function returns; each argument by its role. Raises Fault where it raises."""
         try:
             return self.function(*(given[role] for role in self.roles))
-        except Exception as error:
-            raise Fault(f"{self.name}{_line(error, self.function)}: {type(error).__name__}: {error}") from None
+        except (Exception, SystemExit) as error:  # whose process this is, too, must not end
+            said = f"{type(error).__name__}: {error}".removesuffix(": ")
+            raise Fault(f"{self.name}{_line(error, self.function)}: {said}") from None
 
     def _by_slope(self, x: Array, v: Array, time: float, dt: float) -> tuple[Array, Array]:
         shape, size = x.shape, x.size

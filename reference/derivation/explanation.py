@@ -33,6 +33,10 @@ MASSES, DT, STEPS, DAMPING, DRAG = 4, 2e-3, 60, 2.0, 0.1
 #: Nothing, beside a metre.
 SMALL = 1e-6
 
+#: What is said of one that is not the same twice; and of a function, whose memory of other runs nobody ends.
+NOT_TWICE = "it is random: the same step twice is not the same"
+OR_REMEMBERS = "or it remembers other runs: a function is not begun anew with each run, as a file is"
+
 #: What is said of a step that brings what is at rest elsewhere, its position and velocity exchanged.
 SWAPPED = "no step matrix: velocity stands where position is, as if they were returned in the other order"
 
@@ -187,8 +191,9 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     tell("its past")
     past = _tried(lambda: pasts(runs, precision, damped, dragged), reasons, "whether it looks back: ")
     if past is not None and not past.deterministic:
-        nothing = Identification(stepper.name, (), 0.0, "it is random")
-        return Explanation(stepper.name, nothing, past, reasons=("it is random: the same step twice is not the same",))
+        reason = NOT_TWICE if getattr(stepper, "begins_anew", True) else f"{NOT_TWICE}, {OR_REMEMBERS}"
+        nothing = Identification(stepper.name, (), 0.0, reason)
+        return Explanation(stepper.name, nothing, past, reasons=(reason,))
     tell("its slopes")
     of_slopes: list[str] = []
     updates, tableau, remarks = _asked(stepper, of_slopes)

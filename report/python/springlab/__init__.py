@@ -6,13 +6,13 @@
 'kick_drift'
 
 Every function takes a scene: its name, a TOML file, or what `scene` or `system` gave; parameters of a named scene by
-their names, as above. A stepper is a name of `schemes` or `engines`, or
-a file of your own, as "my_step.py". All quantities are in SI units. Answers are
-frozen, show themselves in a notebook, and have their numbers as plain arrays, as `document` (what the commands print
-with `--json`), and by `to_pandas()`.
+their names, as above. A stepper is a name of `schemes` or `engines`, a file of your own, as "my_step.py", or a function
+in one of the forms of such a file, as `step(x, v, dt, system)`. All quantities are in SI units. Answers are frozen,
+show themselves in a notebook, and have their numbers as plain arrays, as `document` (what the commands print with
+`--json`), and by `to_pandas()`.
 
-Engines run in processes of their own: it makes no difference whether this is a notebook, a plain script, or a program
-read from standard input.
+Engines and own files run in processes of their own, functions in yours, without a limit on time. It makes no
+difference whether this is a notebook, a plain script, or a program read from standard input.
 """
 
 from __future__ import annotations

@@ -76,7 +76,7 @@ def explain(stepper: AnyStepper) -> Explained:
     (2, True)
 
     Args:
-        stepper: the name of a scheme or engine, or a file of your own.
+        stepper: the name of a scheme or engine, or a file or function of your own.
 
     Raises:
         InputError: for an unknown name, or a file that cannot be used.

@@ -95,9 +95,14 @@ def identify(
     >>> found = lab.identify("semi_implicit_euler", masses=4, duration=0.1)
     >>> found.identified_as, found.error
     ('kick_drift', 0.0)
+    >>> def step(a, x, v, dt):
+    ...     x = x + dt * v
+    ...     return x, v + dt * a(x, v)
+    >>> lab.identify(step, masses=4, duration=0.1).identified_as
+    'drift_kick'
 
     Args:
-        stepper: the name of a scheme or engine.
+        stepper: the name of a scheme or engine, or a file or function of your own.
         scene: a name, a TOML file, or what `scene` or `system` gave.
         dt: the step [s]; the scene's own where left out.
         duration: how long [s]; the scene's own where left out.

@@ -12,7 +12,7 @@ import numpy as np
 from reference.state import Array, Trajectory
 from springlab.plot import Plot
 from springlab.setting import AnyScene, Changing, Scene, setup_of
-from springlab.steppers import AnyStepper, steppers_of
+from springlab.steppers import AnyStepper, all_of, steppers_of
 from springlab.table import Table, frame
 
 if TYPE_CHECKING:
@@ -304,6 +304,7 @@ class Comparison(_Runs[Compared]):
 def simulate(
     scene: AnyScene,
     *steppers: AnyStepper | Sequence[AnyStepper],
+    stepper: AnyStepper | Sequence[AnyStepper] = (),
     dt: float | None = None,
     duration: float | None = None,
     changes: Sequence[Changing] = (),
@@ -319,7 +320,8 @@ def simulate(
 
     Args:
         scene: a name, a TOML file, or what `scene` or `system` gave.
-        steppers: names of schemes and engines; `heun` where there is none.
+        steppers: names of schemes and engines, files or functions of your own; `heun` where there is none.
+        stepper: the same by keyword: one more, or several.
         dt: the step [s]; the scene's own where left out.
         duration: how long [s]; the scene's own where left out.
         changes: what changes on the fly: (time [s], parameter, value), `Change`, `Ramp` or `Sine`.
@@ -332,7 +334,8 @@ def simulate(
     from experiments.simulation.simulation import simulate_all
 
     found = simulate_all(
-        setup_of(scene, dt, duration, changes, parameters), steppers_of(steppers or ("heun",), time_limit)
+        setup_of(scene, dt, duration, changes, parameters),
+        steppers_of(all_of(steppers, stepper) or ("heun",), time_limit),
     )
     return Simulation(tuple(Run(found.setup, run) for run in found.runs), found)
 
@@ -340,6 +343,7 @@ def simulate(
 def compare(
     scene: AnyScene,
     *steppers: AnyStepper | Sequence[AnyStepper],
+    stepper: AnyStepper | Sequence[AnyStepper] = (),
     dt: float | None = None,
     duration: float | None = None,
     changes: Sequence[Changing] = (),
@@ -355,7 +359,9 @@ def compare(
 
     Args:
         scene: a name, a TOML file, or what `scene` or `system` gave.
-        steppers: names of schemes and engines; all there are where there is none, but for those that would take long.
+        steppers: names of schemes and engines, files or functions of your own; all there are where there is none, but
+            for those that would take long.
+        stepper: the same by keyword: one more, or several.
         dt: the step [s]; the scene's own where left out.
         duration: how long [s]; the scene's own where left out.
         changes: what changes on the fly: (time [s], parameter, value), `Change`, `Ramp` or `Sine`.
@@ -368,6 +374,7 @@ def compare(
     from experiments.runs import comparison
     from experiments.runs.steppers import default_steppers
 
-    chosen = steppers_of(steppers or [each.name for each in default_steppers()], time_limit)
-    found = comparison.compare(setup_of(scene, dt, duration, changes, parameters), chosen, patient=bool(steppers))
+    named = all_of(steppers, stepper)
+    chosen = steppers_of(named or [each.name for each in default_steppers()], time_limit)
+    found = comparison.compare(setup_of(scene, dt, duration, changes, parameters), chosen, patient=bool(named))
     return Comparison(tuple(Compared(found.setup, run) for run in found.runs), found)

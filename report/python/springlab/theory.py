@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from reference.state import Array
 from springlab.plot import Plot
 from springlab.setting import AnyScene, setup_of
-from springlab.steppers import AnyStepper, steppers_of
+from springlab.steppers import AnyStepper, all_of, steppers_of
 from springlab.table import Table
 
 if TYPE_CHECKING:
@@ -65,7 +65,12 @@ class Stability:
         return self.table._repr_html_()
 
 
-def stability(scene: AnyScene, *steppers: AnyStepper | Sequence[AnyStepper], **parameters: Any) -> Stability:
+def stability(
+    scene: AnyScene,
+    *steppers: AnyStepper | Sequence[AnyStepper],
+    stepper: AnyStepper | Sequence[AnyStepper] = (),
+    **parameters: Any,
+) -> Stability:
     """Up to which dt steppers are stable on a scene about its rest: predicted by theory, and measured.
 
     >>> import springlab as lab
@@ -76,7 +81,9 @@ def stability(scene: AnyScene, *steppers: AnyStepper | Sequence[AnyStepper], **p
 
     Args:
         scene: a name, a TOML file, or what `scene` or `system` gave.
-        steppers: names of schemes and engines; where there is none, all that theory knows on springs, which takes long.
+        steppers: names of schemes and engines, files or functions of your own; where there is none, all that theory
+            knows on springs, which takes long.
+        stepper: the same by keyword: one more, or several.
         parameters: of the scene, in SI units.
 
     Raises:
@@ -88,7 +95,7 @@ def stability(scene: AnyScene, *steppers: AnyStepper | Sequence[AnyStepper], **p
 
     known = [s.name for s in steppers_here().values() if s.kind not in ("lecture", "pendulum")]
     system = setup_of(scene, None, None, (), parameters).system
-    return Stability(tuple(stability_rows(system, steppers_of(steppers or known), lambda _: None)))
+    return Stability(tuple(stability_rows(system, steppers_of(all_of(steppers, stepper) or known), lambda _: None)))
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ import inspect
 import json
 import sys
 from dataclasses import FrozenInstanceError
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -234,13 +235,70 @@ def test_a_time_that_is_no_number_is_named(name: str) -> None:
         lab.simulate("string", "euler", **{name: "a"})
 
 
-def test_a_function_or_an_object_as_a_stepper_is_refused_in_one_short_line() -> None:
-    """By its name, and with the way out: a file. What has no hash is refused as well."""
-    for given in (test_a_page_is_written_and_says_what_was_found, {"a": 1}):
-        for call in (lambda it: lab.identify(it), lambda it: lab.simulate("string", it)):
-            with pytest.raises(lab.InputError, match=r"my_step\.py") as told:
-                call(given)
-            assert len(str(told.value)) < 250
+def heun(f: Any, y: Any, t: float, dt: float) -> Any:
+    """As the scheme of this name."""
+    k = f(y, t)
+    return y + dt / 2 * (k + f(y + dt * k, t + dt))
+
+
+def kick_by(part: float) -> Any:
+    """Functions of one name: kick by a part of dt, then drift."""
+
+    def step(a: Any, x: Any, v: Any, dt: float) -> Any:
+        v = v + part * dt * a(x, v)
+        return x + dt * v, v
+
+    return step
+
+
+def test_functions_are_steppers_by_names_of_their_own() -> None:
+    """Each is told from the scheme, and from the other function, of its name; by position and by keyword."""
+    found = lab.compare("string", "heun", heun, stepper=[kick_by(1.0), kick_by(0.5)], **QUICK)
+    assert [run.stepper for run in found.runs] == ["heun", "heun (function)", "step", "step (2)"]
+    assert [run.identified_as for run in found.runs] == ["heun", "heun", "kick_drift", None]
+    assert lab.simulate("string", stepper=heun, **QUICK)[0].positions[-1] == pytest.approx(found[0].positions[-1])
+    assert lab.identify(partial(kick_by, 1.0)(), **QUICK).identified_as == "kick_drift"
+    tableau = lab.explain(heun).document["tableau"]
+    assert tableau == lab.explain("heun").document["tableau"]
+
+
+def test_functions_have_limits_of_stability() -> None:
+    """Of half a kick: that of kick-drift at half the stiffness, sqrt(2) times as long; measured to a part of 1e-4."""
+    limits = lab.stability("oscillator", kick_by(1.0), kick_by(0.5))
+    system = lab.scene("oscillator").system
+    whole = 2 * (system.masses[1] / system.stiffness[0]) ** 0.5
+    assert limits.predicted == {"step": pytest.approx(whole), "step (2)": None}
+    assert limits.measured["step"] == pytest.approx(whole, rel=2e-4)
+    assert limits.measured["step (2)"] == pytest.approx(2**0.5 * whole, rel=2e-4)
+
+
+def test_a_function_that_fails_is_an_outcome_and_ends_nothing() -> None:
+    """With its line; also one that would end the program. One that remembers is warned of at the caller's line."""
+
+    def leaves(x: Any, v: Any, dt: float, system: Any) -> Any:
+        raise SystemExit
+
+    run = lab.simulate("string", leaves, **QUICK)[0]
+    assert (run.outcome, run.reason.split(": ")[-1]) == ("crashed", "SystemExit")
+    assert ", line " in run.reason
+    calls: list[int] = []
+
+    def counts(x: Any, v: Any, dt: float, system: Any) -> Any:
+        calls.append(1)
+        return x + dt * v, v + 1e-3 * len(calls)
+
+    with pytest.warns(UserWarning, match="remembers other runs") as caught:
+        assert not lab.explain(counts).document["deterministic"]
+    assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
+
+
+@pytest.mark.parametrize("given", [test_a_page_is_written_and_says_what_was_found, print, len, {"a": 1}, lab], ids=str)
+def test_what_is_no_step_is_refused_in_one_short_line(given: Any) -> None:
+    """What has no hash is refused as well."""
+    for call in (lambda it: lab.identify(it), lambda it: lab.simulate("string", it)):
+        with pytest.raises(lab.InputError, match="expected") as told:
+            call(given)
+        assert len(str(told.value)) < 250
 
 
 def test_only_public_names_are_listed() -> None:
