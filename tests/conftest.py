@@ -6,6 +6,7 @@ import gc
 from collections import Counter
 from collections.abc import Generator, Iterator
 from pathlib import Path
+from zlib import crc32
 
 import hypothesis
 import pytest
@@ -45,7 +46,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Refuse an unknown engine or part before anything runs; workers are given the part that was chosen here."""
-    config.addinivalue_line("markers", "rotating(n): of its cases every n-th is run, others on another day")
+    config.addinivalue_line("markers", "rotating(n): it, or each of its cases, is run on every n-th day")
     if config.option.part is None:
         config.option.part = todays()
     if not 0 <= config.option.part < PARTS:
@@ -75,8 +76,11 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the cases of `rotating` tests whose day it is not; none with --full, nor where a case is named."""
-    if config.option.full or any("[" in argument for argument in config.args):
+    """Leave out the `rotating` tests and cases whose day it is not; none with --full, nor where one is named.
+
+    All tests of a file begin with the same day: what they share is made on that day only, and files have other days.
+    """
+    if config.option.full or any("::" in argument for argument in config.args):
         return
     seen: Counter[str] = Counter()
     left_out = []
@@ -84,7 +88,8 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         marker = item.get_closest_marker("rotating")
         if marker is not None:
             test = item.nodeid.partition("[")[0]
-            if not kept(seen[test], marker.args[0], config.option.part):
+            first = crc32(test.partition("::")[0].encode())
+            if not kept(first + seen[test], marker.args[0], config.option.part):
                 left_out.append(item)
             seen[test] += 1
     config.hook.pytest_deselected(items=left_out)

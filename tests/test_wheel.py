@@ -17,6 +17,9 @@ from pathlib import Path
 
 import pytest
 
+# What takes long here is run every few days, and with --full.
+pytestmark = pytest.mark.rotating(3)
+
 ROOT = Path(__file__).parents[1]
 
 #: The most it may take [bytes]: it is text, but for nothing. And what has no business in it.

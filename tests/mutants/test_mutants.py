@@ -63,6 +63,7 @@ def made(source: str, file: str = "a.py") -> dict[str, Mutant]:
     return {mutant.after: mutant for mutant in mutants(file, source)}
 
 
+@pytest.mark.rotating(3)
 def test_each_is_killed_or_survives_as_it_deserves(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A wrong product; a count that no test begins elsewhere; a loop without end; and where there is no test."""
     monkeypatch.setattr(verdicts, "TIMES", 1.0)
@@ -186,6 +187,7 @@ def test_what_no_test_should_hold_has_no_mutant(text: str) -> None:
     assert mutants("a.py", text + "\n") == []
 
 
+@pytest.mark.rotating(4)
 def test_every_mutant_of_the_project_is_a_program_with_another_line() -> None:
     """A random sample of a hundred; each changes the lines it says and no others."""
     for mutant in sample(ROOT, ROOMS, 100, 1):
@@ -197,6 +199,7 @@ def test_every_mutant_of_the_project_is_a_program_with_another_line() -> None:
         assert mutant.before != mutant.after
 
 
+@pytest.mark.rotating(3)
 def test_the_tests_near_a_file_are_its_mirror_and_then_its_users() -> None:
     """Of an engine also the suite that every engine goes through, for the engines in question."""
     near = Imports(ROOT).near

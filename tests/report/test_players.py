@@ -7,6 +7,7 @@ import pytest
 from report import players
 
 
+@pytest.mark.rotating(3)
 def test_the_page_is_as_it_would_be_written_now() -> None:
     """But for what engines that may not be here measured: those columns are left out on both sides."""
     kept = players.PAGE.read_text(encoding="utf-8").splitlines()

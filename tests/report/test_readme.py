@@ -37,6 +37,7 @@ def check_row(engine: Engine, rows: list[str]) -> None:
             assert engine.identified_as[case] in [match.scheme for match in found.matches], str(found)
 
 
+@pytest.mark.rotating(3)
 def test_readme_has_what_runs_of_an_engine_are_identified_as(engine: Engine) -> None:
     """The row of each that is installed, in every case."""
     check_row(engine, table())

@@ -28,6 +28,9 @@ from tests.soak.children import check_all_end, family, start, start_sweep
 from tests.soak.conftest import Size
 from tests.soak.stored import check_accounted_for, check_same, kept_in, rows
 
+# What takes long here is run every few days, and with --full.
+pytestmark = pytest.mark.rotating(3)
+
 needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="Dask is not installed")
 
 HOST = "127.0.0.1"

@@ -22,6 +22,9 @@ from tests.soak.children import check_all_end, family, start
 from tests.soak.conftest import Size
 from tests.soak.stored import kept_in
 
+# What takes long here is run every few days, and with --full.
+pytestmark = pytest.mark.rotating(3)
+
 #: Runs of the sweep, one after the other: some seconds of them.
 RUNS = 40
 

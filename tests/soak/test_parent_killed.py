@@ -9,6 +9,8 @@ import time
 from pathlib import Path
 from random import Random
 
+import pytest
+
 from tests.soak.children import check_all_end, family, run_sweep, start_sweep
 from tests.soak.conftest import Size
 from tests.soak.stored import (
@@ -21,6 +23,9 @@ from tests.soak.stored import (
     kept_in,
     rows,
 )
+
+# What takes long here is run every few days, and with --full.
+pytestmark = pytest.mark.rotating(3)
 
 #: A kill comes at most so long [s] after the run it waits for: at any moment of the next.
 MOMENT = 0.05

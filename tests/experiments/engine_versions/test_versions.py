@@ -81,6 +81,7 @@ def undamped_limit_only(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     return {f"largest stable dt [s], {case}" for case in others}
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.usefixtures("undamped_limit_only")
 def test_the_honest_engine_is_measured_as_what_it_is() -> None:
     """Kick-drift with explicit damping, to rounding, on everything; its limit is the closed form.

@@ -54,6 +54,7 @@ def changed(number: int, old: str, new: str) -> tuple[int, str]:
     return text[: text.index(old)].count("\n") + 1, text.replace(old, new)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     ("number", "old", "new", "family"),
     [

@@ -116,6 +116,7 @@ def test_every_file_has_a_row_of_its_own(tmp_path: Path) -> None:
     assert len(rows_of(tmp_path / "grades.csv")) == len(names)
 
 
+@pytest.mark.rotating(3)
 def test_a_wrong_program_where_no_picture_can_be_written_is_wrong(
     a_class: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -268,6 +269,7 @@ def test_the_zip_can_be_run_and_has_no_solution(autograder: Path) -> None:
     assert not [name for name in names if "model" in name or "tests/" in name]
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize(
     ("text", "score", "finding"),
     [(solution("classes"), 100.0, "right"), (wrong("arrays", "spring_sign"), 0.0, "spring_sign")],

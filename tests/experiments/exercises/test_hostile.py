@@ -51,6 +51,7 @@ def everything(folder: Path) -> dict[str, tuple[bytes, int, int]]:
     return {str(p): (p.read_bytes(), p.stat().st_mode, p.stat().st_mtime_ns) for p in files}
 
 
+@pytest.mark.rotating(3)
 def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(
     tmp_path: Path, layers: set[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -58,6 +59,7 @@ def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(
     check(HOSTILE, tmp_path, layers, monkeypatch)
 
 
+@pytest.mark.rotating(3)
 def test_a_hundred_more(
     tmp_path: Path, layers: set[str], monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:

@@ -12,6 +12,9 @@ from experiments.exercises.exercise import exercises
 from experiments.exercises.page import page
 from tests.report.chromium import VIEWS, Shown, chromium
 
+# What takes long here is run every few days, and with --full.
+pytestmark = pytest.mark.rotating(3)
+
 
 def test_the_texts_have_no_violation_and_ask_for_nothing(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     """Zero by axe-core, no request, nothing cut or too wide, tables neither: in one view; with --full in all.

@@ -49,6 +49,7 @@ def check_as_predicted(row: Row) -> None:
     assert abs(row.relative_difference) < TOLERANCE
 
 
+@pytest.mark.rotating(2)
 def test_engines_blow_up_where_their_scheme_is_predicted_to(
     engine: Engine, engine_rows: tuple[MassSpringSystem, dict[str, Row]]
 ) -> None:

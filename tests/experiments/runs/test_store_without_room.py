@@ -72,6 +72,7 @@ print(json.dumps([full.code, full.err, json.loads(left.out), halves, then.code, 
 """
 
 
+@pytest.mark.rotating(3)
 def test_a_sweep_that_fills_a_disk_goes_on_when_there_is_room(tmp_path: Path) -> None:
     """On a real file system of 600 kB, where this machine lets one be mounted, out of everybody else's sight."""
     mount = ["unshare", "--mount", "sh", "-c", 'mount -t tmpfs -o size=600k none "$0" && exec "$@"', str(tmp_path)]
@@ -129,6 +130,7 @@ def read_only() -> Iterator[Path]:
     shutil.rmtree(folder)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("name", ["store.sqlite", "new.sqlite", "below/store.sqlite"])
 def test_a_folder_that_cannot_be_written_is_said_in_a_line(read_only: Path, name: str) -> None:
     """Whether there is a store in it or not; exit code 2, and nothing has been run."""

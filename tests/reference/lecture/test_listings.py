@@ -95,6 +95,7 @@ def scene(drag: float) -> tuple[MassSpringSystem, dict[str, Trajectory]]:
     return system, candidates(system, DT, STEPS)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("drag", [0.0, 0.02])
 @pytest.mark.parametrize("listing", LISTINGS, ids=label)
 def test_listings_are_heun_with_a_deviation_of_exactly_zero(listing: LectureListing, drag: float) -> None:

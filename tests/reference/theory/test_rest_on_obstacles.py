@@ -109,6 +109,7 @@ def test_a_block_is_carried_by_the_floor() -> None:
     assert about == "about its rest on obstacles, where 16 masses press"
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", ["kick_drift", "heun", "velocity_verlet"])
 def test_limits_on_a_circle_are_those_that_runs_have(name: str) -> None:
     """A string over slide 17's barrier, run from a perturbation with its end of each step: predicted and measured.

@@ -62,6 +62,7 @@ def agrees(found: Mapping[str, Any], scheme: str, rest: Equilibrium) -> bool:
     return found["limit"] is not None and abs(found["limit"] / predicted.dt - 1) < most
 
 
+@pytest.mark.rotating(3)
 def test_limits_are_those_of_the_theory_room(request: pytest.FixtureRequest) -> None:
     """All modes of the rest, by the page's own equilibrium, eigenvalues and traced steps: to 1e-6."""
     cases = CASES + (FULL if request.config.getoption("--full") else [])

@@ -151,6 +151,7 @@ def test_what_failed_or_was_skipped_is_in_one_place(report: Report) -> None:
     assert "#undone-divergence" in Page(report.html).attributes("href")
 
 
+@pytest.mark.rotating(2)
 def test_the_same_numbers_make_the_same_page(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, report: Report) -> None:
     """Byte for byte, but for the date; and others make another."""
     put(monkeypatch, *(answering(name, RESULTS[name]["usual"]()) for name in SHOWN))

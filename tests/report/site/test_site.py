@@ -15,6 +15,9 @@ from report.site.__main__ import build
 from tests.report.chromium import Shown, chromium
 from tests.report.html import Page
 
+# What takes long here is run every few days, and with --full.
+pytestmark = pytest.mark.rotating(3)
+
 ROOT = Path(__file__).parents[3]
 
 #: How pages are looked at in the browser: width [px], colours, medium; and which, unless with --full all are.
