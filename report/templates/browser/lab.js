@@ -1,14 +1,15 @@
 // The lab: a scene, lanes that step it side by side, what was changed on the way, and what has been.
 
-// How much of a frame steps may take [ms], and how much the past [doubles].
-const STEPPING = 11, PAST = 4e6;
+// How much of a frame steps may take, at least and at most [ms], how long a frame is that came in time [ms], and how much
+// the past may hold [doubles].
+const STEPPING = [2, 10], IN_TIME = 20, PAST = 4e6;
 
 // What happens to masses or springs by their numbers.
 const LISTS = ["hold", "release", "break"];
 
 const lab = {
   scene: null, lanes: [], dt: 1e-3, changes: [], playing: false, speed: 1, beside: false,
-  past: [], series: [], touched: false, grabbed: null, reached: 1, debt: 0, limits: {}, lesson: 0,
+  past: [], series: [], touched: false, grabbed: null, reached: 1, debt: 0, limits: {}, lesson: 0, budget: 8,
 };
 
 const sceneNamed = name => DATA.scenes.find(scene => scene.name === name);
@@ -67,12 +68,18 @@ function change(parameter, value) {
   askLimits();
 }
 
-// As many steps as are due; false where the machine is too slow for the speed that is asked for.
+// Steps get what drawing leaves of a frame: less at once where a frame came late, a little more after each in time.
+function shareFrame(ms) {
+  const [least, most] = STEPPING;
+  lab.budget = ms > IN_TIME ? Math.max(least, 0.8 * lab.budget) : Math.min(most, lab.budget + 0.03);
+}
+
+// As many steps as are due; fewer where the machine is too slow for the speed that is asked for.
 function stepLanes(seconds) {
   lab.debt += seconds;
   const begin = performance.now(), wanted = Math.floor(lab.debt / lab.dt);
   let done = 0;
-  for (; done < wanted && performance.now() - begin < STEPPING; done++) {
+  for (; done < wanted && performance.now() - begin < lab.budget; done++) {
     if (lab.lanes.every(lane => lane.recording || lane.world.blownUp)) break;
     oneStep();
   }

@@ -239,10 +239,11 @@ function showNumbers() {
 // Sixty times a second.
 let before = 0, told = 0;
 function frame(now) {
-  const seconds = Math.min((now - before) / 1e3, 0.05);
+  const ms = now - before;
   before = now;
   if (lab.playing) {
-    stepLanes(seconds * lab.speed);
+    shareFrame(ms);
+    stepLanes(Math.min(ms / 1e3, 0.05) * lab.speed);
     if (lab.lanes.every(lane => lane.world.blownUp || lane.recording)) { lab.playing = false; showState(); }
   }
   draw();

@@ -5,23 +5,45 @@ const MARKERS = ["circle", "square", "triangle", "diamond"];
 // Springs are drawn the thicker the more they are strained: up to 1 %, 5 %, 20 %, and beyond.
 const STRAINS = [0.01, 0.05, 0.2, Infinity], WIDTHS = [0.8, 1.4, 2.2, 3.4];
 const MARKED_UP_TO = 260;
+// Without a graphics card a line of at most a pixel is drawn several times as fast as a thicker one: over this many
+// springs the strained ones are not thicker but less transparent.
+const THICK_UP_TO = 300, OPACITIES = [0.45, 0.6, 0.8, 1];
 
 const view = {yaw: 0.5, pitch: 0.35, scale: 1, centre: [0, 0, 0], zoom: 1, boxes: [], selected: null};
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 const colourOf = k => COLOURS[isDark() ? "dark" : "light"][k % 4];
-const ink = () => getComputedStyle(document.documentElement).getPropertyValue("--ink").trim();
-const sheet = () => getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
-const soft = () => getComputedStyle(document.documentElement).getPropertyValue("--soft").trim();
+
+// The page's own colours, looked up once a frame.
+const colours = {};
+function readColours() {
+  const style = getComputedStyle(document.documentElement);
+  for (const name of ["ink", "paper", "soft"]) colours[name] = style.getPropertyValue(`--${name}`).trim();
+}
+readColours();
+const ink = () => colours.ink, sheet = () => colours.paper, soft = () => colours.soft;
+
+// Which parts of a place, from the centre of the picture, are right, up and near.
+function camera(d) {
+  if (d < 3) return d === 1 ? [[0], [1], [0]] : [[1, 0], [0, 1], [0, 0]];
+  const [c, s, cp, sp] = [Math.cos(view.yaw), Math.sin(view.yaw), Math.cos(view.pitch), Math.sin(view.pitch)];
+  return [[c, 0, s], [s * sp, cp, -c * sp], [-s * cp, sp, c * cp]];
+}
 
 // Where a place is seen from the camera [m]: right, up, and how near.
-function seen(place, d) {
-  const x = place[0] - view.centre[0];
-  if (d === 1) return [0, x, 0];
-  const y = place[1] - view.centre[1];
-  if (d === 2) return [x, y, 0];
-  const z = place[2] - view.centre[2], {yaw, pitch} = view;
-  const right = x * Math.cos(yaw) + z * Math.sin(yaw), away = -x * Math.sin(yaw) + z * Math.cos(yaw);
-  return [right, y * Math.cos(pitch) - away * Math.sin(pitch), y * Math.sin(pitch) + away * Math.cos(pitch)];
+const seen = (place, d) => camera(d).map(row => row.reduce((sum, part, axis) => sum + part * (place[axis] - view.centre[axis]), 0));
+
+// Where all masses are seen [px], two numbers for each, into an array of the lane's own.
+function seenAll({F, at}, seenAt) {
+  const {n, d, x} = at, [right, up] = camera(d), {scale, centre} = view;
+  for (let i = 0; i < n; i++) {
+    let across = 0, high = 0;
+    for (let axis = 0; axis < d; axis++) {
+      const away = F[x + d * i + axis] - centre[axis];
+      across += right[axis] * away; high += up[axis] * away;
+    }
+    seenAt[2 * i] = clamp(scale * across); seenAt[2 * i + 1] = clamp(-scale * high);
+  }
+  return seenAt;
 }
 
 // All of the scene at its start and at rest in the picture, with a margin.
@@ -70,6 +92,7 @@ function boxes(width, height) {
 }
 
 function draw() {
+  readColours();
   const [width, height] = sizeCanvas(canvas);
   paper.clearRect(0, 0, width, height);
   view.boxes = boxes(width, height);
@@ -115,24 +138,13 @@ function follow(width, height) {
   if (beyond > 1 && beyond < Infinity) view.centre = view.centre.map((c, axis) => c + (1 - 1 / beyond) * (mean[axis] - c));
 }
 
-function drawLane({world: {memory: {F, I, at}, natural}, recording}, k) {
-  const {n, s, d} = at, places = new Float64Array(2 * n), {scale} = view;
-  for (let i = 0; i < n; i++) {
-    const [right, up] = seen(F.subarray(at.x + d * i, at.x + d * (i + 1)), d);
-    places[2 * i] = clamp(scale * right); places[2 * i + 1] = clamp(-scale * up);
-  }
-  const paths = STRAINS.map(() => new Path2D());
-  for (let j = 0; j < s; j++) {
-    const a = I[at.springs + 2 * j], b = I[at.springs + 2 * j + 1], length = lengthOf({F, I, at}, j), rest = F[at.rest_lengths + j];
-    const strain = Math.abs(length / rest - 1), path = paths[STRAINS.findIndex(most => strain <= most || most === Infinity)];
-    path.moveTo(places[2 * a], places[2 * a + 1]); path.lineTo(places[2 * b], places[2 * b + 1]);
-  }
-  // where lanes lie over one another the first are wider, so that they are seen behind the others
-  const thin = (s > 300 ? 0.5 : 1) * (lab.beside ? 1 : 1 + 0.9 * (lab.lanes.length - 1 - k));
+function drawLane(lane, k) {
+  const {world: {memory}, recording} = lane, {I, at} = memory, {n, s} = at;
+  if (!lane.seenAt || lane.seenAt.length !== 2 * n) lane.seenAt = new Float64Array(2 * n);
+  const places = seenAll(memory, lane.seenAt);
   paper.strokeStyle = paper.fillStyle = colourOf(k);
-  paper.globalAlpha = s > 300 ? 0.75 : 1;
   if (recording) paper.setLineDash([4, 3]);
-  paths.forEach((path, bin) => { paper.lineWidth = WIDTHS[bin] * thin; paper.stroke(path); });
+  strokeSprings(pathsByStrain(memory, places), s > THICK_UP_TO, k);
   paper.setLineDash([]); paper.globalAlpha = 1;
   const size = n > 60 ? 2.5 : 5;
   for (let i = 0; i < n; i++) {
@@ -144,6 +156,33 @@ function drawLane({world: {memory: {F, I, at}, natural}, recording}, k) {
     paper.strokeStyle = ink(); paper.lineWidth = 2; paper.beginPath();
     paper.arc(places[2 * chosen], places[2 * chosen + 1], 10, 0, 7); paper.stroke();
   }
+}
+
+// One path for the springs of each class of strain; a spring that begins where the one before it in its class ended goes on
+// from there.
+function pathsByStrain({F, I, at}, places) {
+  const {s, d, x, springs, rest_lengths} = at, paths = STRAINS.map(() => new Path2D()), ends = STRAINS.map(() => -1);
+  for (let j = 0; j < s; j++) {
+    const a = I[springs + 2 * j], b = I[springs + 2 * j + 1];
+    let squares = 0;
+    for (let axis = 0; axis < d; axis++) { const along = F[x + d * b + axis] - F[x + d * a + axis]; squares += along * along; }
+    const strain = Math.abs(Math.sqrt(squares) / F[rest_lengths + j] - 1);
+    const bin = strain <= STRAINS[0] ? 0 : strain <= STRAINS[1] ? 1 : strain <= STRAINS[2] ? 2 : 3;
+    if (ends[bin] !== a) paths[bin].moveTo(places[2 * a], places[2 * a + 1]);
+    paths[bin].lineTo(places[2 * b], places[2 * b + 1]);
+    ends[bin] = b;
+  }
+  return paths;
+}
+
+// Where lanes lie over one another the first are wider, so that they are seen behind the others.
+function strokeSprings(paths, many, k) {
+  const wider = lab.beside ? 1 : 1 + 0.9 * (lab.lanes.length - 1 - k);
+  paths.forEach((path, bin) => {
+    paper.lineWidth = many ? 1 : WIDTHS[bin] * wider;
+    paper.globalAlpha = many ? OPACITIES[bin] : 1;
+    paper.stroke(path);
+  });
 }
 
 // Along a line lanes stand beside one another: there they would hide one another.
