@@ -34,8 +34,8 @@ BESIDE: Mapping[str, Beside] = MappingProxyType(
         "numbering": Beside("s=string&w=heun,heun_link_by_link&dt=0.002", 4),
         "errata": Beside("s=string&w=heun,heun_link_by_link,heun_aliased&dt=0.002", 4),
         "barrier": Beside("s=barrier&w=kick_drift", 7),
-        "drape": Beside("s=cloth&w=kick_drift", 9),
-        "ground_motion": Beside("s=bridge&w=kick_drift,rk4&dt=0.002", 10),
+        "drape": Beside("s=drape&w=kick_drift", 9),
+        "ground_motion": Beside("s=earthquake&w=kick_drift,rk4", 10),
         "scenes": Beside("s=jello&w=kick_drift"),
     }
 )

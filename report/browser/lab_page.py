@@ -20,7 +20,7 @@ TEMPLATES = Path(__file__).parents[1] / "templates"
 PHYSICS = ("memory.js", "stepping.js", "eigen.js", "rest.js", "contacts.js", "limits.js")
 
 #: What shows it, in the order in which it is read.
-SHOWN = ("lab.js", "view.js", "plots.js", "link.js", "lessons.js", "hands.js", "page.js")
+SHOWN = ("lab.js", "view.js", "driven.js", "plots.js", "link.js", "lessons.js", "hands.js", "page.js")
 
 
 def physics() -> str:

@@ -22,12 +22,14 @@ class Preset:
         settings: parameters set otherwise.
         name: what a link calls it.
         recordings: runs of other steppers to be laid over it.
+        magnified: how many times as far from their start masses are drawn, in scenes that hardly move.
     """
 
     scene: str
     settings: Mapping[str, str] = field(default_factory=dict)
     name: str = ""
     recordings: tuple[Recording, ...] = ()
+    magnified: float = 1.0
 
     @property
     def title(self) -> str:
@@ -51,14 +53,19 @@ class Preset:
         own = is_file(self.scene)
         summary, slides = ("", "") if own else (find(self.scene).summary, find(self.scene).slides)
         data = scene_data(setup, summary, slides, self.scene)
-        data |= {"name": self.name or self.stem, "title": self.title, "settings": dict(self.settings)}
+        data |= {
+            "name": self.name or self.stem,
+            "title": self.title,
+            "settings": dict(self.settings),
+            "magnified": self.magnified,
+        }
         return data | {"recordings": [recording_data(recording, setup) for recording in self.recordings]}
 
 
 #: What a damped oscillator does where damping is implicit, at a dt at which the explicit scheme cannot go on.
 _IMPLICIT = Recording("kick_drift_implicit_damping", "implicit_damping", {"damping": 3.0}, dt=0.012, duration=0.6)
 
-#: The lecture's scenes. The load and the ground of `crossing` and `earthquake` move all the time: the page cannot.
+#: The lecture's scenes.
 PRESETS: Sequence[Preset] = (
     Preset("spring"),
     Preset("oscillator", recordings=(_IMPLICIT,)),
@@ -74,6 +81,9 @@ PRESETS: Sequence[Preset] = (
     Preset("strip"),
     Preset("jello"),
     Preset("drop"),
+    Preset("drape"),
     Preset("bridge"),
     Preset("soil"),
+    Preset("crossing", magnified=10.0),
+    Preset("earthquake", magnified=30.0),
 )

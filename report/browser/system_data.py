@@ -2,31 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import fields, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from reference.changes import Change
 from reference.compiled.tracing import numbers_of
 from reference.errors import SolverError, Unsupported
 from reference.scenes import Setup
 from reference.state import Array
-from reference.system import BREAK, HELD, MassSpringSystem
+from reference.system import MassSpringSystem
+from report.browser.changes import changes_data, drives_data
 
 if TYPE_CHECKING:  # this imports SciPy
     from reference.theory.contacts import Contacts
 
 #: Systems of more masses are refused: a browser would not step them in time.
 MOST_MASSES = 2_500
-
-#: And more changes than a page carries along.
-MOST_CHANGES = 50
-
-#: What can change on the fly there.
-CHANGES = ("mass", "rest_length", "stiffness", "damping", "drag", "gravity", *HELD, BREAK)
 
 #: What of a system the page knows. Whatever else a system comes to have is refused until the page has it too.
 KNOWN = frozenset(
@@ -98,7 +92,7 @@ def _is_set(system: MassSpringSystem, name: str) -> bool:
 
 
 def scene_data(setup: Setup, summary: str = "", slides: str = "", command: str = "") -> dict[str, Any]:
-    """A scene with its dt, duration and changes, where it comes to rest, and the command line's words for it.
+    """A scene with its dt, duration, changes and drives, where it comes to rest, and the command line's words for it.
 
     Raises:
         Unsupported: with the reason, for what the page cannot do.
@@ -112,25 +106,10 @@ def scene_data(setup: Setup, summary: str = "", slides: str = "", command: str =
         "dt": setup.dt,
         "duration": setup.duration,
         "changes": changes_data(setup.changes),
+        "drives": drives_data(setup),
         "system": system_data(setup.system),
         **rest,
     }
-
-
-def changes_data(changes: Sequence[Change]) -> list[Mapping[str, Any]]:
-    """Changes on the fly. Raises Unsupported where something changes at every step, or as the page does not know."""
-    if len(changes) > MOST_CHANGES:
-        raise Unsupported(
-            f"{len(changes)} changes: the page takes no load and no ground that moves; `springlab live` does"
-        )
-    for change in changes:
-        if change.parameter not in CHANGES:
-            raise Unsupported(f"changes of {change.parameter}: the page does not know them; `springlab live` does")
-    return [{"time": change.time, "parameter": change.parameter, "value": _plain(change.value)} for change in changes]
-
-
-def _plain(value: Any) -> Any:
-    return list(value) if isinstance(value, Sequence) else float(value)
 
 
 def rest_data(system: MassSpringSystem) -> dict[str, Any]:

@@ -31,6 +31,7 @@ function listen() {
   $("past").onchange = event => { rewind(+event.target.value); showAll(); };
   $("scene").onchange = event => { lab.changes = []; lab.playing = false; openScene(event.target.value, {lanes: lab.lanes.map(lane => lane.scheme)}); showAll(); };
   $("add").onclick = () => setLanes([...lab.lanes.map(lane => lane.scheme), Object.keys(schemes).find(name => !lab.lanes.some(lane => lane.scheme === name)) || "rk4"]);
+  $("magnified").onchange = event => { lab.magnified = +event.target.value; fitView(); };
   $("beside").onchange = event => { lab.beside = event.target.checked; };
   $("dt").onchange = event => setDt(event.target.value);
   $("dt-slider").oninput = event => setDt(1e3 * ofSlider(+event.target.value, [1e-5, 1]));
@@ -98,9 +99,9 @@ function onKey(key, shift) {
 
 // The chosen mass a little aside, at rest.
 function nudge([right, up]) {
-  const {memory: {F, at}} = lab.lanes[0].world, found = {mass: view.selected, box: 0};
-  const [left, top, width, height] = view.boxes[0], [x, y] = seen(F.subarray(at.x + at.d * found.mass, at.x + at.d * (found.mass + 1)), at.d);
-  const px = left + width / 2 + view.scale * x + 12 * right, py = top + height / 2 - view.scale * y - 12 * up;
+  const found = {mass: view.selected, box: 0};
+  const [left, top, width, height] = view.boxes[0], {seenAt} = lab.lanes[0];
+  const px = left + width / 2 + seenAt[2 * found.mass] + 12 * right, py = top + height / 2 + seenAt[2 * found.mass + 1] - 12 * up;
   lab.grabbed = {...found, place: placeUnder(px, py, found)};
   holdGrabbed();
   lab.grabbed = null;

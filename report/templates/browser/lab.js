@@ -9,18 +9,19 @@ const LISTS = ["hold", "release", "break"];
 
 const lab = {
   scene: null, lanes: [], dt: 1e-3, changes: [], playing: false, speed: 1, beside: false,
-  past: [], series: [], touched: false, grabbed: null, reached: 1, debt: 0, limits: {}, lesson: 0, budget: 8,
+  past: [], series: [], touched: false, grabbed: null, reached: 1, debt: 0, limits: {}, lesson: 0, budget: 8, magnified: 1,
 };
 
 const sceneNamed = name => DATA.scenes.find(scene => scene.name === name);
 const laneTime = () => lab.lanes.length ? timeOf(lab.lanes[0].world) : 0;
 
 // A scene with lanes, from its start, with changes on the way besides the scene's own.
-function openScene(name, {lanes, dt, changes = []} = {}) {
+function openScene(name, {lanes, dt, changes = [], magnified} = {}) {
   const scene = sceneNamed(name) || DATA.scenes[0];
   lab.scene = scene;
   lab.dt = dt || scene.dt;
   lab.changes = changes;
+  lab.magnified = magnified || scene.magnified;
   startLanes(lanes || lab.lanes.map(lane => lane.scheme));
   fitView();
 }
@@ -35,7 +36,7 @@ function startLanes(names) {
 
 function startLane(name) {
   const recording = recordingNamed(name);
-  const world = startWorld(lab.scene.system, recording ? "kick_drift" : name, lab.dt, [...lab.scene.changes, ...lab.changes]);
+  const world = startWorld(lab.scene.system, recording ? "kick_drift" : name, lab.dt, [...lab.scene.changes, ...lab.changes], lab.scene.drives);
   applyChanges(world);
   return {scheme: name, recording, world};
 }
@@ -144,7 +145,7 @@ function measured() {
   const first = lab.lanes[0].world;
   return {
     time: laneTime(),
-    energy: lab.lanes.map(lane => lane.recording ? NaN : energies(lane.world.memory).total),
+    energy: lab.lanes.map(lane => lane.recording ? NaN : energies(lane.world).total),
     apart: lab.lanes.map((lane, k) => k ? apart(first, lane.world) : 0),
   };
 }

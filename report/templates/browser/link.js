@@ -8,6 +8,7 @@ function stateText() {
   if (steps) words.push(["n", steps]);
   if (lab.speed !== 1) words.push(["speed", lab.speed]);
   if (lab.beside) words.push(["beside", 1]);
+  if (lab.magnified !== lab.scene.magnified) words.push(["magnified", lab.magnified]);
   if (lab.lesson) words.push(["lesson", lab.lesson]);
   if (language !== "en") words.push(["lang", language]);
   return words.map(([key, value]) => `${key}=${encodeURIComponent(value).replace(/%2C/g, ",").replace(/%3A/g, ":").replace(/%2B/g, "+")}`).join("&");
@@ -35,7 +36,7 @@ function readState(text) {
   });
   return {
     scene: sceneNamed(words.s) ? words.s : undefined, lanes: words.w ? words.w.split(",") : undefined, dt: number(words.dt, 1e-9, 10), changes,
-    steps: Math.round(number(words.n, 0, 2e6) || 0), speed: number(words.speed, 1e-6, 8), beside: words.beside === "1",
+    steps: Math.round(number(words.n, 0, 2e6) || 0), speed: number(words.speed, 1e-6, 8), beside: words.beside === "1", magnified: number(words.magnified, 1, 1000),
     lesson: Math.round(number(words.lesson, 0, 6) || 0), lang: words.lang,
   };
 }
@@ -45,7 +46,7 @@ function openState(state) {
   lab.speed = state.speed || 1; lab.beside = state.beside; lab.playing = false;
   const {n, s} = (sceneNamed(state.scene) || DATA.scenes[0]).system;
   const inside = ({parameter, value}) => !LISTS.includes(parameter) || value.every(i => i >= 0 && i < (parameter === "break" ? s : n));
-  openScene(state.scene, {lanes: state.lanes || ["kick_drift"], dt: state.dt, changes: state.changes.filter(inside)});
+  openScene(state.scene, {lanes: state.lanes || ["kick_drift"], dt: state.dt, changes: state.changes.filter(inside), magnified: state.magnified});
   lab.firstDt = lab.dt;
   const begin = performance.now();
   let taken = 0;

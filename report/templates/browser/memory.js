@@ -78,8 +78,8 @@ function hold(memory, masses, held) {
   derive(memory);
 }
 
-// Kinetic, elastic and potential energy [J], the last by gravity from the origin.
-function energies({F, I, at}) {
+// Kinetic, elastic and potential energy [J], the last by gravity from where the masses start.
+function energies({memory: {F, I, at}, start}) {
   const {n, s, d} = at;
   let kinetic = 0, elastic = 0, potential = 0;
   for (let i = 0; i < n; i++) {
@@ -87,7 +87,7 @@ function energies({F, I, at}) {
     for (let axis = 0; axis < d; axis++) {
       const v = F[at.v + d * i + axis];
       kinetic += 0.5 * F[at.masses + i] * v * v;
-      potential -= F[at.weight + d * i + axis] * F[at.x + d * i + axis];
+      potential -= F[at.weight + d * i + axis] * (F[at.x + d * i + axis] - start[d * i + axis]);
     }
   }
   for (let j = 0; j < s; j++) elastic += law.elastic_energy(F[at.stiffness + j], stretchOf({F, I, at}, j));

@@ -13,6 +13,7 @@ const element = (name, settings = {}, ...inside) => {
 
 // Parameters as sliders have them: from, to; in powers of ten where the range is wide.
 const RANGES = {mass: [1e-4, 1e4], rest_length: [1e-3, 10], stiffness: [1e-1, 1e9], damping: [1e-5, 1e6], drag: [1e-5, 1e3], gravity: [0, 30]};
+const MAGNIFIED = [1, 3, 10, 30, 100, 300];
 const SPEEDS = [1, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 2, 4];
 
 function translate() {
@@ -29,6 +30,8 @@ function translate() {
 function showAll() { showScene(); showLanes(); showLimits(); showParameters(); showLesson(); showEquations(); showState(); }
 
 function showScene() {
+  const sizes = [...new Set([...MAGNIFIED, lab.magnified])].sort((a, b) => a - b);
+  $("magnified").replaceChildren(...sizes.map(value => element("option", {value, selected: value === lab.magnified}, `${value} ×`)));
   $("scene").replaceChildren(...DATA.scenes.map(scene => element("option", {value: scene.name, selected: scene === lab.scene}, scene.title || scene.name)));
   const slides = lab.scene.slides ? ` (${say("slides", {slides: lab.scene.slides})})` : "";
   $("summary").textContent = lab.scene.summary + slides;
@@ -124,7 +127,9 @@ function showParameters() {
       box.append(row);
     }
     $(`label-${name}`).textContent = say(name);
-    const slider = $(`slider-${name}`), typed = $(`typed-${name}`);
+    const slider = $(`slider-${name}`), typed = $(`typed-${name}`), driven = lab.scene.drives.some(drive => drive.parameter === name);
+    slider.disabled = typed.disabled = driven;
+    slider.title = driven ? say("driven") : "";
     slider.setAttribute("aria-label", say(name));
     slider.value = all ? (same === 0 && RANGES[name][0] > 0 ? -1 : sliderOf(same, RANGES[name])) : 500;
     slider.setAttribute("aria-valuetext", all ? number(same) : say("as_scene"));
@@ -173,23 +178,25 @@ function showEquations() {
   }));
 }
 
-// What was said last: who blew up and why, with the way back; a screen reader hears it once.
+// What was said last: which lanes blew up and why, with the way back; a screen reader hears it once.
 let bannerKey = "";
 function showBanner() {
-  const blown = lab.lanes.findIndex(lane => lane.world.blownUp && !lane.recording), key = blown < 0 ? "" : `${blown} ${lab.lanes[blown].world.steps} ${language} ${Boolean(lab.mode)}`;
+  const blown = lab.lanes.filter(lane => lane.world.blownUp && !lane.recording);
+  const key = blown.map(lane => `${lane.scheme} ${lane.world.steps} ${language} ${Boolean(lab.mode)}`).join();
   if (key === bannerKey) return;
   bannerKey = key;
-  if (blown < 0) return $("said").replaceChildren();
-  const lane = lab.lanes[blown], {what, which} = lane.world.blownUp;
-  const text = `${say(`blew_${what}`, {name: lane.scheme, time: number(timeOf(lane.world)), which})} ${whyBlown(lane)}`;
-  const {limit} = lab.limits[lane.scheme] || {};
+  if (!blown.length) return $("said").replaceChildren();
+  const said = blown.map(lane => {
+    const {what, which} = lane.world.blownUp;
+    return element("p", {}, `${say(`blew_${what}`, {name: lane.scheme, time: number(timeOf(lane.world)), which})} ${whyBlown(lane)}`);
+  });
   const limits = lab.lanes.map(one => (lab.limits[one.scheme] || {}).limit).filter(value => value > 0 && value < Infinity);
   const buttons = [element("button", {type: "button", onclick: goBack}, say("go_back"))];
-  if (limit > 0 && limit < Infinity && limit < lab.dt) {
+  if (blown.some(({scheme}) => (lab.limits[scheme] || {}).limit > 0 && lab.limits[scheme].limit < lab.dt)) {
     const shorter = +(0.9 * Math.min(...limits)).toPrecision(2);
     buttons.push(element("button", {type: "button", onclick: () => { lab.dt = shorter; reset(); showAll(); }}, say("shorter", {dt: number(1e3 * shorter)})));
   }
-  $("said").replaceChildren(element("div", {className: "banner"}, element("p", {}, text), element("div", {className: "row"}, ...buttons)));
+  $("said").replaceChildren(element("div", {className: "banner"}, ...said, element("div", {className: "row"}, ...buttons)));
 }
 
 function whyBlown(lane) {

@@ -46,7 +46,8 @@ function drawPlots() {
   const given = Math.max(lab.lanes[0].world.given, 1e-9);
   const changes = rows.flatMap(row => row.energy.map(value => value - first)).filter(value => Number.isFinite(value));
   const within = value => Math.max(-20 * given, Math.min(20 * given, value));
-  const most = Math.max(...changes.map(value => Math.abs(within(value))), 1e-3 * given, 1e-12);
+  // of stiff scenes what is exchanged is a small part of what would blow them up: the scale is the curves' own
+  const most = Math.max(...changes.map(value => Math.abs(within(value))), 1e-15 * given, 1e-15);
   plot("energy", {lines: lab.lanes.map((lane, k) => ({k, points: rows.map(row => [row.time, row.energy[k] - first])})), low: -most, high: most, from: 0, to, unit: "J", axis: "s"});
   document.getElementById("apart").parentElement.hidden = lab.lanes.length === 1;
   if (lab.lanes.length > 1) drawDistances(rows, to);

@@ -3,12 +3,12 @@
 // How many times its length a spring is, and how many times what it was given the energy is, when a run has blown up.
 const RATIO = 100;
 
-function startWorld(system, scheme, dt, changes = []) {
+function startWorld(system, scheme, dt, changes = [], drives = []) {
   const memory = memoryOf(system);
-  const world = {system, memory, scheme, dt, steps: 0, origin: {time: 0, steps: 0}, blownUp: null, done: 0};
+  const world = {system, memory, scheme, dt, drives, steps: 0, origin: {time: 0, steps: 0}, blownUp: null, done: 0};
   world.natural = Array.from({length: system.s}, (_, j) => Math.max(memory.F[memory.at.rest_lengths + j], lengthOf(memory, j)));
   world.start = memory.F.slice(memory.at.x, memory.at.x + system.n * system.d);
-  const {kinetic, elastic} = energies(memory);
+  const {kinetic, elastic} = energies(world);
   world.given = kinetic + elastic;
   for (let j = 0; j < system.s; j++) world.given += law.elastic_energy(memory.F[memory.at.stiffness + j], world.natural[j]);
   world.changes = changes.slice().sort((a, b) => a.time - b.time);
@@ -34,12 +34,29 @@ function applyChange(memory, parameter, value) {
   else setParameter(memory, parameter, value);
 }
 
+// What is driven, as it is in the middle of the step that begins now: a row of its table for each step of the scene's dt,
+// straight lines between their middles at another, and the last row after the end.
+function applyDrives({memory, drives, dt}, time) {
+  for (const drive of drives) {
+    const {parameter, columns} = drive, width = columns.length, {F, at} = memory, [begin] = PARAMETERS[parameter](at);
+    drive.table = drive.table || new Float64Array(Uint8Array.from(atob(drive.rows), c => c.charCodeAt(0)).buffer);
+    const last = drive.table.length / width - 1, place = Math.min(Math.max((time + dt / 2) / drive.dt - 0.5, 0), last);
+    const whole = Math.abs(place - Math.round(place)) < 1e-6, row = whole ? Math.round(place) : Math.floor(place);
+    for (let k = 0; k < width; k++) {
+      const value = drive.table[row * width + k];
+      F[begin + columns[k]] = whole ? value : value + (place - row) * (drive.table[(row + 1) * width + k] - value);
+    }
+    derive(memory);
+  }
+}
+
 // A number of steps, as many as there are until it blows up, which every sixteenth step is looked at.
 function advance(world, steps) {
   const {memory: {F, I, at}, system, scheme} = world, {advance: ofDimension, coefficients} = schemes[scheme];
   const run = ofDimension[at.d];
   for (let k = 1; k <= steps && !world.blownUp; k++) {
     applyChanges(world);
+    if (world.drives.length) applyDrives(world, timeOf(world));
     run(F, I, at, coefficients(world.dt), 1);
     for (const {kind, values} of system.obstacles) {
       const project = obstacles[kind];

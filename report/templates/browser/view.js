@@ -32,13 +32,14 @@ function camera(d) {
 // Where a place is seen from the camera [m]: right, up, and how near.
 const seen = (place, d) => camera(d).map(row => row.reduce((sum, part, axis) => sum + part * (place[axis] - view.centre[axis]), 0));
 
-// Where all masses are seen [px], two numbers for each, into an array of the lane's own.
-function seenAll({F, at}, seenAt) {
-  const {n, d, x} = at, [right, up] = camera(d), {scale, centre} = view;
+// Where all masses are seen [px], two numbers for each, into an array of the lane's own; from where they started they are
+// drawn as many times as far as is set.
+function seenAll({memory: {F, at}, start}, seenAt) {
+  const {n, d, x} = at, [right, up] = camera(d), {scale, centre} = view, {magnified} = lab;
   for (let i = 0; i < n; i++) {
     let across = 0, high = 0;
     for (let axis = 0; axis < d; axis++) {
-      const away = F[x + d * i + axis] - centre[axis];
+      const from = start[d * i + axis], away = from + magnified * (F[x + d * i + axis] - from) - centre[axis];
       across += right[axis] * away; high += up[axis] * away;
     }
     seenAt[2 * i] = clamp(scale * across); seenAt[2 * i + 1] = clamp(-scale * high);
@@ -50,7 +51,9 @@ function seenAll({F, at}, seenAt) {
 function fitView() {
   const {system, rest} = lab.scene, {d} = system, points = [];
   for (let e = 0; e < system.positions.length; e += d) points.push(system.positions.slice(e, e + d));
-  for (let e = 0; e < rest.length; e += d) points.push(rest.slice(e, e + d));
+  for (let e = 0; e < rest.length; e += d) {
+    points.push(rest.slice(e, e + d).map((value, axis) => system.positions[e + axis] + lab.magnified * (value - system.positions[e + axis])));
+  }
   for (const {kind, values} of system.obstacles) {
     if (kind.startsWith("circle") || kind.startsWith("sphere")) {
       const radius = values[d];
@@ -141,11 +144,12 @@ function follow(width, height) {
 function drawLane(lane, k) {
   const {world: {memory}, recording} = lane, {I, at} = memory, {n, s} = at;
   if (!lane.seenAt || lane.seenAt.length !== 2 * n) lane.seenAt = new Float64Array(2 * n);
-  const places = seenAll(memory, lane.seenAt);
+  const places = seenAll(lane.world, lane.seenAt);
   paper.strokeStyle = paper.fillStyle = colourOf(k);
   if (recording) paper.setLineDash([4, 3]);
   strokeSprings(pathsByStrain(memory, places), s > THICK_UP_TO, k);
   paper.setLineDash([]); paper.globalAlpha = 1;
+  if (k === 0 || lab.beside) drawDriven(lane, k);
   const size = n > 60 ? 2.5 : 5;
   for (let i = 0; i < n; i++) {
     if (I[at.fixed + i]) drawFixed(places[2 * i], places[2 * i + 1], n > 60 ? 3 : 5);
@@ -259,26 +263,35 @@ function drawScale(height) {
   paper.strokeStyle = paper.fillStyle = ink(); paper.lineWidth = 2;
   paper.beginPath(); paper.moveTo(12, height - 12); paper.lineTo(12 + length * view.scale, height - 12); paper.stroke();
   paper.font = "13px system-ui, sans-serif"; paper.textBaseline = "bottom"; paper.textAlign = "left";
+  if (lab.magnified !== 1) paper.fillText(say("magnified", {times: lab.magnified}), 12, height - 36);
   paper.fillText(length >= 1 ? `${length} m` : length >= 0.01 ? `${+(length * 100).toPrecision(2)} cm` : `${+(length * 1000).toPrecision(2)} mm`, 12, height - 16);
 }
 
 // The free or fixed mass nearest to a place of the picture, within 28 px, and the lane's part it is in.
 function massAt(px, py) {
   let best = null, nearest = 28;
-  lab.lanes.forEach(({world: {memory: {F, at}}, recording}, k) => {
-    if (recording) return;
+  lab.lanes.forEach(({world: {memory: {at}}, recording, seenAt}, k) => {
+    if (recording || !seenAt) return;
     const [left, top, width, height] = view.boxes[k];
     for (let i = 0; i < at.n; i++) {
-      const [right, up] = seen(F.subarray(at.x + at.d * i, at.x + at.d * (i + 1)), at.d);
-      const [dx, dy] = [left + width / 2 + aside(k) + view.scale * right - px, top + height / 2 - view.scale * up - py], away = Math.sqrt(dx * dx + dy * dy);
+      const dx = left + width / 2 + aside(k) + seenAt[2 * i] - px, dy = top + height / 2 + seenAt[2 * i + 1] - py, away = Math.sqrt(dx * dx + dy * dy);
       if (away < nearest) { nearest = away; best = {mass: i, box: k}; }
     }
   });
   return best;
 }
 
-// The place in space under the pointer, in the plane through the mass that faces the camera.
-function placeUnder(px, py, {mass, box}) {
+// The place in space under the pointer, where the mass would be drawn there.
+function placeUnder(px, py, found) {
+  const {start} = lab.lanes[found.box].world, {d} = lab.scene.system;
+  return drawnUnder(px, py, found).map((value, axis) => {
+    const from = start[d * found.mass + axis];
+    return from + (value - from) / lab.magnified;
+  });
+}
+
+// The place under the pointer in the plane through the mass that faces the camera.
+function drawnUnder(px, py, {mass, box}) {
   const {d} = lab.scene.system, [left, top, width, height] = view.boxes[box], {memory: {F, at}} = lab.lanes[box].world;
   const right = (px - left - width / 2) / view.scale, up = -(py - top - height / 2) / view.scale;
   if (d === 1) return [view.centre[0] + up];

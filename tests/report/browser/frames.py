@@ -29,7 +29,10 @@ SECONDS = 4
 COUNT = """ms => new Promise(done => {
     let frames = 0;
     const begin = performance.now();
-    const next = () => { frames++; if (performance.now() - begin < ms) requestAnimationFrame(next); else done(frames); };
+    const next = () => {
+        frames++;
+        if (performance.now() - begin < ms) requestAnimationFrame(next); else done(frames);
+    };
     requestAnimationFrame(next);
 })"""
 

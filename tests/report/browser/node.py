@@ -22,7 +22,7 @@ DRIVER = """
 const bits = array => Buffer.from(array.buffer, array.byteOffset, array.byteLength).toString("base64");
 const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
   if (asked.ask === "run") {
-    const world = startWorld(asked.system, asked.scheme, asked.dt, asked.changes || []);
+    const world = startWorld(asked.system, asked.scheme, asked.dt, asked.changes || [], asked.drives || []);
     const {F, at} = world.memory, size = at.n * at.d, rows = [];
     for (let k = 0; k < asked.steps; k++) {
       world.blownUp = null;

@@ -7,9 +7,9 @@ from urllib.parse import parse_qs
 from experiments.exercises.exercise import exercises
 from experiments.experiment import NAMES
 from report.browser.beside import BESIDE, scenes_beside
+from report.browser.changes import CHANGES
 from report.browser.presets import PRESETS
 from report.browser.programs import page_schemes
-from report.browser.system_data import CHANGES
 
 
 def test_every_state_names_what_there_is() -> None:

@@ -19,7 +19,11 @@ from tests.report.browser.test_bits import STEPS, of_reference, same_bits
 from tests.report.chromium import VIEWS, Shown, chromium
 
 #: Scenes that are quick to make, and the lessons'.
-SHOWN = [preset for preset in PRESETS if preset.scene in ("oscillator", "cloth", "barrier", "jello")]
+SHOWN = [
+    preset
+    for preset in PRESETS
+    if preset.scene in ("oscillator", "cloth", "barrier", "jello", "crossing", "earthquake")
+]
 SHOWN.append(Preset("string", recordings=(Recording("mujoco_tendons"),)))
 
 #: The most a page may weigh [bytes].
@@ -148,6 +152,30 @@ def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> N
     page.locator("#said button").nth(1).click()
     assert page.evaluate("lab.dt") < limit
     page.close()
+
+
+def test_every_lane_that_blew_up_is_named(browser: Any, file: Path) -> None:
+    """With how many times dt times omega it stands: Euler at any dt, kick-drift at twice its limit; rk4 goes on."""
+    shown = opened(browser, file, "s=string&w=euler,rk4,kick_drift&dt=0.0105&speed=4")
+    page = shown.page
+    page.evaluate("for (let k = 0; k < 3000; k++) oneStep(); lookAtLanes(); showState()")
+    blown = page.evaluate("lab.lanes.filter(lane => lane.world.blownUp).map(lane => lane.scheme)")
+    said = page.locator("#said .banner p").all_inner_texts()
+    assert blown == ["euler", "kick_drift"]
+    assert [text.split()[0] for text in said] == blown
+    page.close()
+
+
+@pytest.mark.parametrize("scene", ["crossing", "earthquake"])
+def test_what_drives_a_scene_is_drawn_with_it(browser: Any, file: Path, scene: str) -> None:
+    """A truck, and ground with an arrow: the picture is another without what `drawDriven` draws, as at no string."""
+    different = "(() => { const all = (draw(), canvas.toDataURL()); const own = drawDriven; drawDriven = () => {};"
+    different += "draw(); const without = canvas.toDataURL(); drawDriven = own; return all !== without; })()"
+    for name, expected in ((scene, True), ("string", False)):
+        shown = opened(browser, file, f"s={name}&w=kick_drift&n=300")
+        assert shown.page.evaluate(different) == expected
+        assert shown.complaints == []
+        shown.page.close()
 
 
 def test_every_lesson_s_task_can_be_done(browser: Any, file: Path) -> None:
