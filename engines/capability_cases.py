@@ -61,6 +61,7 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
         "no fixed mass": replace(triangles, fixed=np.zeros(4, dtype=bool)),
         "no rest length": replace(plain, rest_lengths=np.array(0.0), stiffness=np.array(20.0)),
         "pulls": replace(plain, pulls=0.1 * thrown),
+        "angular springs": string({"angular_stiffness": 0.02}),
         "collisions": replace(plain, collisions=Collisions(np.array(0.03))),
         "restitution": replace(plain, collisions=Collisions(np.array(0.03), 0.5)),
         **{name: replace(plain, velocities=thrown, nonlinear=law) for name, law in LAWS.items()},

@@ -2,12 +2,13 @@
 
 Implicit schemes, equilibria and eigenfrequencies need the derivatives of the forces. The force of spring j between
 masses a and b depends on their difference only, so one (d, d) block B_j says it all: it enters the matrix as
-+B_j at (a, b) and (b, a), and -B_j at (a, a) and (b, b).
++B_j at (a, b) and (b, a), and -B_j at (a, a) and (b, b). An angular spring depends on the two arms from its middle
+mass, and one (2 d, 2 d) block says it all.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -16,6 +17,7 @@ import numpy as np
 from reference.errors import SolverError
 from reference.jit import compiled
 from reference.lengths import divisors
+from reference.springs.angular_law import derivatives
 from reference.springs.linear_law import force_by_rate, spring_force
 from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches, tangent_stiffness
 from reference.state import Array, State
@@ -39,10 +41,13 @@ class Blocks:
     Attributes:
         springs: B_j, shape (s, d, d): how the force on a spring's first mass grows with its second mass's move.
         masses: shape (n,): how the force on a mass falls with its own move, alike in all directions (drag).
+        angles: of the angular springs, shape (k, 2 d, 2 d): how the forces on the first and the last mass grow with the
+            arms to them; a single zero where there are none, or they have no part.
     """
 
     springs: Array
     masses: Array
+    angles: Array = field(default_factory=lambda: np.zeros((1, 1, 1)))
 
     @classmethod
     def of_masses(cls, system: MassSpringSystem, value: float) -> Blocks:
@@ -51,10 +56,10 @@ class Blocks:
         return cls(np.zeros((len(system.springs), d, d)), np.full(len(system.masses), value))
 
     def __rmul__(self, factor: float) -> Blocks:
-        return Blocks(factor * self.springs, factor * self.masses)
+        return Blocks(factor * self.springs, factor * self.masses, factor * self.angles)
 
     def __add__(self, other: Blocks) -> Blocks:
-        return Blocks(self.springs + other.springs, self.masses + other.masses)
+        return Blocks(self.springs + other.springs, self.masses + other.masses, self.angles + other.angles)
 
 
 def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Blocks]:
@@ -90,7 +95,10 @@ def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Block
         + (by_rate / divisor)[:, None, None] * turning
     )
     nothing = np.zeros(len(system.masses))
-    return Blocks(by_position, nothing), Blocks(by_velocity, nothing + system.drag)
+    position = Blocks(by_position, nothing)
+    if system.angular_springs is not None:
+        position = replace(position, angles=derivatives(system.angular_springs, state.positions))
+    return position, Blocks(by_velocity, nothing + system.drag)
 
 
 def damping_of(system: MassSpringSystem, state: State) -> Array:
@@ -117,14 +125,27 @@ def assemble(system: MassSpringSystem, blocks: Blocks, sparse: bool | None = Non
     size = int((~system.fixed).sum()) * d
     pattern = _small_pattern(system) if size <= DENSE_UP_TO else _pattern(system)
     own = blocks.masses[pattern.free, None, None] * np.eye(d)
-    values = np.concatenate([blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own])
-    values = values[pattern.kept].ravel()
+    values = [blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own, _of_three(system, blocks.angles)]
+    entries = np.concatenate(values)[pattern.kept].ravel()
     if sparse if sparse is not None else size > DENSE_UP_TO:
         from scipy.sparse import coo_array
 
-        return coo_array((values, (pattern.rows, pattern.columns)), shape=(size, size)).tocsc()
+        return coo_array((entries, (pattern.rows, pattern.columns)), shape=(size, size)).tocsc()
     # entries of one place are added in their order
-    return np.bincount(pattern.rows * size + pattern.columns, values, size**2).reshape(size, size)
+    return np.bincount(pattern.rows * size + pattern.columns, entries, size**2).reshape(size, size)
+
+
+def _of_three(system: MassSpringSystem, angles: Array) -> Array:
+    """Blocks of angular springs over their arms, as blocks between their masses a, b, c, row by row: shape (9 k, d, d).
+
+    A move of b shortens both arms, and the force on b is what is left of the other two.
+    """
+    if system.angular_springs is None:
+        return np.zeros((0, system.dimension, system.dimension))
+    k, d = len(system.angular_springs.masses), system.dimension
+    arms = np.kron([[1.0, -1.0, 0.0], [0.0, -1.0, 1.0]], np.eye(d))
+    whole = arms.T @ np.broadcast_to(angles, (k, 2 * d, 2 * d)) @ arms
+    return whole.reshape(k, 3, d, 3, d).transpose(0, 1, 3, 2, 4).reshape(-1, d, d)
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +154,8 @@ class _Pattern:
 
     Attributes:
         free: the free masses.
-        kept: which of the blocks (at (a, b), (b, a), (a, a), (b, b), then each mass's own) are of free masses.
+        kept: which of the blocks (at (a, b), (b, a), (a, a), (b, b), then each mass's own, then the nine of every
+            angular spring) are of free masses.
         rows, columns: of all entries of those, block after block.
     """
 
@@ -149,8 +171,9 @@ def _pattern(system: MassSpringSystem) -> _Pattern:
     index = np.full(n, -1)
     index[free] = np.arange(len(free))
     a, b = index[system.springs.T]
-    i = np.concatenate([a, b, a, b, np.arange(len(free))])
-    j = np.concatenate([b, a, a, b, np.arange(len(free))])
+    three = np.zeros((0, 3), dtype=np.int64) if system.angular_springs is None else index[system.angular_springs.masses]
+    i = np.concatenate([a, b, a, b, np.arange(len(free)), np.repeat(three, 3)])
+    j = np.concatenate([b, a, a, b, np.arange(len(free)), np.tile(three, 3).ravel()])
     kept = (i >= 0) & (j >= 0)
     axes = np.arange(d)
     rows = np.broadcast_to((i[kept, None] * d + axes)[:, :, None], (kept.sum(), d, d)).ravel()
@@ -176,7 +199,8 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
     """
     free = ~system.fixed
     many = right.ndim == 3
-    large = free.sum() * system.dimension >= ITERATE_FROM and not many
+    # the iteration knows blocks of springs only
+    large = free.sum() * system.dimension >= ITERATE_FROM and not many and system.angular_springs is None
     found = _by_iteration(system, blocks, right) if large else None
     if found is not None:
         return found

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
+from reference.springs.angular_law import energy_of_bends
 from reference.springs.nonlinear_law import energy_of_springs
 from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 
 
 def energy(system: MassSpringSystem, state: State) -> float:
-    """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + that of the law of a spring - sum m g.x.
+    """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + that of springs and bends - sum m g.x.
 
     A pull F on a mass counts as its weight does: -F.x, among the gravitational.
     """
@@ -22,7 +23,7 @@ def energy_parts(system: MassSpringSystem, state: State) -> dict[str, float]:
     a, b = system.springs.T
     stretch = np.linalg.norm(state.positions[b] - state.positions[a], axis=1) - system.rest_lengths
     kinetic = 0.5 * system.masses @ (state.velocities**2).sum(axis=1)
-    elastic = energy_of_springs(system, stretch).sum()
+    elastic = energy_of_springs(system, stretch).sum() + _bent(system, state.positions)
     weight = system.masses @ (state.positions @ system.gravity) + (system.pulls * state.positions).sum()
     return {
         "kinetic": float(kinetic),
@@ -38,9 +39,15 @@ def energies(system: MassSpringSystem, trajectory: Trajectory) -> Array:
     x = trajectory.positions
     stretch = np.linalg.norm(x[:, b] - x[:, a], axis=2) - system.rest_lengths
     kinetic = 0.5 * (trajectory.velocities**2).sum(axis=2) @ system.masses
-    elastic = energy_of_springs(system, stretch).sum(axis=1)
+    elastic = energy_of_springs(system, stretch).sum(axis=1) + _bent(system, x)
     weight = (x @ system.gravity) @ system.masses + (x * system.pulls).sum(axis=(1, 2))
     return np.asarray(kinetic + elastic - weight)
+
+
+def _bent(system: MassSpringSystem, positions: Array) -> Array | float:
+    """Of all angular springs [J], with masses at positions (..., n, d): shape (...)."""
+    angular = system.angular_springs
+    return 0.0 if angular is None else np.asarray(energy_of_bends(angular, positions).sum(axis=-1))
 
 
 def momentum(system: MassSpringSystem, state: State) -> Array:

@@ -68,6 +68,8 @@ class RopeMotion:
             raise InputError("no rope: expected no force that pulls on a mass, its rods know none")
         if system.nonlinear is not None:
             raise InputError(f"no rope: rods have no {', '.join(system.nonlinear.asked)}")
+        if system.angular_springs is not None:
+            raise InputError("no rope: expected no springs that resist bending, its rods know none")
         if system.obstacles:
             raise InputError("no rope: expected no obstacles, which would push its masses off their rods")
         self.system = system

@@ -5,7 +5,8 @@ and a mass feels its springs, its weight m g, the drag -Cd v, and what pulls on 
 once; then each mass sums the forces of its own springs in their order. A mass alone (`acceleration_of`) is given
 exactly the bits it has within the whole. A spring of no length, which has no direction, gives forces that are not
 numbers, and so a run that diverges, unless its rest length is zero, too: then it has no force. A spring that is not
-linear (`springs.nonlinear_law`) has at every state the stiffness and damping that make its force there.
+linear (`springs.nonlinear_law`) has at every state the stiffness and damping that make its force there. What resists
+bending at a mass is added to all that (`springs.angular_law`).
 
 The functions at the top are compiled (`jit`): they are loops over numbers.
 """
@@ -16,6 +17,7 @@ import numpy as np
 
 from reference.assembly import Blocks, spring_blocks
 from reference.jit import array, compiled
+from reference.springs.angular_law import forces_on_masses
 from reference.springs.linear_law import spring_force
 from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches
 from reference.state import Array, Slope, State, Trajectory
@@ -157,14 +159,25 @@ class SpringMotion:
         out = np.empty_like(state.positions)
         springs = self._springs_at(state, damping)
         _all_accelerations(*_rows(state), *springs, *self._masses_and_weight, self._forces, out)
-        return out if self._pulled is None else out + self._pulled
+        besides = self._besides(state)
+        return out if besides is None else out + besides
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Acceleration of mass i alone [m/s^2], shape (d,): all the lecture's per-link function sees."""
         out = np.empty_like(state.positions)
         springs = self._springs_at(state)
         _one_acceleration(i, *_rows(state), *springs, *self._masses_and_weight, self._forces, out)
-        return out[i] if self._pulled is None else out[i] + self._pulled[i]
+        besides = self._besides(state)
+        return out[i] if besides is None else out[i] + besides[i]
+
+    def _besides(self, state: State) -> Array | None:
+        """What pulls and angular springs give all masses besides [m/s^2], shape (n, d); None where there are none."""
+        angular = self.system.angular_springs
+        if angular is None:
+            return self._pulled
+        bent = forces_on_masses(angular, state.positions) / self.system.masses[:, None]
+        bent[self.system.fixed] = 0.0
+        return bent if self._pulled is None else bent + self._pulled
 
     def _springs_at(self, state: State, damping: bool = True) -> tuple[IntArray, Array, Array, Array]:
         """What springs join, their rest lengths, and the stiffness and damping they have at a state."""

@@ -12,6 +12,7 @@ import numpy as np
 from reference.changes import Change
 from reference.lengths import lengths, spring_lengths
 from reference.pulls import is_pull, place_of_pull
+from reference.springs.angular_law import energy_of_bends
 from reference.springs.nonlinear_law import energy_of_springs
 from reference.state import Array, Trajectory
 from reference.system import BREAK, FIELDS, BoolArray, MassSpringSystem
@@ -162,7 +163,8 @@ def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Arr
     """Kinetic and elastic energy over all that a system can have been given, in every frame, shape (m,).
 
     That is what both were at the start, what gravity and pulls do at most on the way, sum (m g + F) |x - x0|, and
-    what would stretch every spring to twice its natural length, a scale for what starts at rest. Zero where all of that
+    what would stretch every spring to twice its natural length and bend every angular one by 1 rad, a scale for what
+    starts at rest. Zero where all of that
     is zero.
 
     Args:
@@ -176,13 +178,22 @@ def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Arr
     natural = _natural_lengths(system, trajectory, changes)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         elastic = energy_of_springs(stiffest, length - system.rest_lengths)
+        bent, of_a_radian = _bent(system, x)
         # of what breaks only what it had at the start: it may be of any length afterwards
         kept = elastic[:, ~_may_break(system, changes)].sum(axis=1)
-        energy = 0.5 * np.einsum("mnd,mnd,n->m", v, v, mass) + kept
-        given = 0.5 * mass @ (v[0] ** 2).sum(axis=1) + elastic[0].sum()
+        energy = 0.5 * np.einsum("mnd,mnd,n->m", v, v, mass) + kept + bent
+        given = 0.5 * mass @ (v[0] ** 2).sum(axis=1) + elastic[0].sum() + bent[0] + of_a_radian
         given += energy_of_springs(stiffest, np.where(np.isfinite(natural), natural, system.rest_lengths)).sum()
         given = given + lengths(x - y) @ (gravity * mass + _strongest_pulls(system, changes))
         return np.where(given > 0, energy / given, 0.0)
+
+
+def _bent(system: MassSpringSystem, x: Array) -> tuple[Array, float]:
+    """The energy of all angular springs in every frame [J], shape (m,); and what it would be with all bent by 1 rad."""
+    angular = system.angular_springs
+    if angular is None:
+        return np.zeros(len(x)), 0.0
+    return energy_of_bends(angular, x).sum(axis=1), float(angular.stiffness.sum()) / 2
 
 
 def _most(system: MassSpringSystem, parameter: str, changes: Sequence[Change]) -> Array:

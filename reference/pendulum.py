@@ -97,6 +97,8 @@ def why_no_pendulum(system: MassSpringSystem) -> str | None:
         return "expected no force that pulls on a mass: its equations know none"
     if system.nonlinear is not None:
         return f"expected linear springs: rods have no {', '.join(system.nonlinear.asked)}"
+    if system.angular_springs is not None:
+        return "expected no springs that resist bending: its equations know none"
     if system.obstacles:
         return "expected no obstacles: a pendulum that meets one is something else"
     separation = np.diff(system.positions, axis=0)

@@ -64,6 +64,8 @@ def numbers_of(system: MassSpringSystem, state: State, order: str, single: bool)
         raise Unsupported("solvers of constraints have springs of a rest length only")
     if system.pulls.any():
         raise Unsupported("solvers of constraints have no force that pulls on a mass")
+    if system.angular_springs is not None:
+        raise Unsupported("solvers of constraints have no springs that resist bending")
     if system.nonlinear is not None:
         raise Unsupported("solvers of constraints have linear springs only")
     kind: Any = np.float32 if single else np.float64

@@ -19,6 +19,7 @@ from reference.collisions.round_masses import Collisions
 from reference.errors import InputError, unknown_name
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.pulls import PULL, UNIT, is_pull, place_of_pull
+from reference.springs.angular import AngularSprings
 from reference.springs.kinds import NonlinearSprings
 from reference.state import Array, State
 
@@ -74,6 +75,7 @@ class MassSpringSystem:
         nonlinear: what springs have besides stiffness and damping; None where all are linear.
         collisions: which masses are round and collide with one another; None where none do.
         pulls: constant forces on the masses [N], shape (n, d); zero unless given. What is fixed does not feel its own.
+        angular_springs: what resists bending at a mass; None where nothing does.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.
@@ -93,6 +95,7 @@ class MassSpringSystem:
     nonlinear: NonlinearSprings | None = None
     collisions: Collisions | None = None
     pulls: Array = field(default_factory=lambda: np.zeros(1))
+    angular_springs: AngularSprings | None = None
 
     def __post_init__(self) -> None:
         positions = finite("positions", self.positions, "m")
@@ -133,6 +136,9 @@ class MassSpringSystem:
         if self.collisions is not None:
             made = _given("collisions", self.collisions, Collisions).checked(self.positions)
             object.__setattr__(self, "collisions", made)
+        if self.angular_springs is not None:
+            bent = _given("angular_springs", self.angular_springs, AngularSprings).checked(self.positions)
+            object.__setattr__(self, "angular_springs", bent)
 
     @property
     def dimension(self) -> int:
@@ -302,6 +308,7 @@ class MassSpringSystem:
             pulls=self.pulls[old],
             springs=new_of_old[self.springs],
             collisions=self.collisions and self.collisions.renumbered(old),
+            angular_springs=self.angular_springs and self.angular_springs.renumbered(new_of_old),
         )
 
     def with_springs_reversed(self) -> MassSpringSystem:
@@ -323,7 +330,7 @@ class MassSpringSystem:
         """Plain lists and numbers, the fields by name: what a digest or a JSON file is made of."""
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         values["obstacles"] = [obstacle.to_dict() for obstacle in self.obstacles]
-        for name in ("nonlinear", "collisions"):
+        for name in ("nonlinear", "collisions", "angular_springs"):
             given = values.pop(name)
             values |= {name: given.to_dict()} if given else {}
         if not self.pulls.any():

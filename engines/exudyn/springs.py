@@ -44,7 +44,7 @@ class ExudynSprings:
     def capabilities(self) -> frozenset[str]:
         """Everything but obstacles and collisions; for VelocityVerlet everything but those, damping and drag."""
         left_out = {"damping", "dampings", "drag"} if self.solver == "VelocityVerlet" else set()
-        return frozenset(CAPABILITIES) - {*OBSTACLES, *COLLISIONS} - left_out
+        return frozenset(CAPABILITIES) - {*OBSTACLES, *COLLISIONS, "angular springs"} - left_out
 
     @property
     def identified_as(self) -> Mapping[str, str]:

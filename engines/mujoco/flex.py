@@ -41,7 +41,9 @@ class MujocoFlex:
     name: str
     integrator: Integrator
     package: str = "mujoco"
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS} - {"no rest length", "pulls"}
+    capabilities: frozenset[str] = (
+        frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS} - {"no rest length", "pulls", "angular springs"}
+    )
     semantics: str = (
         "stiffness is k [N/m] and damping c [N s/m] of the edges of a flex, explicit; drag is Cd [N s/m] as damping of "
         "every slide joint, explicit"

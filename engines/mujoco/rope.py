@@ -44,7 +44,7 @@ class MujocoRope:
     impedance: float = 0.9999
     weight: float = 1e-3
     capabilities: frozenset[str] = (
-        frozenset(CAPABILITIES) - set(OBSTACLES) - {*LAWS, *COLLISIONS} - {"no rest length", "pulls"}
+        frozenset(CAPABILITIES) - set(OBSTACLES) - {*LAWS, *COLLISIONS} - {"no rest length", "pulls", "angular springs"}
     )
     semantics: str = (
         "stiffness: infinite, whatever is given; damping: without effect, as nothing stretches for long; "

@@ -61,8 +61,8 @@ class MujocoTendons:
 
     @property
     def capabilities(self) -> frozenset[str]:
-        """All but a largest force, and contacts that bounce; bodies that are nested do not collide with one another."""
-        lacks = {"largest_force", "restitution", *(["collisions"] if self.nested else [])}
+        """All but a largest force, bending, and contacts that bounce; nested bodies do not collide with one another."""
+        lacks = {"largest_force", "angular springs", "restitution", *(["collisions"] if self.nested else [])}
         return frozenset(CAPABILITIES) - lacks
 
     @property

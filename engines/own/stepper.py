@@ -49,7 +49,7 @@ class OwnFile:
     roles: tuple[str, ...]
     package: str = "numpy"
     settings: Mapping[str, object] = field(default_factory=dict)
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS, "pulls"}
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS, "pulls", "angular springs"}
     identified_as: Mapping[str, str] = field(default_factory=dict)
     semantics: str = "a file of the user's own"
 
@@ -82,7 +82,7 @@ class OwnFunction:
     roles: tuple[str, ...]
     package: str = "numpy"
     settings: Mapping[str, object] = field(default_factory=dict)
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS, "pulls"}
+    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS, "pulls", "angular springs"}
     identified_as: Mapping[str, str] = field(default_factory=dict)
     semantics: str = "a function of the user's own"
 

@@ -73,6 +73,8 @@ def _beyond(translation: Translation, system: MassSpringSystem) -> list[str]:
         said.append(f"{translation.name} cannot do motion in {dimension} dimensions")
     if system.nonlinear is not None or system.collisions is not None:
         said.append("snippets have linear springs, and masses that do not collide")
+    if system.angular_springs is not None:
+        said.append("snippets have no springs that resist bending")
     if system.pulls.any():
         said.append("snippets have no force that pulls on a mass")
     if system.obstacles or system.drag:

@@ -82,8 +82,8 @@ def step_of(scheme: Scheme, motion: Equations) -> Step:
     if scheme.needs != "accelerations of one mass" or not isinstance(motion, SpringMotion):
         return as_written
     system = motion.system
-    compiled = len(system.masses) >= COMPILED_FROM and system.nonlinear is None and not system.pulls.any()
-    loops = _trusted(scheme) if compiled else None
+    plain = system.nonlinear is None and system.angular_springs is None and not system.pulls.any()
+    loops = _trusted(scheme) if plain and len(system.masses) >= COMPILED_FROM else None
     return as_written if loops is None else _step_by(loops, motion.system)
 
 

@@ -98,6 +98,8 @@ def loops_for(scheme: Scheme, system: MassSpringSystem, lanes: bool = False, thr
         raise Unsupported("no compiled loops of springs of rest length 0: they run as written")
     if system.pulls.any():
         raise Unsupported("no compiled loops of masses that a force pulls: they run as written")
+    if system.angular_springs is not None:
+        raise Unsupported("no compiled loops of springs that resist bending: they run as written")
     if system.nonlinear is not None:
         raise Unsupported(f"no compiled loops of springs with {', '.join(system.nonlinear.asked)}: they run as written")
     program = trace(scheme)

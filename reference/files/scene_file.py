@@ -17,6 +17,11 @@
     mass = 3
     force = [0.0, -2.0]         # N
 
+    [[angular_springs]]         # and springs that resist bending at a mass (`reference.springs.angular`)
+    masses = [0, 1, 2]          # at the second one, between the first and the third
+    stiffness = 0.05            # N m/rad
+    rest_angle = 3.14159        # rad; as laid out where left out
+
     [ground_motion]             # the ground moves, and all supports with it (`reference.scenes.ground_motion`)
     from_frequency = 0.5        # Hz; or, in place of the numbers of a sweep, file = "record.csv" and its scale
     to_frequency = 5.0          # Hz
@@ -51,7 +56,8 @@ the start.
 [system] and [mesh] may say of springs, one number for all or one for each, what is not linear about them: hardening,
 largest_force, breaking_force, breaking_stretch; and tension_only or compression_only, which is true of all or of those
 whose numbers are given (`reference.springs.kinds`). And of masses that collide with one another their radii, and the
-restitution (`reference.collisions.round_masses`). A named scene has all of them among its [parameters].
+restitution (`reference.collisions.round_masses`); and angular_stiffness [N m/rad] puts an angular spring at every mass
+that two springs meet at. A named scene has all of them among its [parameters].
 """
 
 from __future__ import annotations
@@ -69,6 +75,7 @@ from reference.changes import Change, Drive, Driven
 from reference.collisions.round_masses import Collisions
 from reference.drives import Ramp, Sine
 from reference.errors import InputError
+from reference.files.angular_tables import AngularTable, angular_springs_of
 from reference.files.mesh_file import read_mesh
 from reference.files.pull_tables import PullTable, pulls_of
 from reference.files.regular_file import check_file
@@ -77,6 +84,7 @@ from reference.obstacles import KINDS as OBSTACLES
 from reference.obstacles import Obstacle, obstacle_of
 from reference.scenes import Setup, find
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law, read_record
+from reference.springs.bending import with_bending
 from reference.springs.kinds import KINDS, ONE_SIDED, NonlinearSprings
 from reference.system import MassSpringSystem
 
@@ -86,7 +94,7 @@ LARGEST_FILE = 32 * 2**20
 Numbers = float | list[float]
 
 #: What tables say besides the plain fields of a system.
-BESIDES = (*KINDS, "radii", "restitution")
+BESIDES = (*KINDS, "radii", "restitution", "angular_stiffness")
 
 #: One for each mass: its numbers along the axes, or along a line its number.
 Vectors = list[float | list[float]]
@@ -95,7 +103,7 @@ T = TypeVar("T")
 
 
 class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
-    """What the tables [system] and [mesh] may say of springs that are not linear, and of masses that collide."""
+    """What the tables [system] and [mesh] may say besides: of springs that are not linear, of masses that collide."""
 
     tension_only: bool | list[int] = False
     compression_only: bool | list[int] = False
@@ -105,6 +113,7 @@ class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
     breaking_stretch: Numbers = float("inf")
     radii: Numbers = 0.0
     restitution: float = 0.0
+    angular_stiffness: Numbers = 0.0
 
     def nonlinear(self, count: int) -> NonlinearSprings:
         """The same of so many springs. Raises InputError for the number of a spring that there is none of."""
@@ -150,7 +159,7 @@ class SystemTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
             a, b = unstretched.springs.T
             with np.errstate(over="ignore"):
                 values["rest_lengths"] = np.linalg.norm(unstretched.positions[b] - unstretched.positions[a], axis=1)
-        return MassSpringSystem(**values)
+        return with_bending(MassSpringSystem(**values), self.angular_stiffness)
 
 
 class MeshTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
@@ -262,6 +271,7 @@ class SceneFile(msgspec.Struct, forbid_unknown_fields=True):
     ramps: list[RampTable] = []
     sines: list[SineTable] = []
     pulls: list[PullTable] = []
+    angular_springs: list[AngularTable] = []
     obstacles: list[dict[str, Any]] = []
     ground_motion: GroundMotionTable | None = None
 
@@ -334,6 +344,8 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any], remarks
     system, drives = driven.system, driven.drives
     if content.pulls:
         system = replace(system, pulls=pulls_of(system, content.pulls))
+    if content.angular_springs:
+        system = replace(system, angular_springs=angular_springs_of(system, content.angular_springs))
     if content.obstacles:
         given = tuple(_obstacle(i, table) for i, table in enumerate(content.obstacles))
         system = replace(system, obstacles=(*system.obstacles, *given))

@@ -247,6 +247,8 @@ def why_no_string(system: MassSpringSystem) -> str | None:
         return "the lecture's listings know no force that pulls on a mass"
     if system.nonlinear is not None:
         return f"the lecture's springs are linear: they have no {', '.join(system.nonlinear.asked)}"
+    if system.angular_springs is not None:
+        return "the lecture's listings know no springs that resist bending"
     if system.damping.any():
         return "the lecture's listings have drag, but no damping along the springs"
     if system.gravity[0]:

@@ -20,6 +20,7 @@ from reference.collisions.round_masses import Collisions
 from reference.errors import InputError, unknown_name
 from reference.registry import Registry, origin, plug_ins
 from reference.scenes.parameters import PerItem, chosen, converted
+from reference.springs.bending import with_bending
 from reference.springs.kinds import KINDS, with_kinds
 from reference.system import ABOVE_ZERO, MassSpringSystem
 
@@ -28,7 +29,8 @@ ROUND = {
     "radii": "m, of masses that collide with one another; 0 of those that do not",
     "restitution": "the part of the speed at which two meet that they part with, from 0 to 1",
 }
-BESIDES = {**KINDS, **ROUND}
+BENDING = {"angular_stiffness": "N m/rad, of an angular spring at every mass where two springs meet; 0: none"}
+BESIDES = {**KINDS, **ROUND, **BENDING}
 
 
 @dataclass(frozen=True)
@@ -121,12 +123,13 @@ def _with(system: MassSpringSystem, besides: Mapping[str, Any]) -> MassSpringSys
     """A scene's system with some of BESIDES. Raises InputError as a system does."""
     kinds = {name: value for name, value in besides.items() if name in KINDS}
     nonlinear = with_kinds(system.nonlinear, kinds) if kinds else system.nonlinear
-    if kinds.keys() == besides.keys():
-        return replace(system, nonlinear=nonlinear)
+    system = with_bending(replace(system, nonlinear=nonlinear), besides.get("angular_stiffness", 0.0))
+    if not ROUND.keys() & besides.keys():
+        return system
     round_ones = system.collisions or Collisions()
     radii = np.asarray(besides.get("radii", round_ones.radii), dtype=float)
     collisions = Collisions(radii, float(besides.get("restitution", round_ones.restitution)))
-    return replace(system, nonlinear=nonlinear, collisions=collisions)
+    return replace(system, collisions=collisions)
 
 
 @dataclass(frozen=True)

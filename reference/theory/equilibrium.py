@@ -26,7 +26,7 @@ def equilibrium(system: MassSpringSystem) -> State:
         )
     # along a line a string may stand, too: there is no side to fall to
     hangs = system.is_string and system.dimension > 1 and system.stiffness.all() and system.gravity.any()
-    other = system.nonlinear is not None or system.pulls.any()
+    other = system.nonlinear is not None or system.angular_springs is not None or system.pulls.any()
     return hanging_string(system) if hangs and not other else least_energy(system)
 
 
@@ -39,7 +39,7 @@ def hanging_string(system: MassSpringSystem) -> State:
     Raises:
         InputError: unless the system is a string with stiffness everywhere.
     """
-    linear = system.nonlinear is None
+    linear = system.nonlinear is None and system.angular_springs is None
     if not system.is_string or not system.stiffness.all() or not linear or system.pulls.any():
         raise InputError(
             "system is no string: expected springs from each mass to the next, the first fixed, all with stiffness > 0 "

@@ -17,10 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from reference.assembly import Blocks, assemble, spring_blocks
+from reference.assembly import assemble, spring_blocks
 from reference.errors import SolverError
 from reference.forces import SpringMotion
-from reference.lengths import divisors
+from reference.lengths import divisors, lengths
+from reference.springs.angles import arms_of
+from reference.springs.angular_law import energy_of_bends
 from reference.springs.nonlinear_law import energy_of_springs, secant_stiffness
 from reference.state import Array, State
 from reference.system import MassSpringSystem
@@ -69,7 +71,16 @@ def least_energy(system: MassSpringSystem) -> State:
 def force_tolerance(system: MassSpringSystem, weight: float) -> float:
     """What may be left of a force in balance [N]: a billionth of the weight, and what positions round by."""
     rounding = np.finfo(float).eps * float(np.abs(system.positions).max(initial=0.0) + system.size)
-    return 1e-9 * weight + 8 * rounding * float(system.stiffness.max(initial=0.0))
+    return 1e-9 * weight + 8 * rounding * max(float(system.stiffness.max(initial=0.0)), stiffness_across(system))
+
+
+def stiffness_across(system: MassSpringSystem) -> float:
+    """The most that an angular spring resists a move of one of its masses across an arm, at the start [N/m]."""
+    angular = system.angular_springs
+    if angular is None:
+        return 0.0
+    shorter = np.min([lengths(arm) for arm in arms_of(system.positions, angular.masses)], axis=0)
+    return float((4 * angular.stiffness / shorter**2).max())
 
 
 class Descent:
@@ -98,6 +109,7 @@ class Descent:
         tension = np.abs(self._motion.acceleration(system.start, damping=False)) * system.masses[:, None]
         # what forces are small against: what is carried, what the start pulls with, a millionth of what springs can
         firm = 1e-6 * float((system.stiffness * system.rest_lengths).max(initial=0.0))
+        firm = max(firm, 1e-6 * stiffness_across(system) * system.shortest)
         self.weight = max(float(np.abs(self._loads).sum()), float(tension.sum()), firm) or 1.0
 
     def at(self, q: Array) -> State:
@@ -116,7 +128,9 @@ class Descent:
         x = self.at(q).positions
         a, b = self.system.springs.T
         stretch = np.linalg.norm(x[b] - x[a], axis=1) - self.system.rest_lengths
-        return float(energy_of_springs(self.system, stretch).sum() - self._loads @ q)
+        energy = energy_of_springs(self.system, stretch).sum() - self._loads @ q
+        angular = self.system.angular_springs
+        return float(energy if angular is None else energy + energy_of_bends(angular, x).sum())
 
     def off_ridges(self, q: Array) -> Array:
         """Coordinates where forces balance and every push comes back, downhill from those given.
@@ -202,7 +216,7 @@ class Descent:
         """The derivative of the forces by q, its sign turned [N/m]: sparse."""
         blocks, _ = spring_blocks(self.system, self.at(q))
         if tension_only:
-            blocks = Blocks(_without_compression(self.system, self.at(q), blocks.springs), blocks.masses)
+            blocks = replace(blocks, springs=_without_compression(self.system, self.at(q), blocks.springs))
         return -assemble(self.system, blocks, sparse=True)
 
 

@@ -35,12 +35,15 @@ class Parts:
 
 
 def parts_of(system: MassSpringSystem) -> Parts:
-    """The parts that springs with stiffness hold together; a fixed mass joins nothing to anything."""
+    """The parts that springs with stiffness hold together, angular ones too; a fixed mass joins nothing to anything."""
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     n, free = len(system.positions), ~system.fixed
     a, b = system.springs[system.stiffness > 0].T
+    if system.angular_springs is not None:
+        resists = system.angular_springs.masses[system.angular_springs.stiffness > 0]
+        a, b = np.concatenate([[a, b], resists[:, :2].T, resists[:, 1:].T], axis=1)
     inner = free[a] & free[b]
     joined = coo_array((np.ones(inner.sum()), (a[inner], b[inner])), shape=(n, n))
     _, labels = connected_components(joined, directed=False)

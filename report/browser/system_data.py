@@ -35,6 +35,7 @@ _WORDS = {
     "nonlinear": "springs that are not linear",
     "collisions": "masses that collide",
     "pulls": "forces that pull on masses",
+    "angular_springs": "springs that resist bending",
 }
 
 

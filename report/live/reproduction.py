@@ -123,13 +123,15 @@ def _setting(value: str) -> str:
 def written_out(system: MassSpringSystem, state: State) -> str:
     """A system at a state as a scene file, every number to its last bit."""
     now = system.to_dict() | {"positions": state.positions.tolist(), "velocities": state.velocities.tolist()}
-    obstacles, law = now.pop("obstacles"), now.pop("nonlinear", {})
+    obstacles, law, angular = now.pop("obstacles"), now.pop("nonlinear", {}), now.pop("angular_springs", {})
     now |= now.pop("collisions", {})
     now["fixed"] = np.flatnonzero(system.fixed).tolist()
     lines = ["[system]", *(f"{key} = {json.dumps(value)}" for key, value in now.items())]
     for key, values in law.items():
         given = [j for j, true in enumerate(values) if true] if key in ONE_SIDED else values
         lines.append(f"{key} = {json.dumps(given).replace('null', 'inf')}")
+    for masses, stiffness, rest_angle in zip(*angular.values(), strict=True):
+        lines += ["", "[[angular_springs]]", f"masses = {masses}", f"{stiffness = }", f"{rest_angle = }"]
     for obstacle in obstacles:
         lines += ["", "[[obstacles]]", *(f"{key} = {json.dumps(value)}" for key, value in obstacle.items())]
     return "\n".join([*lines, ""])

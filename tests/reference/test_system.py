@@ -24,8 +24,8 @@ TRIANGLE: dict[str, Any] = {
     "stiffness": 10.0,
 }
 
-#: The fields that hold arrays, and others; the last two are in a dictionary only where there is something to say.
-OTHERS = ("drag", "obstacles", "nonlinear", "collisions")
+#: The fields that hold arrays, and others; the last three are in a dictionary only where there is something to say.
+OTHERS = ("drag", "obstacles", "nonlinear", "collisions", "angular_springs")
 ARRAYS = [f.name for f in dataclasses.fields(MassSpringSystem) if f.name not in OTHERS]
 
 NAN, INF = float("nan"), float("inf")

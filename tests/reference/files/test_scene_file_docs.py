@@ -46,6 +46,7 @@ def test_what_stands_besides_is_read(tmp_path: Path) -> None:
         setup = loaded(tmp_path, form + BESIDES)
         assert len(setup.system.obstacles) == 1
         assert setup.system.pulls[2].tolist() == [0.0, -2.0]
+        assert setup.system.to_dict()["angular_springs"]["rest_angles"] == [3.14159]
         assert [change.parameter for change in setup.changes].count("stiffness") == 1
         assert [change.parameter for change in setup.changes].count("gravity") > 100
 

@@ -79,3 +79,30 @@ def test_words_for_yes_and_no_of_named_scenes() -> None:
     for name, value, said in (("tension_only", "2", "1 for springs that do"), ("breakin_force", "1", "breaking_force")):
         with pytest.raises(InputError, match=said):
             find("string").system({name: value})
+
+
+BENT = WRITTEN_OUT.replace("[0.0, 1.0, 2.0]", "[[0.0, 1.0], [0.0, 0.0], [2.0, 0.0]]")
+
+
+def test_angular_springs_of_every_form(tmp_path: Path) -> None:
+    """A table each, and one at every mass where two springs meet; as laid out where no rest angle is said; or both."""
+    table = "[[angular_springs]]\nmasses = [2, 1, 0]\nstiffness = 0.5\n"
+
+    def read(text: str) -> dict[str, object]:
+        (tmp_path / "wire.toml").write_text(text)
+        found: dict[str, object] = load(tmp_path / "wire.toml", {}).system.to_dict()["angular_springs"]
+        return found
+
+    right = pytest.approx([np.pi / 2])
+    assert read(BENT + table) == {"masses": [[2, 1, 0]], "stiffness": [0.5], "rest_angles": right}
+    assert read(BENT + table + "rest_angle = 2\n")["rest_angles"] == [2.0]
+    both = read(BENT + "angular_stiffness = 3\n" + table)
+    assert both["masses"] == [[0, 1, 2], [2, 1, 0]]
+    assert both["rest_angles"] == pytest.approx([3 * np.pi / 2, np.pi / 2])
+    named = read('scene = "string"\n[parameters]\nmasses = 3\nangular_stiffness = [1, 2]\n')
+    assert (named["masses"], named["stiffness"]) == ([[0, 1, 2], [1, 2, 3]], [1.0, 2.0])
+    for line, said in ((table.replace("2,", "5,"), "expected masses from 0 to 2"), (table[:38], "missing .*stiffness")):
+        with pytest.raises(InputError, match=said):
+            read(BENT + line)
+    with pytest.raises(InputError, match="did you mean 'rest_angle'"):
+        read(BENT + table + "restangle = 2\n")
