@@ -202,7 +202,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     tell("its order")
     seen = None if precision == "single" else nonlinear_order(runs, False, False)
     tell("its name")
-    identification = _identified(stepper, damped, dragged)
+    identification = identified_on_a_string(stepper, damped, dragged)
     nearest = ""
     if identification.identified_as is None:
         reasons.append(f"not identified by its motion: {identification.reason}")
@@ -245,8 +245,8 @@ def _swapped(rest: Outcome) -> bool:
     return bool(abs(run.positions[-1][1, 0]) < SMALL and abs(run.velocities[-1][1, 0] + 1) < SMALL)
 
 
-def _identified(stepper: Stepper, damped: bool, dragged: bool) -> Identification:
-    """On a string; of what knows one mass only, on an oscillator."""
+def identified_on_a_string(stepper: Stepper, damped: bool, dragged: bool) -> Identification:
+    """Which scheme it is, with damping and drag or without, on a string; of what knows one mass, on an oscillator."""
     damping, drag = DAMPING if damped else 0.0, DRAG if dragged else 0.0
     string = find_scene("string").system({"masses": MASSES, "damping": damping, "drag": drag, "angle": 0.5})
     found = identify(stepper, string, DT, STEPS)

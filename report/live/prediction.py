@@ -78,7 +78,10 @@ def predict(name: str, system: MassSpringSystem, dt: float) -> Prediction:
     Of a scheme on obstacles about the rest there; of engines, whose contacts are their own, and of large
     systems without obstacles.
     """
-    scheme = scheme_behind(name, system)
+    try:
+        scheme = scheme_behind(name, system)
+    except InputError as error:
+        return Prediction(None, str(error), np.nan, name)
     still = replace(system, velocities=np.zeros_like(system.velocities))
     coordinates = int((~system.fixed).sum()) * system.dimension
     contacts = bool(system.obstacles) and coordinates <= ON_OBSTACLES_UP_TO and scheme.name == name

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 from reference.errors import InputError
 from report.live.access import guarded, policy_for
+from report.live.own_files import admit
 from report.live.page import Page
 from report.live.scenes import open_scene
 from report.live.stepping import checked
@@ -28,7 +29,7 @@ class LiveServer:
     """A server under way, until `stop`.
 
     Args:
-        scene, steppers: to begin with.
+        scene, steppers: to begin with; own files among them are in all menus, and no other file is ever run.
         host: the address it listens at.
         port: 0 for any that is free.
         origins: of other pages that may come in, as "https://lab.example"; the lab's own page always may.
@@ -47,7 +48,7 @@ class LiveServer:
     ) -> None:
         open_scene(scene)
         policy = policy_for(host, origins)
-        self._scene, self._steppers = scene, checked(steppers)
+        self._scene, self._steppers = scene, checked([admit(name) for name in steppers])
         check_port(host, port)
         import viser
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from experiments.advice.advice import rounded_down
 from report.live.lab import Lab
+from report.live.own_files import opened
 from report.live.prediction import MS, Prediction
 
 
@@ -34,4 +35,5 @@ def _limit(name: str, prediction: Prediction, dt: float) -> str:
     if prediction.limit is None:
         return f"{name}: {prediction.reason}."
     part = dt / prediction.limit
-    return f"{name}: dt is {part:.2f} of the predicted largest stable dt, {prediction.limit / MS:.4g} ms."
+    known = f", identified as {prediction.scheme} on a string" if name in opened() else ""
+    return f"{name}{known}: dt is {part:.2f} of the predicted largest stable dt, {prediction.limit / MS:.4g} ms."

@@ -10,6 +10,7 @@ from typing import Protocol
 import numpy as np
 
 from engines.engine import Engine, find, registry, version
+from engines.own.stepper import is_own
 from engines.process.session import EngineStopped, Session
 from reference.compiled.in_place import step_of
 from reference.compiled.kernels import Kernel, loops_for
@@ -22,6 +23,7 @@ from reference.schemes.catalogue import Scheme
 from reference.simulate import projected
 from reference.state import State
 from reference.system import MassSpringSystem, Value
+from report.live import own_files
 
 #: No more lanes than can be told apart by their colours.
 MOST_LANES = 4
@@ -48,16 +50,17 @@ class Stepping(Protocol):
 
 
 def choices() -> list[str]:
-    """What a lane can be stepped by: every scheme, the wrong ones too, and the engines that can start in motion."""
+    """What a lane can be stepped by: every scheme, the wrong ones too, engines that can start in motion, own files."""
     able = [e.name for e in registry().values() if e.capabilities >= NEEDED and version(e) is not None]
-    return [*catalogue.schemes(), *able]
+    return [*catalogue.schemes(), *able, *own_files.opened()]
 
 
 def checked(names: Sequence[str]) -> tuple[str, ...]:
     """The names of steppers, if they are known and not too many.
 
     Args:
-        names: of engines; of schemes, which may be aliases, or have parameters: xpbd_jacobi(iterations=3).
+        names: of engines; of own files that were admitted; of schemes, which may be aliases, or have parameters:
+            xpbd_jacobi(iterations=3).
 
     Raises:
         InputError: for an unknown name, no name, or too many; for a parameter that a scheme does not have.
@@ -72,6 +75,10 @@ def checked_name(name: str) -> str:
     known = choices()
     if name in known:
         return name
+    if is_own(name):
+        raise InputError(
+            f"stepper {name!r}: expected one of the files that `springlab live --stepper` was started with"
+        )
     base = name.partition("(")[0]
     if base not in {**catalogue.schemes(), **catalogue.aliases()}:
         raise unknown_name("stepper", name, known)
@@ -79,7 +86,16 @@ def checked_name(name: str) -> str:
 
 
 def scheme_behind(name: str, system: MassSpringSystem) -> Scheme:
-    """The scheme that theory knows a stepper as, on this system: itself, or the one the engine is identified with."""
+    """The scheme that theory knows a stepper as, on this system: itself, or the one the engine is identified with.
+
+    Raises:
+        InputError: for an own file that was not identified, or cannot be used any more.
+    """
+    if name in own_files.opened():
+        found = own_files.identified(name, system)
+        if found.identified_as is None:
+            raise InputError(f"not identified on a string: {found.reason}")
+        return catalogue.find(found.identified_as)
     if name not in registry():
         return catalogue.find(name)
     case = "damping" if system.damping.any() else "drag" if system.drag else "plain"
@@ -91,12 +107,17 @@ def stepping(name: str, system: MassSpringSystem, state: State, dt: float) -> St
 
     Raises:
         InputError: for an unknown name.
-        Stopped: where an engine cannot take the system; for springs that break.
+        Stopped: where an engine or an own file cannot take the system; for springs that break.
     """
     if system.nonlinear is not None and system.nonlinear.breaks:
         raise Stopped(
             "unsupported: springs that break are drawn here as if they did not; `springlab simulate` tells them"
         )
+    if name in own_files.opened():
+        try:
+            return EngineStepping(own_files.file_of(name), system, state, dt)
+        except InputError as error:
+            raise Stopped(str(error)) from None
     if name in registry():
         return EngineStepping(find(name), system, state, dt)
     return SchemeStepping(catalogue.find(checked_name(name)), system, state, dt)
@@ -144,7 +165,7 @@ class SchemeStepping:
 
 
 class EngineStepping:
-    """An engine in a process of its own."""
+    """An engine, or a file of the user's own, in a process of its own."""
 
     def __init__(self, engine: Engine, system: MassSpringSystem, state: State, dt: float) -> None:
         self._dt, self._time = dt, state.time
