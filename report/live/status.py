@@ -32,8 +32,9 @@ def status(lab: Lab, company: str) -> str:
 
 
 def _limit(name: str, prediction: Prediction, dt: float) -> str:
+    if name in opened() and prediction.scheme != name:
+        name = f"{name}, identified as {prediction.scheme} on a string"
     if prediction.limit is None:
         return f"{name}: {prediction.reason}."
     part = dt / prediction.limit
-    known = f", identified as {prediction.scheme} on a string" if name in opened() else ""
-    return f"{name}{known}: dt is {part:.2f} of the predicted largest stable dt, {prediction.limit / MS:.4g} ms."
+    return f"{name}: dt is {part:.2f} of the predicted largest stable dt, {prediction.limit / MS:.4g} ms."
