@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises import behaviour, sandbox
+from experiments.exercises import behaviour, derived_step, sandbox
 from experiments.exercises.answer_catalogue import catalogue_of
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.findings import Finding
@@ -119,7 +119,9 @@ def look_closer(
         "seconds": effort.singles,
         "pair_seconds": effort.pairs,
     }
-    asked = [question.asked() for question in [*catalogue.questions, *(case.question for case in cases)]]
+    swinging = derived_step.questions(exercise, catalogue.questions) if verdict.outcome != "error" else []
+    looked_at = [*catalogue.questions, *(case.question for case in cases)]
+    asked = [question.asked() for question in [*looked_at, *swinging]]
     files = exercise.files(seed) if exercise.files else {}
     try:
         reply = sandbox.run(source, asked, limits, files, task)
@@ -127,7 +129,8 @@ def look_closer(
         return CloserLook(complete=False)
     if reply.ended != "done" or reply.error is not None:
         return CloserLook(complete=False)
-    seen = behaviour.seen(catalogue, cases, reply.answers) if cases else ()
+    seen = behaviour.seen(catalogue, cases, reply.answers[: len(looked_at)]) if cases else []
+    seen += derived_step.seen(exercise, swinging, reply.answers[len(looked_at) :])
     repairs = [r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)]
     searched = [found["singles_done"] and (bool(found["repairs"]) or found["pairs_done"]) for found in reply.search]
     tried = sum(found["tried"] for found in reply.search)
