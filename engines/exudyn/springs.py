@@ -12,6 +12,8 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from engines.engine import CAPABILITIES, COLLISIONS, OBSTACLES, changed, refuse_beyond
+from reference.springs.angular import AngularSprings
+from reference.springs.angular_law import forces_on_masses
 from reference.springs.nonlinear_law import damping_at, secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -25,6 +27,8 @@ SCHEMES: Mapping[Solver, str] = {"RK44": "rk4", "ExplicitEuler": "euler", "Veloc
 @dataclass(frozen=True)
 class ExudynSprings:
     """Mass points on nodes, joined by spring-dampers; a fixed mass is a ground node.
+
+    Springs that are not linear, and what resists bending, it asks the lab's own law for, by its user functions.
 
     Solvers, each with h = dt:
         RK44            the classic Runge-Kutta method.
@@ -44,7 +48,7 @@ class ExudynSprings:
     def capabilities(self) -> frozenset[str]:
         """Everything but obstacles and collisions; for VelocityVerlet everything but those, damping and drag."""
         left_out = {"damping", "dampings", "drag"} if self.solver == "VelocityVerlet" else set()
-        return frozenset(CAPABILITIES) - {*OBSTACLES, *COLLISIONS, "angular springs"} - left_out
+        return frozenset(CAPABILITIES) - {*OBSTACLES, *COLLISIONS} - left_out
 
     @property
     def identified_as(self) -> Mapping[str, str]:
@@ -152,6 +156,11 @@ class Items:
             self._pulls.append(mbs.AddLoad(item.Force(markerNumber=ends[-1])))
             self._drags.append(mbs.AddObject(item.CartesianSpringDamper(markerNumbers=[ground, ends[-1]])))
         self._springs = [mbs.AddObject(item.SpringDamper(markerNumbers=[ends[a], ends[b]])) for a, b in system.springs]
+        self._bends = []
+        if system.angular_springs is not None:
+            nodes = [mbs.GetObjectParameter(body, "nodeNumber") for body in self._bodies]
+            massless = np.zeros((len(nodes) * system.dimension,) * 2)
+            self._bends.append(mbs.AddObject(item.ObjectGenericODE2(nodeNumbers=nodes, massMatrix=massless)))
         mbs.Assemble()
 
     def write(self, system: MassSpringSystem) -> None:
@@ -172,6 +181,15 @@ class Items:
             mbs.SetObjectParameter(spring, "damping", float(system.damping[j]))
             if self._by_law:
                 mbs.SetObjectParameter(spring, "springForceUserFunction", partial(_force, system.of_spring(j)))
+        for bend in self._bends:
+            mbs.SetObjectParameter(bend, "forceUserFunction", partial(_bending, system))
+
+
+def _bending(system: MassSpringSystem, mbs: Any, time: float, item: int, q: Any, v: Any) -> Any:
+    """What Exudyn asks for of an object with a force of its own: that of all angular springs on the free masses [N]."""
+    positions, free = system.positions.copy(), ~system.fixed
+    positions[free] = np.reshape(q, (-1, system.dimension))
+    return forces_on_masses(system.angular_springs or AngularSprings(), positions)[free].ravel().tolist()
 
 
 def _force(

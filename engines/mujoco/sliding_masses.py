@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from reference.pulls import is_pull
+from reference.springs.angular_law import forces_on_masses
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -34,12 +35,12 @@ class SlidingMasses(ABC):
         free, fixed = np.flatnonzero(~system.fixed), np.flatnonzero(system.fixed)
         self._q[:] = self._coordinates(system.positions[free])
         self._v[:] = self._coordinates(system.velocities[free])
-        self._write_pulls()
         # what a state is read from: the free masses first, then the fixed; in order only once taken out
         order = np.concatenate([free, fixed])
         self._order = np.argsort(order)
         self._positions, self._velocities = system.positions[order], system.velocities[order]
         self._free_positions, self._free_velocities = self._positions[: len(free)], self._velocities[: len(free)]
+        self._write_pulls()
 
     @abstractmethod
     def _write_parameters(self) -> None:
@@ -57,13 +58,18 @@ class SlidingMasses(ABC):
         self._write_pulls()
 
     def _write_pulls(self) -> None:
-        """On every body at its centre, until it is another; body 0 is the world."""
+        """On every body at its centre, until it is another; body 0 is the world. Of bends as they are now."""
         system = self._system
-        if len(self._data.xfrc_applied) > 1 and (system.pulls.any() or self._data.xfrc_applied.any()):
-            self._data.xfrc_applied[1:, : system.dimension] = system.pulls[~system.fixed]
+        pulls = system.pulls
+        if system.angular_springs is not None:
+            pulls = pulls + forces_on_masses(system.angular_springs, self.state()[0])
+        if len(self._data.xfrc_applied) > 1 and (pulls.any() or self._data.xfrc_applied.any()):
+            self._data.xfrc_applied[1:, : system.dimension] = pulls[~system.fixed]
 
     def step(self) -> None:
         """One mj_step."""
+        if self._system.angular_springs is not None:
+            self._write_pulls()
         self._mujoco.mj_step(self._model, self._data)
 
     def bare_step(self) -> Callable[[], object]:
@@ -77,9 +83,9 @@ class SlidingMasses(ABC):
         return self._positions.take(self._order, axis=0), self._velocities.take(self._order, axis=0)
 
     def jacobian(self) -> Array | None:
-        """MuJoCo's mjd_transitionFD over (qpos, qvel), centred; None for RK4, which it refuses."""
+        """MuJoCo's mjd_transitionFD over (qpos, qvel), centred; None for RK4, which it refuses, and for bends."""
         mujoco, model = self._mujoco, self._model
-        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
+        if model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4 or self._system.angular_springs is not None:
             return None
         transition = np.zeros((2 * model.nv, 2 * model.nv))
         mujoco.mjd_transitionFD(model, self._data, 1e-6, True, transition, None, None, None)

@@ -2,7 +2,8 @@
 
 What it does in a step, in this order: positions move with the velocities they have; every spring gives its elastic
 impulse; gravity and forces act; then the springs' damping is applied in rounds, one spring after the other. So it is
-semi-implicit (symplectic) Euler, positions first (`drift_kick`), with damping by sequential impulses.
+semi-implicit (symplectic) Euler, positions first (`drift_kick`), with damping by sequential impulses. It has no spring
+between three bodies: what resists bending is a force that the lab sets, at the positions that its step begins with.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import numpy as np
 
 from engines.engine import COLLISIONS, LAWS, Unsupported, changed, refuse_beyond
 from engines.pymunk.obstacles import add_balls, add_obstacles
+from reference.springs.angular_law import forces_on_masses
 from reference.springs.nonlinear_law import secant_stiffness
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -41,7 +43,7 @@ class PymunkSprings:
     capabilities: frozenset[str] = frozenset(
         {"1d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
         | {"drag", "tilted gravity", "no fixed mass", "circle", "plane", "box"}
-        | {"no rest length", "pulls", *LAWS, *COLLISIONS}
+        | {"no rest length", "pulls", "angular springs", *LAWS, *COLLISIONS}
     )
 
     @property
@@ -111,14 +113,23 @@ class PymunkSimulation:
         self._rows = self._rows_of(bodies)
 
     def step(self) -> None:
-        """One Space.step, with the drag and what pulls as forces, which Pymunk forgets after each."""
-        pulls = self._system.pulls[~self._system.fixed].tolist() if self._system.pulls.any() else []
+        """One Space.step, with drag, pulls and what resists bending as forces, which Pymunk forgets after each."""
+        pulls = self._pulls()
         if self._system.drag:
             for body in self._moving:
                 body.force = -self._system.drag * body.velocity
         for body, pull in zip(self._moving, pulls, strict=False):
             body.force += tuple(pull)
         self._space.step(self._dt)
+
+    def _pulls(self) -> list[list[float]]:
+        """On every moving body [N]: angular springs pull as positions are once they have moved, first in the step."""
+        system = self._system
+        pulls = system.pulls
+        if system.angular_springs is not None:
+            x, v = self.state()
+            pulls = pulls + forces_on_masses(system.angular_springs, x + self._dt * v)
+        return pulls[~system.fixed].tolist() if pulls.any() else []
 
     def bare_step(self) -> Callable[[], object]:
         """Space.step."""

@@ -45,7 +45,19 @@ class KickDrift:
         force = system.masses[:, None] * system.gravity + system.pulls - system.drag * self.v
         np.add.at(force, a, spring_force[:, None] * u)
         np.subtract.at(force, b, spring_force[:, None] * u)
+        self.bend(force)
         return np.where(system.fixed[:, None], 0.0, force / system.masses[:, None])
+
+    def bend(self, force: Array) -> None:
+        """Add what resists bending in the plane: the angle's gradients as quotients of complex numbers."""
+        angular = self.system.angular_springs
+        for k, (a, b, c) in enumerate([] if angular is None else angular.masses.tolist()):
+            assert angular is not None
+            p, q = (complex(*(self.x[i] - self.x[b])) for i in (a, c))
+            torque = angular.stiffness[k] * np.angle(q / p * np.exp(-1j * angular.rest_angles[k]))
+            for i, push in ((a, 1j * torque / p.conjugate()), (c, -1j * torque / q.conjugate())):
+                force[i] += [push.real, push.imag]
+                force[b] -= [push.real, push.imag]
 
     def stiffness(self) -> Array:
         """Of all springs [N/m]: the secant stiffness of those that are not linear."""
