@@ -47,6 +47,7 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
     in_space = replace(plain, positions=off_the_plane, velocities=np.zeros(1), gravity=np.array(9.81))
     return {
         "1d": find("chain").system({}),
+        "2d": plain,
         "3d": in_space,
         "mesh": triangles,
         "masses": string({"masses": 3, "mass": "0.02,0.01,0.03"}),

@@ -19,6 +19,7 @@ from engines.process.available import how_to_install
 from engines.process.available import installed_version as installed_version
 from reference.errors import Unsupported as Unsupported
 from reference.errors import unknown_name
+from reference.line import is_vertical
 from reference.pulls import is_pull
 from reference.registry import Registry, imported, plug_ins
 from reference.state import Array
@@ -52,6 +53,7 @@ COLLISIONS = {
 #: What a system may ask of an engine, and how the lack of it is said.
 CAPABILITIES = {
     "1d": "motion along a line",
+    "2d": "motion in the plane",
     "3d": "motion in three dimensions",
     "mesh": "systems other than a string hung at its first mass",
     "masses": "masses that differ from one another",
@@ -75,8 +77,8 @@ CAPABILITIES = {
 
 #: All that masses on linear springs ask for, and nothing else: for engines to take from, and to leave out of.
 LINEAR_SPRINGS = frozenset(
-    {"1d", "3d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
-    | {"drag", "tilted gravity", "no fixed mass"}
+    {"1d", "2d", "3d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities"}
+    | {"damping", "drag", "tilted gravity", "no fixed mass"}
 )
 
 #: In which floating-point numbers an engine keeps positions and velocities.
@@ -177,6 +179,8 @@ def _needed(capability: str, system: MassSpringSystem) -> bool:
 #: By capability, whether a system asks for it: looked at one by one, as parameters may change at every step.
 _NEEDED: Mapping[str, Callable[[MassSpringSystem], object]] = {
     "1d": lambda system: system.dimension == 1,
+    # what stays on a vertical line of the plane is as good as along a line
+    "2d": lambda system: system.dimension == 2 and not is_vertical(system),
     "3d": lambda system: system.dimension == 3,
     "mesh": lambda system: not system.is_string,
     "masses": lambda system: _differ(system.masses[~system.fixed]),

@@ -7,17 +7,20 @@ Those of ORDERS are
     colours     springs that share no moving mass are of one colour; colour after colour, each in the order made
     apart       the same, of springs that share no mass at all
     fixed_last  colours of springs between moving masses; then those to fixed ones, as they are numbered
+    from_fixed  those nearest to a fixed mass along springs first, as Jolt puts them (up to 128 masses)
     island      as Box2D 2 walks from body to body: the newest first, along the newest joints first
 """
 
 from __future__ import annotations
+
+from heapq import heappop, heappush
 
 import numpy as np
 
 from reference.errors import unknown_name
 from reference.system import BoolArray, IntArray, MassSpringSystem
 
-ORDERS = ("made", "reversed", "colours", "apart", "fixed_last", "island")
+ORDERS = ("made", "reversed", "colours", "apart", "fixed_last", "from_fixed", "island")
 
 
 def in_order(system: MassSpringSystem, order: str) -> IntArray:
@@ -32,6 +35,8 @@ def in_order(system: MassSpringSystem, order: str) -> IntArray:
     made = np.flatnonzero(moves)
     if order == "island":
         return np.array(_island(system), dtype=np.int64)
+    if order == "from_fixed":
+        return _from_fixed(system, made)
     if order == "reversed":
         made = made[::-1]
     if order in ("colours", "apart", "fixed_last"):
@@ -40,6 +45,27 @@ def in_order(system: MassSpringSystem, order: str) -> IntArray:
         first = made[~last]
         made = np.concatenate([first[np.argsort(_colours(system, first, held), kind="stable")], made[last]])
     return np.ascontiguousarray(made, dtype=np.int64)
+
+
+def _from_fixed(system: MassSpringSystem, made: IntArray) -> IntArray:
+    """By the nearer end's distance from a fixed mass, along springs, in single precision; then by its number."""
+    ends = system.springs[made]
+    x = system.positions.astype(np.float32)
+    gap = x[ends[:, 1]] - x[ends[:, 0]]
+    lengths = np.sqrt((gap * gap).sum(axis=1, dtype=np.float32))
+    springs: list[list[tuple[int, np.float32]]] = [[] for _ in system.masses]
+    for (a, b), length in zip(ends.tolist(), lengths, strict=True):
+        springs[a].append((b, length))
+        springs[b].append((a, length))
+    distance = np.where(system.fixed, np.float32(0), np.float32(np.inf))
+    to_visit = [(np.float32(0), i) for i in np.flatnonzero(system.fixed).tolist()]
+    while to_visit:  # Dijkstra's algorithm
+        so_far, at = heappop(to_visit)
+        for other, length in springs[at] if so_far <= distance[at] else []:
+            if so_far + length < distance[other]:
+                distance[other] = so_far + length
+                heappush(to_visit, (distance[other], other))
+    return made[np.lexsort((made, ends.min(axis=1), distance[ends].min(axis=1)))]
 
 
 def _colours(system: MassSpringSystem, made: IntArray, held: BoolArray) -> IntArray:

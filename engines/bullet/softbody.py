@@ -33,6 +33,7 @@ class BulletSoftbody:
     capabilities: frozenset[str] = frozenset(
         {
             "1d",
+            "2d",
             "3d",
             "mesh",
             "rest_lengths",

@@ -47,7 +47,7 @@ class MujocoCable:
     integrator: Integrator
     package: str = "mujoco"
     capabilities: frozenset[str] = frozenset(
-        {"masses", "rest_lengths", "stiffnesses", "dampings", "velocities", "damping", "drag", "tilted gravity"}
+        {"2d", "masses", "rest_lengths", "stiffnesses", "dampings", "velocities", "damping", "drag", "tilted gravity"}
     )
     semantics: str = (
         "stiffness: infinite, whatever is given; damping: without effect, as nothing stretches; "

@@ -116,7 +116,7 @@ class MujocoTendons:
         refuse_beyond(self, system)
         mujoco = mujoco_module()
         try:
-            model = _spec(mujoco, system, self.nested, dt).compile()
+            model = tendon_spec(mujoco, system, self.nested, dt).compile()
         except ValueError as error:
             raise Unsupported("MuJoCo: " + " ".join(str(error).split())) from None
         model.opt.timestep = dt
@@ -169,7 +169,7 @@ def _write_law(model: Any, system: MassSpringSystem) -> None:
         raise Unsupported("this MuJoCo has linear tendons only: hardening needs 3.6 or later")
 
 
-def _spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float) -> Any:
+def tendon_spec(mujoco: ModuleType, system: MassSpringSystem, nested: bool, dt: float) -> Any:
     """Bodies, joints, sites and tendons: what is joined to what. The parameters are written later."""
     spec = mujoco.MjSpec()
     if nested:

@@ -14,7 +14,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -120,13 +120,24 @@ def _make(home: Path, package: str, version: str) -> None:
         _call(wanted, sys.executable, "-m", "venv", "--without-pip", str(home))
         pip = [sys.executable, "-m", "pip", "--python", python]
         install = [*pip, "install", "--quiet", "--disable-pip-version-check"]
-    for numpy in NUMPY:
+    if known and known.npm:
+        _make_for_node(home, package, version, install)
+    for numpy in NUMPY if not (known and known.npm) else ():
         _call(wanted, *install, wanted, *beside, numpy)
         if subprocess.run([python, "-c", f"import {module}"], capture_output=True, cwd=home).returncode == 0:
             break
     (packages,) = home.glob("lib/python*/site-packages")
     for room in ROOMS:
         (packages / room).symlink_to(LAB / room)
+
+
+def _make_for_node(home: Path, package: str, version: str, install: Sequence[str]) -> None:
+    """NumPy for what tells Node what to do, and the package, as npm has it."""
+    wanted = f"{package}@{version}"
+    if not (shutil.which("node") and shutil.which("npm")):
+        raise InputError(f"{wanted} cannot be installed: expected node and npm on the path")
+    _call(wanted, *install, NUMPY[0])
+    _call(wanted, "npm", "install", "--silent", "--no-save", "--no-audit", "--no-fund", "--prefix", str(home), wanted)
 
 
 def _found(version: str) -> Path:

@@ -20,6 +20,7 @@ class Package:
         module: what is imported of it.
         python: on which Python, such as "3.13"; None for the lab's own.
         beside: what else it needs, as pip is told.
+        npm: whether it is a package of npm, for Node; its environment has both, and what is imported of it is Node's.
         start_up: how long importing it and its first step may take [s], apart from what a run may take.
     """
 
@@ -27,6 +28,7 @@ class Package:
     module: str
     python: str | None = None
     beside: tuple[str, ...] = ()
+    npm: bool = False
     start_up: float = 30.0
 
 
@@ -37,4 +39,8 @@ APART: Mapping[str, Package] = {
     "drake": Package("1.51.1", "pydrake"),
     "pyPBD": Package("2.2.2", "pypbd"),
     "newton": Package("1.8.0", "newton", beside=("warp-lang==1.19.0",), start_up=180.0),
+    "sapien": Package("3.0.3", "sapien"),
+    "dartpy": Package("6.20.0", "dartpy"),
+    "jolt-physics": Package("1.1.0", "jolt-physics", npm=True),
+    "mujoco-warp": Package("4.0.0", "mujoco_warp", start_up=400.0),
 }

@@ -41,8 +41,8 @@ class PymunkSprings:
     backward_euler: bool = False
     package: str = "pymunk"
     capabilities: frozenset[str] = frozenset(
-        {"1d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities", "damping"}
-        | {"drag", "tilted gravity", "no fixed mass", "circle", "plane", "box"}
+        {"1d", "2d", "mesh", "masses", "rest_lengths", "stiffnesses", "dampings", "stretched", "velocities"}
+        | {"damping", "drag", "tilted gravity", "no fixed mass", "circle", "plane", "box"}
         | {"no rest length", "pulls", "angular springs", *LAWS, *COLLISIONS}
     )
 

@@ -42,14 +42,15 @@ PRECISION, FIGURES = 1e-6, 7
 
 def measure(stepper: EngineStepper) -> dict[str, Value]:
     """All rows of an engine; a single one where it does not run."""
-    first = stepper.run(_string(), DT, 1)
+    first = stepper.run(_string(_scene_for(stepper)), DT, 1)
     if first.ending != "done":
         return {"runs": f"{first.ending}: {first.reason}"}
     return {
         "runs": "yes",
         **{f"identified, {case}": _identity(stepper, case) for case in IDENTIFIED},
         **{f"largest stable dt [s], {case}": _limit(stepper, case) for case in LIMITED},
-        **{f"can: {name}": _capability(stepper, name) for name in _capability_cases()},
+        # whether it can do the plane the rows above say
+        **{f"can: {name}": _capability(stepper, name) for name in _capability_cases() if name != "2d"},
     }
 
 
@@ -58,14 +59,15 @@ def identified(stepper: EngineStepper, case: str) -> Identification | Outcome:
 
     It is compared with the whole catalogue, and with what it claims to be where that has parameters.
     """
-    system = _string(**IDENTIFIED[case])
+    scene = _scene_for(stepper)
+    system = _string(scene, **IDENTIFIED[case])
     if stepper.precision == "single":
         first = stepper.run(system, DT, 1)
         return first if first.trajectory is None else identify(stepper, system, DT, STEPS)
     outcome = stepper.run(system, DT, STEPS)
     if outcome.trajectory is None:
         return outcome
-    known = _catalogue(case, tuple(claim for claim in stepper.claims if claim not in catalogued()))
+    known = _catalogue(scene, case, tuple(claim for claim in stepper.claims if claim not in catalogued()))
     return identify_run(stepper.name, outcome, system, known)
 
 
@@ -81,7 +83,7 @@ def _identity(stepper: EngineStepper, case: str) -> str:
 
 def _limit(stepper: EngineStepper, case: str) -> Value:
     """Its largest stable dt [s]; else why there is none."""
-    system, rest = _hanging(case)
+    system, rest = _hanging(_scene_for(stepper), case)
     limit = measure_at_random(stepper, system, rest, 1 / fastest_rate(rest), PRECISION)
     if isinstance(limit, Outcome):
         return f"{limit.ending}: {limit.reason}"
@@ -102,18 +104,23 @@ def _capability(stepper: EngineStepper, name: str) -> str:
     return "kept" if found.identified_as == claim else f"broken: {found}"
 
 
-def _string(**settings: float) -> MassSpringSystem:
-    return find("string").system(settings)
+def _scene_for(stepper: EngineStepper) -> str:
+    """The string, which swings in the plane; for an engine that cannot, the chain that hangs from a point."""
+    return "string" if "2d" in stepper.engine.capabilities else "chain"
+
+
+def _string(scene: str, **settings: float) -> MassSpringSystem:
+    return find(scene).system(settings)
 
 
 @cache
-def _catalogue(case: str, claims: tuple[str, ...]) -> Mapping[str, Trajectory]:
-    return candidates(_string(**IDENTIFIED[case]), DT, STEPS, claims=claims)
+def _catalogue(scene: str, case: str, claims: tuple[str, ...]) -> Mapping[str, Trajectory]:
+    return candidates(_string(scene, **IDENTIFIED[case]), DT, STEPS, claims=claims)
 
 
 @cache
-def _hanging(case: str) -> tuple[MassSpringSystem, Equilibrium]:
-    system = _string(**LIMITED[case])
+def _hanging(scene: str, case: str) -> tuple[MassSpringSystem, Equilibrium]:
+    system = _string(scene, **LIMITED[case])
     return system, spring_equilibrium(system)
 
 

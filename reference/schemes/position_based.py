@@ -73,9 +73,9 @@ def xpbd_gauss_seidel(
     Jolt calls its 5 sub-steps of one sweep each iterations. Drag takes the part h Cd/m of a velocity.
     """
     it = numbers_of(motion.system, state, order, single)
-    h = it.number(dt / substeps)
+    h = it.number(dt) / it.number(substeps)
     with np.errstate(divide="ignore"):
-        compliance, damping = 1 / (it.stiffness * h * h), it.damping / (it.stiffness * h)
+        compliance, damping = 1 / it.stiffness * (1 / (h * h)), it.damping / (it.stiffness * h)
     for _ in range(substeps):
         slow_down(it, h)
         start, sums = it.x.copy(), np.zeros_like(it.rest)
@@ -183,13 +183,12 @@ def correct(
             approach += gap * ((x[b, axis] - start[b, axis]) - (x[a, axis] - start[a, axis]))
         length = np.sqrt(squares)
         wanted = (length - rest[j]) + compliance[j] * sums[j] + damping[j] * (approach / length)
-        change = wanted / (both[j] + damping[j] * both[j] + compliance[j])
-        sums[j] -= change
-        part = change / length
+        resisting = both[j] + damping[j] * both[j] + compliance[j]
+        sums[j] -= wanted / resisting
         for axis in range(x.shape[1]):
-            gap = (x[b, axis] - x[a, axis]) * part
-            x[a, axis] += inverse[a] * gap
-            x[b, axis] -= inverse[b] * gap
+            moved = (x[b, axis] - x[a, axis]) * wanted / (length * resisting)
+            x[a, axis] += inverse[a] * moved
+            x[b, axis] -= inverse[b] * moved
 
 
 (_correct,) = compiled(correct)

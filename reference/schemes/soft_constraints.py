@@ -58,19 +58,23 @@ def soft_constraints_cold(
     substeps: int = 4,
     sweeps: int = 1,
     sweeps_after: int = 1,
+    drag_first: bool = False,
     order: str = "fixed_last",
     single: bool = False,
 ) -> State:
     """Soft constraints from no impulse: in each sub-step sweeps, the masses move, and sweeps again (Rapier, PhysX 5).
 
     The sweeps after the move have the directions and elongations from before it, which is what they need not to be
-    stable at any stiffness. Drag divides a velocity by 1 + dt Cd/m, once a step. One mass is stepped by backward Euler.
-    Rapier has 4 sub-steps, 1 sweep and 1 after; PhysX's PGS 1 sub-step, 10 sweeps and 1 after.
+    stable at any stiffness. Drag divides a velocity by 1 + dt Cd/m, once a step; or, `drag_first`, takes the part
+    h Cd/m of it before the sweeps. One mass is stepped by backward Euler. Rapier has 4 sub-steps, 1 sweep and 1 after;
+    PhysX's PGS 1 sub-step, 10 sweeps and 1 after, and drag first.
     """
     it = numbers_of(motion.system, state, order, single)
     h = it.number(dt / substeps)
     for _ in range(substeps):
         it.v[:] += h * it.weight
+        if drag_first:
+            it.v[:] *= np.maximum(1 - h * it.drag, 0)
         axes, lengths = axes_of(it, it.x)
         damped = h * it.stiffness + it.damping
         bias = (lengths - it.rest) * (it.stiffness * inverse_of(damped))
@@ -82,7 +86,8 @@ def soft_constraints_cold(
         it.x[:] += h * it.v
         for _ in range(sweeps_after):
             _sweep_totals(it.v, *given)
-    it.v[:] /= 1 + it.number(dt) * it.drag
+    if not drag_first:
+        it.v[:] /= 1 + it.number(dt) * it.drag
     return it.state(state.time + dt)
 
 

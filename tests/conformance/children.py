@@ -6,7 +6,6 @@ it imports nothing heavy.
 
 from __future__ import annotations
 
-import site
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,13 +15,16 @@ import numpy as np
 
 from engines.engine import Engine
 from engines.line import started
-from engines.process.isolation import interpreter_for, isolated, run_engine
+from engines.process.isolation import TIME_LIMIT, interpreter_for, isolated, run_engine
 from reference.outcome import Outcome
 from reference.state import Array
 from reference.system import MassSpringSystem
 from tests.conformance.case import Case
 
 T = TypeVar("T")
+
+#: How long many cases may take in an environment of its own, where some engines take seconds for each start [s].
+APART_LIMIT = 900.0
 
 
 def run_all(engine: Engine, cases: Sequence[Case]) -> list[Outcome]:
@@ -65,8 +67,9 @@ def result_of(task: Callable[..., T], *arguments: object) -> T:
     """What a task returns from a process of its own."""
     python = interpreter_for(arguments)
     if python is not None:
-        # an environment of its own sees two rooms of the lab: this process of it is shown the tests, too
-        isolated(site.addsitedir, str(Path(__file__).parents[2]), python=python)
-    result = isolated(task, *arguments)
+        # an environment of its own sees two rooms of the lab: this process of it is shown the tests, too, before those
+        # of packages that bring some along
+        isolated(exec, f"import sys; sys.path.insert(0, {str(Path(__file__).parents[2])!r})", python=python)
+    result = isolated(task, *arguments, time_limit=TIME_LIMIT if python is None else APART_LIMIT)
     assert not isinstance(result, Outcome), f"{result.ending}: {result.reason}"
     return result

@@ -28,10 +28,10 @@ def test_a_capability_is_kept_or_its_lack_is_said(engine: Engine, capability: st
 
 @pytest.mark.parametrize("capability", CAPABILITIES)
 def test_there_is_a_system_that_asks_for_every_capability(capability: str) -> None:
-    """And it asks for at most one other."""
+    """And it asks for at most one other, beside the plane."""
     asked = demands(CASES[capability].system)
     assert capability in asked
-    assert len(asked) <= 2
+    assert len({*asked} - {"2d"}) <= 2
 
 
 @pytest.mark.parametrize("law", LAWS)

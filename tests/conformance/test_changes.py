@@ -9,7 +9,7 @@ from engines.engine import CAPABILITIES, Engine
 from reference.system import PARAMETERS
 from tests.conformance.case import Case
 from tests.conformance.cases import CHANGES, EACH, VALUES
-from tests.conformance.checks import check_change
+from tests.conformance.checks import check_change, require
 from tests.conformance.runs import expected, outcome_of
 
 #: What a change of each asks for, of capabilities.
@@ -32,6 +32,7 @@ def test_a_change_acts_as_in_the_scheme_or_is_refused_by_name(engine: Engine, ca
 @pytest.mark.parametrize("name", EACH)
 def test_what_differs_on_the_fly_is_refused_just_where_a_capability_is_lacking(engine: Engine, name: str) -> None:
     """Where one is, its words are the reason. Else it may be refused all the same: a rigid link has no stiffness."""
+    require(engine, "2d")
     outcome = outcome_of(engine, CHANGES[f"{name} of each"])
     lacking = [asked for asked in ASKED[name] if asked not in engine.capabilities]
     assert any(CAPABILITIES[asked] in outcome.reason for asked in ASKED[name]) == bool(lacking), outcome.reason

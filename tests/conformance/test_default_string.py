@@ -47,7 +47,7 @@ def test_the_engine_is_identified_as_it_claims(engine: Engine, case: str) -> Non
 
     max |x_engine - x_scheme| <= 1e-12 m, forty times the largest rounding that was measured over these 500 steps.
     """
-    for what in SETTINGS[case]:
+    for what in ("2d", *SETTINGS[case]):
         require(engine, what)
     found = identify_claimed(engine, CASES[case], outcome_of(engine, CASES[case]))
     within = max(WITHIN, tolerance_of(engine) * CASES[case].system.size)
@@ -63,7 +63,7 @@ def test_what_an_engine_solves_it_solves_nearly_to_the_end(engine: Engine, case:
     A solver stopped at 1e-8 m/s in each of 500 steps of 1e-3 s is off by 5e-9 m if all it leaves adds up, and the
     string swings it up; Bullet's, stopped there, was measured 7e-9 to 7e-8 m off.
     """
-    for what in SETTINGS[case]:
+    for what in ("2d", *SETTINGS[case]):
         require(engine, what)
     claim = claimed(engine, CASES[case])
     exact = EXACT_SOLVE.get(claim, claim)
@@ -77,6 +77,7 @@ def test_a_blow_up_is_told_and_is_the_schemes_own(engine: Engine) -> None:
     sqrt(2) times that. Until a spring is three times its length, the engine must follow its scheme; then both must end
     as diverged.
     """
+    require(engine, "2d")
     if on_rods(engine):
         pytest.skip("distance constraints do not stretch: no spring can show that it tore")
     case = Case("too large a step", CASES["plain"].system, 0.02, 200)
@@ -92,6 +93,7 @@ def test_a_quiet_string_is_stepped_to_the_end(engine: Engine) -> None:
 
     Bullet, unless told otherwise, stops bodies that were slower than 0.04 m/s for 2 s.
     """
+    require(engine, "2d")
     check_follows(engine, QUIET, outcome_of(engine, QUIET))
 
 

@@ -48,8 +48,8 @@ def test_an_engines_step_has_the_growth_factor_of_its_scheme(engine: Engine) -> 
     """At a dt up to twice beyond the limit of most, where the factor is far from 1, and another for each scheme."""
     if precision(engine) == "single":
         pytest.skip("of perturbations of 8e-7 m single precision leaves nothing")
-    if not {"stretched", "velocities", "damping"} <= engine.capabilities:
-        pytest.skip(f"{engine.name} cannot start stretched, in motion and damped")
+    if not {"2d", "stretched", "velocities", "damping"} <= engine.capabilities:
+        pytest.skip(f"{engine.name} cannot start stretched, in motion and damped in the plane")
     scheme = engine.identified_as["damping"]
     rest, dt = resting(scheme)
     system = replace(find("string").system(CASE), positions=rest.state.positions)

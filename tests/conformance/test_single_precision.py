@@ -9,6 +9,7 @@ from engines.process.isolation import EngineStepper
 from reference.identification import identify
 from reference.identification.bits import BITS
 from reference.scenes import find as find_scene
+from tests.conformance.checks import require
 
 
 @pytest.mark.parametrize("damping", [0.0, 0.5])
@@ -20,6 +21,8 @@ def test_an_engine_in_single_precision_is_identified(engine: Engine, damping: fl
     """
     if precision(engine) == "double":
         pytest.skip("it is identified by its runs")
+    for what in ("2d", *(["damping"] if damping else [])):
+        require(engine, what)
     claim = engine.identified_as["damping" if damping else "plain"]
     system = find_scene("string").system({"damping": damping})
     found = identify(EngineStepper(engine), system, 1e-3, 500 if "single=True" in claim else 40)

@@ -118,7 +118,7 @@ def test_an_engine_that_crashes_or_is_not_there_or_takes_strings_only_says_so() 
     assert all("SIGSEGV" in reason for effects in crashed for reason in effects.reasons.values())
     absent = numbering.effects_on(EngineStepper(replace(PymunkSprings(), package="no-such-engine")))
     assert absent[0].reasons["ends swapped"] == "unsupported, no-such-engine is not installed"
-    strings_only = Doctored(capabilities=frozenset({"damping"}))
+    strings_only = Doctored(capabilities=frozenset({"2d", "damping"}))
     renamed = permutation_effects(partial(run_engine, strings_only, dt=1e-3, steps=5), numbering.string(0.0))
     assert renamed.permuted == ENDS
     assert "a string hung at its first mass" in renamed.reasons["springs reversed"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,7 @@ BY_HAND = {
     "colours": [0, 2, 4, 1, 3],
     "apart": [0, 2, 4, 1, 3],
     "fixed_last": [1, 3, 2, 4, 0],
+    "from_fixed": [0, 1, 2, 3, 4],
     "island": [4, 3, 2, 1, 0],
 }
 
@@ -23,6 +26,13 @@ BY_HAND = {
 def test_a_string_by_hand(order: str) -> None:
     """Springs of one colour share no moving mass."""
     assert in_order(find_scene("string").system({"masses": 5}), order).tolist() == BY_HAND[order]
+
+
+def test_the_springs_nearest_to_a_fixed_mass_come_first_however_they_are_numbered() -> None:
+    """Of a string that is also held at its end, numbered from its middle; of two as near the smaller mass's."""
+    string = find_scene("string").system({"masses": 4})
+    held = replace(string, springs=string.springs[[1, 2, 0, 3]], fixed=np.array([True, False, False, False, True]))
+    assert in_order(held, "from_fixed").tolist() == [2, 3, 0, 1]
 
 
 @pytest.mark.parametrize("order", ORDERS)

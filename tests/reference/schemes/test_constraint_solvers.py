@@ -190,3 +190,20 @@ def test_they_are_run_where_they_are_named_only() -> None:
     assert find("xpbd_jacobi(iterations=3)").parameters["iterations"] == 3
     with pytest.raises(InputError, match="did you mean 'reversed'"):
         stepper_named("soft_constraints_warm(order=reverse)").scheme.on(SpringMotion(STRING))(STRING.start, 1e-3)
+
+
+def test_drag_comes_first_or_last() -> None:
+    """A mass of 2 kg that nothing pulls, drag 0.5 N s/m, h = 0.1 s: v (1 - h Cd/m), or v/(1 + h Cd/m)."""
+    one = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [1.0, 0.0]]),
+        springs=np.array([[0, 1]]),
+        masses=np.array(2.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(0.0),
+        gravity=np.zeros(2),
+        drag=0.5,
+    )
+    state = State(0.0, one.positions, np.array([[3.0, 0.0], [3.0, 0.0]]))
+    for name, expected in (("drag_first=True, ", 3 * (1 - 0.1 * 0.25)), ("", 3 / (1 + 0.1 * 0.25))):
+        end = find(f"soft_constraints_cold({name}substeps=1)").on(SpringMotion(one))(state, 0.1)
+        assert end.velocities[1, 0] == pytest.approx(expected, rel=1e-14)

@@ -1,0 +1,1 @@
+"""DART: joints that have springs, along a line."""

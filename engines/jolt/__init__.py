@@ -1,0 +1,1 @@
+"""Jolt: soft bodies whose edges are springs, by its port to WebAssembly under Node."""

@@ -1,0 +1,1 @@
+"""MuJoCo Warp: MuJoCo's step in kernels of Warp, here on the processor."""

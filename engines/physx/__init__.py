@@ -1,0 +1,1 @@
+"""PhysX 5, by SAPIEN: distance joints that are springs."""
