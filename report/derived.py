@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from reference.errors import InputError
@@ -10,6 +10,7 @@ from reference.errors import InputError
 if TYPE_CHECKING:
     from reference.derivation.consequences import Consequences, Windows
     from reference.derivation.explanation import Explanation
+    from reference.derivation.formula import Number
 
 #: What the letters of a step matrix mean.
 LETTERS = "a = h^2 k/m, b = h c/m, d = h Cd/m, E = exp(-b), D = exp(-d)"
@@ -54,6 +55,39 @@ def tableau_lines(explanation: Explanation) -> list[str]:
         cells = [str(cell).rjust(width) for cell, width in zip(row, widths, strict=True)]
         lines.append(f"{cells[0]} | {'  '.join(cells[1:])}")
     return [*lines[:-1], "-" * len(lines[0]), lines[-1]]
+
+
+def force_lines(explanation: Explanation) -> list[str]:
+    """Where a stepper that only steps takes forces, and what it makes of them."""
+    from reference.derivation.formula import product
+
+    taken = explanation.taken
+    if not taken:
+        return []
+    lines = [
+        f"{new} = {old}{_of_forces(power, terms)}"
+        for new, old, power, terms in (
+            ("x'", "x + h v", "h^2", _weighted([force.in_position for force in taken])),
+            ("v'", "v", "h", _weighted([force.in_velocity for force in taken])),
+        )
+    ]
+    on = [f" + {product(force.at, 'h v')}" if force.at else "" for force in taken]
+    places = [f"F{i + 1} at x{where}" for i, where in enumerate(on)]
+    moved = ", but for what earlier forces add (h^2 F/m)" if any(abs(f.by_earlier) > 1e-6 for f in taken) else ""
+    return [*lines, f"with forces {', '.join(places)}{moved}"]
+
+
+def _of_forces(power: str, terms: Sequence[str]) -> str:
+    """A sum of weighted forces over m, times a power of h; nothing of none."""
+    total = " + ".join(terms).replace("+ -", "- ")
+    return f" + {power} {f'({total})' if len(terms) > 1 or '/' in total else total}/m" if terms else ""
+
+
+def _weighted(weights: Sequence[Number]) -> list[str]:
+    from reference.derivation.formula import product
+
+    terms = [(w, f"F{i + 1}") for i, w in enumerate(weights) if w]
+    return [f"-{product(-w, name)}" if w < 0 else product(w, name) for w, name in terms]
 
 
 def name_line(explanation: Explanation) -> str:
@@ -165,6 +199,7 @@ def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
     found = [
         ("Derived: a step of the damped oscillator", matrix_lines(explanation)),
         ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
+        ("Derived: where forces of springs are taken, without damping", force_lines(explanation)),
         ("Derived: the Butcher tableau", tableau_lines(explanation)),
         ("What follows", [f"- {line}." for line in property_lines(explanation)]),
         ("What cannot be told, and why", [f"- {reason}." for reason in _beside_the_name(explanation)]),

@@ -12,6 +12,8 @@
 - `order_conditions`: up to which order a tableau's conditions hold
 - `of_schemes`: the same of catalogued schemes
 - `implicit`: tableaux of steppers that solve equations
+- `force_jumps`: where a stepper that only steps takes forces, and with which weights
+- `stages`: its tableau, from these
 - `pasts`: whether a step depends on more than the state
 - `nonlinear_order`: the order on a spring that turns
 - `explanation`: all of it together

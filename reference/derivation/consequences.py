@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from math import factorial
 
 import numpy as np
@@ -73,7 +72,7 @@ def consequences(matrix: StepMatrix) -> Consequences:
     if matrix.damped or matrix.dragged:
         real = windows(lambda s: matrix.at(0 * s, s, 0 * s) if matrix.damped else matrix.at(0 * s, 0 * s, s))
     letters = {"stiffness": "a", "damping": "b", "drag": "d"}
-    implicit = tuple(w for w, letter in letters.items() if any(_below(e, letter) for e in matrix.entries))
+    implicit = tuple(w for w, letter in letters.items() if any(e.divided_by(letter) for e in matrix.entries))
     imaginary = windows(lambda s: matrix.at(s**2, 0 * s, 0 * s))
     return Consequences(
         imaginary,
@@ -183,10 +182,6 @@ def _exponential(most: int) -> list[list[Series]]:
 
 def _sum(one: Series, other: Series) -> Series:
     return {m: one.get(m, 0.0) + other.get(m, 0.0) for m in {**one, **other}}
-
-
-def _below(entry: Formula, letter: str) -> bool:
-    return Formula({ONE: Fraction(1)}, entry.denominator).asks(letter)
 
 
 def _periods(matrix: StepMatrix, below: float) -> Iterator[tuple[float, float, float]]:

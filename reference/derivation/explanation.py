@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from reference.derivation.consequences import FAR, Consequences, Windows, consequences
+from reference.derivation.force_jumps import Taken, forces_taken
 from reference.derivation.implicit import implicit_tableau, tableau_by_points
 from reference.derivation.near import SAME_TABLEAU, nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order
@@ -17,6 +18,7 @@ from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_
 from reference.derivation.oscillators import DT as OSCILLATOR_DT
 from reference.derivation.pasts import Pasts, pasts
 from reference.derivation.recording import LENGTHS, Recording
+from reference.derivation.stages import tableau_by_jumps
 from reference.derivation.step_matrix import StepMatrix, step_matrix
 from reference.derivation.tableau import Tableau, tableau_of
 from reference.derivation.updates import Updates, updates_of
@@ -67,6 +69,7 @@ class Explanation:
         follows: what follows from that.
         updates: its update formulas, where it asks for slopes.
         tableau: its Butcher tableau, where it is a Runge-Kutta method.
+        taken: where it takes forces, of a stepper that asks for no slopes, but only steps.
         nonlinear_order: the order seen on a spring that turns.
         nearest: where it has no name, the nearest scheme and in what it differs, in words.
         reasons: why something cannot be told, each a sentence without its stop.
@@ -80,6 +83,7 @@ class Explanation:
     follows: Consequences | None = None
     updates: Updates | None = None
     tableau: Tableau | None = None
+    taken: tuple[Taken, ...] = ()
     nonlinear_order: int | None = None
     nearest: str = ""
     reasons: tuple[str, ...] = ()
@@ -197,6 +201,11 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     tell("its slopes")
     of_slopes: list[str] = []
     updates, tableau, remarks = _asked(stepper, of_slopes)
+    taken: tuple[Taken, ...] = ()
+    only_steps = updates is None and tableau is None and matrix is not None and matrix.only_at is None
+    if only_steps and past is not None and past.one_step and precision == "double":
+        tell("where it takes forces")
+        taken, tableau = _forces(runs, matrix, of_slopes)
     # rounding, not the formulas, is why these are not found
     reasons += of_slopes if IN_SINGLE not in reasons else []
     tell("its order")
@@ -220,11 +229,22 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         follows,
         updates,
         tableau,
+        taken,
         seen,
         nearest,
         tuple(reasons),
         remarks,
     )
+
+
+def _forces(runs: Runs, matrix: StepMatrix, reasons: list[str]) -> tuple[tuple[Taken, ...], Tableau | None]:
+    """Where a step takes forces, where it takes them explicitly; and its tableau, where it is a Runge-Kutta method."""
+    if any(entry.divided_by("a") for entry in matrix.entries):
+        return (), None
+    taken: tuple[Taken, ...] | None = _tried(
+        lambda: forces_taken(runs), reasons, "where forces are taken was not seen: "
+    )
+    return (taken, tableau_by_jumps(taken, matrix)) if taken else ((), None)
 
 
 def _rounds_to_single(runs: Runs) -> bool:

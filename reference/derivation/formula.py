@@ -66,6 +66,10 @@ class Formula:
         i = VARIABLES.index(variable)
         return any(m[i] for m in (*self.numerator, *self.denominator))
 
+    def divided_by(self, variable: str) -> bool:
+        """Whether one of VARIABLES stands below."""
+        return Formula({ONE: Fraction(1)}, self.denominator).asks(variable)
+
     def at(self, a: Array, b: Array, d: Array) -> Array:
         """Its value at many points, shape (n,)."""
         above, below = (

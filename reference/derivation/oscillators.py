@@ -90,7 +90,7 @@ def one_by_one(runs: Runs, at: Samples, dt: float = DT) -> Array:
     """
     cases = list(zip(at.a.tolist(), at.b.tolist(), at.d.tolist(), strict=True))
     systems = [oscillator(*case, x, v, dt) for case in cases for x, v in ((ASIDE, 0.0), (0.0, ASIDE / dt))]
-    ends = [_end(outcome) for outcome in runs([Run(system, dt) for system in systems])]
+    ends = [end_of(outcome) for outcome in runs([Run(system, dt) for system in systems])]
     moved = np.array([[-1.0 - x[1, 0], -dt * v[1, 0]] for x, v in ends]) / ASIDE
     return moved.reshape(len(cases), 2, 2).swapaxes(1, 2)
 
@@ -120,12 +120,12 @@ def side_by_side(runs: Runs, at: Samples, dt: float = DT) -> Array:
         replace(system, positions=system.positions + aside),
         replace(system, velocities=aside / dt),
     ]
-    ends = [_end(outcome) for outcome in runs([Run(s, dt) for s in begun])]
+    ends = [end_of(outcome) for outcome in runs([Run(s, dt) for s in begun])]
     columns = [np.stack([-1.0 - x[1::2, 0], -dt * v[1::2, 0]], axis=1) / ASIDE for x, v in ends]
     return np.stack(columns, axis=2)
 
 
-def _end(outcome: Outcome) -> tuple[Array, Array]:
+def end_of(outcome: Outcome) -> tuple[Array, Array]:
     """Where a run has come to. Raises Unsupported, with its reason, where it has not."""
     run = outcome.trajectory
     if run is None or len(run) < 2 or not np.isfinite(run.velocities[-1]).all():

@@ -47,6 +47,14 @@ class Explained:
         return self._found.reasons
 
     @property
+    def forces_taken(self) -> tuple[dict[str, str], ...]:
+        """Where a stepper that only steps takes forces of springs: c, b and beta of each, in x' and v' (`str` has both).
+
+        F is taken `at` c h v, and is in v' with h b F/m (`in_velocity`), in x' with h^2 beta F/m (`in_position`).
+        """
+        return tuple(force.text() for force in self._found.taken)
+
+    @property
     def document(self) -> dict[str, Any]:
         """As `springlab explain --json` prints it: matrix, formulas, tableau, and what follows."""
         return self._found.document

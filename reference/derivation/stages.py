@@ -1,0 +1,114 @@
+"""The Butcher tableau of a stepper that only steps, from the forces it takes (`force_jumps`).
+
+An explicit Runge-Kutta method of a(x) takes its forces at c_i h v, with b and beta = b A, moved by A^2 of earlier ones.
+Up to four stages these are enough for all of A. What is found is held against every number that was not used for it,
+and against the step matrix: a method that is none, as a leapfrog, fails there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import permutations, product
+
+import numpy as np
+
+from reference.derivation.force_jumps import ASIDE, LENGTH, Taken
+from reference.derivation.formula import Number
+from reference.derivation.small_fractions import recognised
+from reference.derivation.step_matrix import StepMatrix
+from reference.derivation.tableau import Tableau
+from reference.state import Array
+
+#: The most stages whose tableau is known from that.
+MOST = 4
+
+#: Numbers agree within this: what forces add to one another is known to about 1e-7.
+AGREE, SAME = 1e-5, 1e-9
+
+#: How near a coefficient is to its fraction, which has to be a simple one; the step matrix is then its to rounding.
+OFF = 1e-6
+
+
+def tableau_by_jumps(taken: Sequence[Taken], matrix: StepMatrix) -> Tableau | None:
+    """The explicit Runge-Kutta method that takes these forces and has this step matrix; None where there is none.
+
+    Stages at one c may stand in either order: the first that agrees with everything is taken.
+    """
+    s = len(taken)
+    if not 1 <= s <= MOST or taken[0].at != 0:
+        return None
+    for later in permutations(taken[1:]):
+        order = [taken[0], *later]
+        a = _filled(order)
+        if a is not None and _agrees(order, a):
+            tableau = _tableau(order, a)
+            if _same_matrix(tableau, matrix):
+                return tableau
+    return None
+
+
+def _filled(order: Sequence[Taken]) -> Array | None:
+    """A, of rows that add up to c, from beta = b A and the shift of the third stage."""
+    s = len(order)
+    c, b, beta = (
+        np.array([float(n) for n in row])
+        for row in zip(*((t.at, t.in_velocity, t.in_position) for t in order), strict=True)
+    )
+    a = np.zeros((s, s))
+    if s >= 2:
+        a[1, 0] = c[1]
+    if s == 3:
+        if not b[2]:
+            return None
+        a[2, 1] = beta[1] / b[2]
+    if s == 4:
+        if not b[3] or not c[1]:
+            return None
+        a[3, 2] = beta[2] / b[3]
+        a[2, 1] = order[2].by_earlier / (c[1] * _forces(c, 2)[0])
+        a[3, 1] = (beta[1] - b[2] * a[2, 1]) / b[3]
+    for i in range(2, s):
+        a[i, 0] = c[i] - a[i].sum()
+    return a
+
+
+def _forces(c: Array, i: int) -> Array:
+    """Of each stage, in units of k L, when stage i is at the spring's other end."""
+    x = ASIDE * (c / c[i] - 1)
+    return np.asarray(np.sign(x) - x / LENGTH)
+
+
+def _agrees(order: Sequence[Taken], a: Array) -> bool:
+    """Whether A gives every beta and every shift."""
+    c, b = np.array([float(t.at) for t in order]), np.array([float(t.in_velocity) for t in order])
+    beta = np.array([float(t.in_position) for t in order])
+    squared = a @ a
+    shifts = [squared[i] @ _forces(c, i) - order[i].by_earlier for i in range(1, len(c)) if c[i]]
+    return bool(np.abs(b @ a - beta).max() < AGREE and max(map(abs, shifts), default=0.0) < AGREE)
+
+
+def _tableau(order: Sequence[Taken], a: Array) -> Tableau:
+    rows = tuple(tuple(map(_number, row)) for row in a.tolist())
+    return Tableau(rows, tuple(t.in_velocity for t in order), tuple(t.at for t in order))
+
+
+def _number(value: float) -> Number:
+    if abs(value) < OFF:
+        return Fraction(0)
+    found = recognised(value, OFF)
+    return value if found is None else found
+
+
+def _same_matrix(tableau: Tableau, matrix: StepMatrix) -> bool:
+    """Whether it makes the same of oscillators: I + Z b (1 - Z A)^-1, with Z = [[0, 1], [-a, -b - d]]."""
+    s, eye = tableau.stages, np.eye(2)
+    coefficients = np.array([[float(n) for n in row] for row in tableau.a])
+    weights = np.array([[float(n) for n in tableau.b]])
+    for a, b, d in product((0.3, 1.1), (0.0, 0.2 * matrix.damped), (0.0, 0.1 * matrix.dragged)):
+        z = np.array([[0.0, 1.0], [-a, -b - d]])
+        slopes = np.linalg.solve(np.eye(2 * s) - np.kron(coefficients, z), np.kron(np.ones((s, 1)), z))
+        made = eye + np.kron(weights, eye) @ slopes
+        if np.abs(made - matrix.at(*(np.array([value]) for value in (a, b, d)))[0]).max() > SAME:
+            return False
+    return True
