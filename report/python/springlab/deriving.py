@@ -48,7 +48,7 @@ class Explained:
 
     @property
     def forces_taken(self) -> tuple[dict[str, str], ...]:
-        """Where a stepper that only steps takes forces of springs: c, b and beta of each, in x' and v' (`str` has both).
+        """Where a stepper that only steps takes forces of springs: c, b and beta of each (`str` has them as formulas).
 
         F is taken `at` c h v, and is in v' with h b F/m (`in_velocity`), in x' with h^2 beta F/m (`in_position`).
         """
