@@ -71,10 +71,15 @@ def read(path: str, name: str, source: str) -> Callable[..., Any]:
     return called
 
 
+def compiler_found() -> str | None:
+    """Where the system's C compiler is; None where there is none."""
+    return next(filter(None, map(shutil.which, (os.environ.get("CC", ""), *COMPILERS))), None)
+
+
 @cache
 def _compiled(path: str, name: str, source: str) -> bytes:
     """The library made of a C text."""
-    compiler = next(filter(None, map(shutil.which, (os.environ.get("CC", ""), *COMPILERS))), None)
+    compiler = compiler_found()
     if compiler is None:
         raise Unsupported(f"{name} needs a C compiler: expected one of {', '.join(COMPILERS)}")
     here = Path(__file__).parent

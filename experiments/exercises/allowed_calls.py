@@ -151,30 +151,31 @@ CALL, MACHINE, ARGUMENTS = 0, 4, 16
 Line = tuple[int, int, int, int]
 
 
-def filter_of(machine: str, own_pid: int) -> bytes | None:
+def filter_of(machine: str, own_pid: int, code: bool = False) -> bytes | None:
     """The filter for a machine, as struct sock_filter; None for one whose numbers are not known here.
 
     Args:
         machine: as `platform.machine` says. own_pid: of the process it is for.
+        code: whether memory may become code, as what was compiled of a C submission has to be loaded.
     """
     if machine not in MACHINES or struct.calcsize("P") != 8:
         return None
-    return b"".join(struct.pack("=HBBI", *line) for line in program(machine, own_pid))
+    return b"".join(struct.pack("=HBBI", *line) for line in program(machine, own_pid, code))
 
 
-def program(machine: str, own_pid: int) -> list[Line]:
+def program(machine: str, own_pid: int, code: bool = False) -> list[Line]:
     """The filter, line by line: (code, how far to jump if true, if false, number)."""
-    which, code = MACHINES[machine]
-    lines: list[Line] = [(LOAD, 0, 0, MACHINE), (EQUAL, 1, 0, code), (GIVE, 0, 0, KILL), (LOAD, 0, 0, CALL)]
+    which, architecture = MACHINES[machine]
+    lines: list[Line] = [(LOAD, 0, 0, MACHINE), (EQUAL, 1, 0, architecture), (GIVE, 0, 0, KILL), (LOAD, 0, 0, CALL)]
     lines += [(EQUAL, 0, 1, CLONE3), (GIVE, 0, 0, MISSING)]
     for numbers in PLAIN.values():
         number = numbers[which]
         if number is not None:
             lines += [(EQUAL, 0, 1, number), (GIVE, 0, 0, ALLOW)]
-    for numbers, condition in CHECKED.values():
+    for name, (numbers, condition) in CHECKED.items():
         number = numbers[which]
         if number is not None:
-            checked = _checked(condition)
+            checked = _checked(Condition(0) if code and name == "mmap" else condition)
             lines += [(EQUAL, 0, len(checked), number), *checked]
     own = [(LOAD, 0, 0, ARGUMENTS), (EQUAL, 1, 0, own_pid), (GIVE, 0, 0, REFUSE)]
     signal = [*own, *_checked(Condition(2, among=SIGNALS))]

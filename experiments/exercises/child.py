@@ -42,6 +42,7 @@ BESIDE = (
     "source_edits",
     "expression_edits",
     "source_search",
+    "c_calls",
 )
 
 #: What is said before anything else: the sandbox stands and the submission is about to be read, or it does not stand.
@@ -173,6 +174,7 @@ def story(error: BaseException) -> dict[str, Any]:
     """An exception, with the line of the submission it came from."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == NAME]
     line = error.lineno if isinstance(error, SyntaxError) and error.filename == NAME else lines[-1] if lines else None
+    line = line or getattr(error, "line", None)  # of a C submission
     words = error.msg if isinstance(error, SyntaxError) else str(error)
     return {"type": type(error).__name__, "words": str(words)[:300], "line": line}
 
@@ -199,20 +201,17 @@ def main() -> None:
     wanted = layers.wanted()
     search = importlib.import_module("source_search").search if task.get("search") else None
     library = importlib.import_module("library_finder").LibraryFinder(os.open(LIBRARY, os.O_RDONLY), LIBRARY)
-    calls = importlib.import_module("allowed_calls").filter_of(platform.machine(), os.getpid())
+    compiled = task.get("library")
+    if compiled:
+        importlib.import_module("c_calls")
+    machine = platform.machine()
+    calls = importlib.import_module("allowed_calls").filter_of(machine, os.getpid(), bool(compiled))
     active = layers.apply(task["readable"], task["seconds"], task["memory"], task["parent"], calls)
     sys.path[:] = [path for path in sys.path if path not in task["hidden"]][1:]
     if not os.access(LIBRARY, os.R_OK):
         sys.meta_path.append(library)
-    for name in (
-        "sandbox_layers",
-        "allowed_calls",
-        "library_finder",
-        "returned",
-        "source_edits",
-        "expression_edits",
-        "source_search",
-    ):
+    c_calls = sys.modules.get("c_calls")
+    for name in BESIDE:
         sys.modules.pop(name, None)
     np.seterr(all="ignore")
     missing = [name for name in wanted if name not in active]
@@ -220,7 +219,7 @@ def main() -> None:
     os.write(task["mark"], (READY if stands else CLOSED) + pack({"layers": active, "missing": missing}))
     os.close(task["mark"])
     if stands:
-        os.write(out, pack(answered(task, search)))
+        os.write(out, pack(answered(task, search, c_calls)))
     os._exit(0)  # at once: threads and exit functions of the submission have nothing more to say
 
 
@@ -233,13 +232,20 @@ def preload() -> None:
             continue
 
 
-def answered(task: Mapping[str, Any], search: Callable[..., Any] | None = None) -> dict[str, Any]:
-    """What the submission answers, or what reading it raised; and what a search for small changes finds."""
+def answered(task: Mapping[str, Any], search: Callable[..., Any] | None = None, c_calls: Any = None) -> dict[str, Any]:
+    """What the submission answers, or what reading it raised; and what a search for small changes finds.
+
+    Args:
+        c_calls: the module by which a compiled C submission is called.
+    """
     module = ModuleType("submission")
     module.__file__ = os.path.join(task["folder"], "submission.py")  # files of the exercise are beside it
     sys.modules["submission"] = module
     try:
-        exec(compile(task["source"], NAME, "exec"), module.__dict__)
+        if task.get("library"):
+            module = c_calls.module_of(task["library"], task["exercise"], task["lines"])
+        else:
+            exec(compile(task["source"], NAME, "exec"), module.__dict__)
         names = [name for name in module.__dict__ if not name.startswith("_")]
         found = {"names": names, "answers": [ask(module, question) for question in task["questions"]]}
     except BaseException as error:

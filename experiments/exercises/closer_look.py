@@ -14,14 +14,17 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises import behaviour, derived_step, sandbox
+from experiments.exercises import behaviour, derived_step, findings, sandbox
 from experiments.exercises.answer_catalogue import catalogue_of
+from experiments.exercises.c_compiler import DoesNotCompileError, MissingFunctionError, compiled
+from experiments.exercises.c_text import whole_divisions
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.findings import Finding
 from experiments.exercises.judge import Verdict
 from experiments.exercises.sandbox_errors import NotGradedError
 from experiments.exercises.source_edits import Edit, edits_of, without_main
 from experiments.exercises.source_search import fields_given
+from experiments.exercises.submission import Language
 
 #: The key of the second check that a changed program has to pass.
 SECOND = "a closer look"
@@ -104,13 +107,16 @@ def look_closer(
     verdict: Verdict,
     limits: sandbox.Limits | None = None,
     effort: Effort | None = None,
+    language: Language = "python",
 ) -> CloserLook:
-    """Look at a submission that is not right."""
+    """Look at a submission that is not right. Of one in C its behaviour, and what the compiler warns of."""
     if verdict.outcome in NOT_SEARCHED or any(f.name in NOT_FOR for f in verdict.findings) or not exercise.searched:
         return CloserLook()
     effort = effort or Effort()
     if verdict.outcome in ("mistake", "mistakes"):
         effort = Effort(effort.named * effort.singles, 0.0)
+    if language == "c":
+        return _look_closer_at_c(exercise, source, verdict, limits)
     catalogue = catalogue_of(exercise, seed, None)
     cases = behaviour.cases(catalogue) if verdict.outcome != "error" else []
     groups = _groups(exercise, seed, verdict)
@@ -135,6 +141,25 @@ def look_closer(
     searched = [found["singles_done"] and (bool(found["repairs"]) or found["pairs_done"]) for found in reply.search]
     tried = sum(found["tried"] for found in reply.search)
     return CloserLook(tuple(seen), tuple(repairs), tried, all(searched) and len(searched) == len(groups))
+
+
+def _look_closer_at_c(exercise: Exercise, source: str, verdict: Verdict, limits: sandbox.Limits | None) -> CloserLook:
+    """Nothing is searched for in C."""
+    if any(f.name in ("does_not_compile", "missing_function") for f in verdict.findings):
+        return CloserLook()
+    catalogue = catalogue_of(exercise, "", None)
+    cases = behaviour.cases(catalogue) if verdict.outcome != "error" else []
+    asked = [question.asked() for question in [*catalogue.questions, *(case.question for case in cases)]]
+    try:
+        made = compiled(exercise.number, source, limits is not None and limits.exposed)
+        warned = tuple(findings.of_warning(line, words) for line, words in made.warnings)
+        warned += tuple(findings.of_whole_division(line, words) for line, words in whole_divisions(source))
+        reply = sandbox.run(source, asked, limits, compiled=made, exercise=exercise.number)
+    except (NotGradedError, DoesNotCompileError, MissingFunctionError):
+        return CloserLook(complete=False)
+    if reply.ended != "done" or reply.error is not None:
+        return CloserLook(warned)
+    return CloserLook((*warned, *(behaviour.seen(catalogue, cases, reply.answers) if cases else ())))
 
 
 def _groups(exercise: Exercise, seed: str, verdict: Verdict) -> list[list[Question]]:

@@ -81,7 +81,7 @@ def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
         elif path.suffix.lower() in SUFFIXES:
             found.append(HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime)))
     if not found:
-        raise InputError(f"{folder}: expected Python files, notebooks or zips in it")
+        raise InputError(f"{folder}: expected Python or C files, notebooks or zips in it")
     return found
 
 

@@ -43,6 +43,17 @@ programs started, nothing is read from the keyboard. It is checked by itself: of
 files it finds those that you were given.
 """
 
+#: What they read in its place where they write C.
+RULES_IN_C = """
+## In C
+
+Your file is a C file; `exercise.h` beside it says what your function is given. What is `string.masses` above is
+`string->masses` there, and what is to be returned you write into what you are given, as `exercise.h` says of your
+function. It is compiled by the system's compiler as C11 (`cc -Wall`), and what that warns of is worth reading. Your
+function may use C's own library for computing, nothing else: no files are written, no programs started, nothing is read
+from the keyboard.
+"""
+
 #: What a question's answer is: for every step, every part of what was returned.
 Answer = list[list[Array]]
 
@@ -108,7 +119,7 @@ def mistakes(name: str, words: str, hint: str, *ways: Mapping[str, object]) -> t
 
 @dataclass(frozen=True, eq=False)
 class Exercise:
-    """One exercise. Its texts stand beside it: text.md, starter.py.
+    """One exercise. Its texts stand beside it: text.md, starter.py, and starter.c where it can be done in C.
 
     Attributes:
         title: a few words.
@@ -124,6 +135,7 @@ class Exercise:
         aside: makes questions by which other schemes are told that answer all others rightly. From them nothing else
             follows: a right program may answer them in several ways.
         told_aside: those schemes.
+        aside_in_c: the same for programs in C, to which no number can be given that grows.
         searched: whether small changes of a wrong program are looked for that make it right.
         diagnose: what is wrong with an answer by itself, as the name, words and hint of a finding; None where it may
             be right.
@@ -143,6 +155,7 @@ class Exercise:
     diagnose: Callable[[Question, Any], tuple[str, str, str] | None] | None = None
     aside: Callable[[np.random.Generator], Sequence[Question]] | None = None
     told_aside: Sequence[Mistake] = ()
+    aside_in_c: Callable[[], Sequence[Question]] = tuple
     searched: bool = True
     folder: Path = Path()
 
@@ -162,9 +175,20 @@ class Exercise:
         return (self.folder / "text.md").read_text(encoding="utf-8") + RULES
 
     @property
+    def text_in_c(self) -> str:
+        """The same, for students who write C."""
+        return (self.folder / "text.md").read_text(encoding="utf-8") + RULES_IN_C
+
+    @property
     def starter(self) -> str:
         """What students begin with."""
         return (self.folder / "starter.py").read_text(encoding="utf-8")
+
+    @property
+    def starter_in_c(self) -> str | None:
+        """The same in C; None where there is none."""
+        file = self.folder / "starter.c"
+        return file.read_text(encoding="utf-8") if file.exists() else None
 
     def answer(self, question: Question, parameters: Mapping[str, Any], steps: int | None = None) -> Answer:
         """What the solution answers, in the form in which answers are compared.

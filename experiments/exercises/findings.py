@@ -62,9 +62,63 @@ ODD = {
 }
 
 
+#: What ends a C program, by the error of `c_calls` and the signal: a name, what it is, and what to look at.
+OF_C: Mapping[str, Mapping[str, tuple[str, str, str]]] = {
+    "OutsideArrayError": {
+        "": (
+            "outside_an_array",
+            "your program reads or writes outside an array, or follows a pointer that leads nowhere",
+            "Arrays begin at 0 and end one before their length. What is above the first mass, what below the last?",
+        )
+    },
+    "FullStackError": {
+        "": (
+            "endless_recursion",
+            "a function calls itself without an end, or its arrays are larger than the stack",
+            "When does the function stop calling itself? How large are its arrays?",
+        )
+    },
+    "EndedBySignalError": {
+        "SIGFPE": ("division_by_zero", "your program divides a whole number by zero", "What is zero there, and when?"),
+        "": (
+            "crashed",
+            "your program was ended by its own library: memory was given back twice, or written past its end",
+            "Do you need malloc and free here? Arrays of a function's own will do.",
+        ),
+    },
+}
+
+
 def missing_function(name: str) -> Finding:
     """A function that was asked for is not there."""
     return Finding("missing_function", f"There is no function {name}.", "Keep the names of the starter.")
+
+
+def of_the_end(word: str, reason: str) -> Finding:
+    """A process that gave no answer.
+
+    Args:
+        word: "timed out" or "crashed". reason: in a line.
+    """
+    hint = "Which of your loops never comes to its end?" if word == "timed out" else ""
+    return Finding(word.replace(" ", "_"), f"It was stopped: {reason}.", hint)
+
+
+def of_compiler(line: int | None, words: str) -> Finding:
+    """What a compiler refused."""
+    said = f"{f'line {line}: ' if line else ''}the compiler says: {clean(words).rstrip('.')}."
+    return Finding("does_not_compile", said, "Look at that line, and at the one before it.", line)
+
+
+def of_warning(line: int, words: str) -> Finding:
+    """What a compiler warns of, in a program that is wrong."""
+    return Finding("compiler_warns", f"line {line}: the compiler warns: {clean(words)}.", "It compiles, and may be it.")
+
+
+def of_whole_division(line: int, words: str) -> Finding:
+    """Two whole numbers of the text, one divided by the other with a remainder."""
+    said = f"line {line}: {words} is a division of whole numbers, what comes after the point is cut off."
+    return Finding("whole_division", said, "How is a number written that is none of the whole ones?")
 
 
 def not_written(functions: Sequence[str]) -> Finding:
@@ -88,6 +142,9 @@ def of_error(error: Mapping[str, Any]) -> Finding:
         return Finding(
             name, f"Your function does not return what it should: {what}.", ODD.get(name, ODD["wrong_count"])
         )
+    if kind in OF_C:
+        name, what, hint = OF_C[kind].get(words) or OF_C[kind][""]
+        return Finding(name, f"{where}{what}.", hint, line)
     if kind == "FileNotFoundError" and "No usable temporary directory" in words:
         kind = "PermissionError"  # no folder can be written
     name, hint = ERRORS.get(kind, ("raises_an_error", "Look at that line, and at what its names hold there."))
@@ -138,7 +195,11 @@ def _of_part(name: str, part: Any, want: Any) -> Finding | None:
         )
     if part.dtype.kind == "f" and not np.isfinite(part).all() and np.isfinite(want).all():
         words = f"{name} has NaN or infinity in it."
-        return Finding("not_a_number", words, "Where can you divide by zero, or take the root of less than zero?")
+        return Finding(
+            "not_a_number",
+            words,
+            "Where can you divide by zero, take the root of less than zero, or use what nothing was written into?",
+        )
     return None
 
 

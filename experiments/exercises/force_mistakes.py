@@ -20,6 +20,12 @@ OF_A_SPRING = (
         elastic=-1.0,
     ),
     mistake(
+        "spring_missing",
+        "There is no spring in your forces, or it comes out as 0.",
+        "Print what the spring pulls with. Is it ever anything but 0?",
+        elastic=0.0,
+    ),
+    mistake(
         "gravity_sign",
         "Your gravity points upwards.",
         "Let go of a mass without a spring: which way does its velocity change?",

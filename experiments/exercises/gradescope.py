@@ -29,7 +29,16 @@ from reference.errors import InputError
 PACKAGES = ("numpy", "numba", "scipy")
 
 #: What of springlab the zip carries.
-CARRIED = ("reference/**/*.py", "experiments/__init__.py", "experiments/exercises/*.py", "experiments/exercises/e*/*")
+CARRIED = (
+    "reference/**/*.py",
+    "engines/__init__.py",
+    "engines/own/__init__.py",
+    "engines/own/c_file.py",
+    "experiments/__init__.py",
+    "experiments/exercises/*.py",
+    "experiments/exercises/c/*",
+    "experiments/exercises/e*/*",
+)
 
 #: Makes the environment, once, when the image is built.
 SETUP = """#!/usr/bin/env bash
@@ -44,8 +53,11 @@ if ! $python -c 'import sys; sys.exit(sys.version_info < (3, 11))'; then
 fi
 $python -m venv --help >/dev/null || {{ apt-get update -q && apt-get install -yq python3-venv; }}
 $python -m venv ../springlab-venv
-../springlab-venv/bin/python -m pip install --quiet --disable-pip-version-check {packages}
+{compiler}../springlab-venv/bin/python -m pip install --quiet --disable-pip-version-check {packages}
 """
+
+#: Of an exercise that can be done in C: the compiler.
+COMPILER = "command -v cc >/dev/null || { apt-get update -q && apt-get install -yq gcc libc6-dev; }\n"
 
 #: Grades one submission: run in the folder that has source, submission and results.
 RUN = """#!/usr/bin/env bash
@@ -117,9 +129,9 @@ def grade_folder(folder: Path, settings: Mapping[str, Any]) -> dict[str, Any]:
     exercise = find(str(settings["exercise"]))
     try:
         files = files_of([folder])
-        named = [f for f in files if Path(f[1]).name == f"{exercise.name}.py"] or files
+        named = [f for f in files if Path(f[1]).stem == exercise.name] or files
         if len(named) != 1:
-            raise InputError(f"{len(named)} Python files: expected one, {exercise.name}.py")
+            raise InputError(f"{len(named)} files: expected one, {exercise.name}.py{_or_c(exercise)}")
         submission = read(*named[0], exercise, bool(settings.get("keyed", True)))
     except InputError as error:
         return refused(str(error))
@@ -128,6 +140,10 @@ def grade_folder(folder: Path, settings: Mapping[str, Any]) -> dict[str, Any]:
         return results(submission, grade(submission, settings["key"], limits))
     except NotGradedError as error:
         return not_graded(str(error))
+
+
+def _or_c(exercise: Exercise) -> str:
+    return "" if exercise.starter_in_c is None else f" or {exercise.name}.c"
 
 
 def write_zip(exercise: Exercise, key: str, file: Path, exposed: bool = False, keyed: bool = True) -> None:
@@ -142,7 +158,12 @@ def write_zip(exercise: Exercise, key: str, file: Path, exposed: bool = False, k
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
         settings = {"exercise": exercise.name, "key": key, "exposed": exposed, "keyed": keyed}
         packages = " ".join(f"{name}=={metadata.version(name)}" for name in PACKAGES)
-        _add(archive, "setup.sh", SETUP.format(packages=packages), executable=True)
+        _add(
+            archive,
+            "setup.sh",
+            SETUP.format(packages=packages, compiler=COMPILER if exercise.starter_in_c else ""),
+            executable=True,
+        )
         _add(archive, "run_autograder", RUN, executable=True)
         _add(archive, "exercise.json", json.dumps(settings) + "\n")
         for name, path in sorted(_carried(exercise)):

@@ -101,16 +101,16 @@ def grade(
     found = Grade(public, hidden, perf_counter() - begin)
     if found.verdict.right or effort is None:
         return found
-    closer = look_closer(exercise, submission.source, seed, found.verdict, limits, effort)
+    closer = look_closer(exercise, submission.source, seed, found.verdict, limits, effort, submission.language)
     return replace(found, closer=closer, seconds=perf_counter() - begin)
 
 
 def _judged(submission: Submission, seed: str, key: str | None, limits: Limits | None) -> Verdict:
     """One check; tried again where the first time it was not the submission's fault that it came to nothing."""
     try:
-        return judge(submission.exercise, submission.source, seed, key, limits)
+        return judge(submission.exercise, submission.source, seed, key, limits, submission.language)
     except NotGradedError:
-        return judge(submission.exercise, submission.source, seed, key, limits)
+        return judge(submission.exercise, submission.source, seed, key, limits, submission.language)
 
 
 def row_of(submission: Submission, given: Grade, key: str | None) -> dict[str, str]:

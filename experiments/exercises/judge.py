@@ -7,7 +7,7 @@ found in other ways (an error, an input that was changed, a call that answers di
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -15,11 +15,14 @@ import numpy as np
 
 from experiments.exercises import findings, sandbox
 from experiments.exercises.answer_catalogue import AnswerCatalogue, catalogue_of
+from experiments.exercises.c_compiler import DoesNotCompileError, MissingFunctionError, compiled
+from experiments.exercises.c_text import told_by_overflow, unwritten_in_c
 from experiments.exercises.exercise import TOLERANCE, Answer, Exercise, Mistake
 from experiments.exercises.findings import Finding
 from experiments.exercises.first_difference import FirstDifference, Lines, first_difference
 from experiments.exercises.naming import SINGLE, identify
 from experiments.exercises.reply import Reply
+from experiments.exercises.submission import Language
 from experiments.exercises.unwritten import unwritten
 
 #: What a verdict says in a word.
@@ -65,7 +68,12 @@ class Verdict:
 
 
 def judge(
-    exercise: Exercise, source: str, seed: str = "", key: str | None = None, limits: sandbox.Limits | None = None
+    exercise: Exercise,
+    source: str,
+    seed: str = "",
+    key: str | None = None,
+    limits: sandbox.Limits | None = None,
+    language: Language = "python",
 ) -> Verdict:
     """Run a submission and say what it is.
 
@@ -73,24 +81,60 @@ def judge(
         source: its text.
         seed: the student's.
         key: for the hidden check, the teacher's secret; the public check without.
+        language: of the text.
 
     Raises:
         NotGradedError: where there is no answer and that is not the submission's fault.
     """
     catalogue = catalogue_of(exercise, seed, key)
     functions = [question.function for question in catalogue.questions]
+    if language == "c":
+        return _judge_c(catalogue, source, functions, limits)
     missing = unwritten(source, exercise.starter, functions)
     if len(missing) == len(set(functions)):
         return _failed(catalogue, "error", findings.not_written(missing))
     asked = [question.asked() for question in [*catalogue.questions, *catalogue.aside.questions]]
     files = exercise.files(seed) if exercise.files else {}
-    reply = sandbox.run(source, asked, limits, files)
+    return _verdict_of_runs(catalogue, lambda: sandbox.run(source, asked, limits, files), missing)
+
+
+def _verdict_of_runs(catalogue: AnswerCatalogue, run: Callable[[], Reply], missing: Sequence[str] = ()) -> Verdict:
+    """The verdict on what a run leaves; a second run tells what was remembered from what was chance."""
+    reply = run()
     verdict = verdict_on(catalogue, reply, missing)
     if verdict.name == "not_repeatable":
-        again = sandbox.run(source, asked, limits, files)
+        again = run()
         same = len(again.answers) == len(reply.answers) and _same_replies(reply, again)
         verdict = replace(verdict, findings=(findings.not_repeatable(same),))
     return replace(verdict, layers=tuple(reply.layers))
+
+
+def _judge_c(
+    catalogue: AnswerCatalogue, source: str, functions: Sequence[str], limits: sandbox.Limits | None
+) -> Verdict:
+    """Compile a submission and run it. Its catalogue is that of Python; what is asked aside is of C's own."""
+    exercise, exposed = catalogue.exercise, limits is not None and limits.exposed
+    missing = unwritten_in_c(source, functions)
+    if missing:
+        return _failed(catalogue, "error", findings.not_written(missing))
+    try:
+        made = compiled(exercise.number, source, exposed)
+    except MissingFunctionError as error:
+        return _failed(catalogue, "error", findings.missing_function(str(error)))
+    except DoesNotCompileError as error:
+        return _failed(catalogue, "error", findings.of_compiler(error.line, str(error)))
+    aside = list(exercise.aside_in_c())
+    asked = [question.asked() for question in [*catalogue.questions, *aside]]
+    later: list[Mapping[str, Any]] = []
+
+    def run() -> Reply:
+        reply = sandbox.run(source, asked, limits, compiled=made, exercise=exercise.number)
+        later[:] = reply.answers[len(catalogue.questions) :]
+        return replace(reply, answers=reply.answers[: len(catalogue.questions)])
+
+    verdict = _verdict_of_runs(catalogue, run)
+    other = told_by_overflow(exercise, aside, later) if verdict.right else None
+    return verdict if other is None else _another(verdict, other)
 
 
 def not_asked(exercise: Exercise, seed: str, key: str | None, before: Verdict) -> Verdict:
@@ -113,7 +157,7 @@ def verdict_on(catalogue: AnswerCatalogue, reply: Reply, missing: Sequence[str] 
     reply, aside = replace(reply, answers=reply.answers[:asked]), reply.answers[asked:]
     if reply.ended != "done":
         word: Outcome = "timed out" if reply.ended == "timed out" else "crashed"
-        return _failed(catalogue, word, Finding(word.replace(" ", "_"), f"It was stopped: {reply.reason}."))
+        return _failed(catalogue, word, findings.of_the_end(word, reply.reason))
     try:
         error = _error(catalogue, reply) or findings.of_words(catalogue, reply.answers)
         given = None if error else _comparable(catalogue, reply)
@@ -127,8 +171,14 @@ def verdict_on(catalogue: AnswerCatalogue, reply: Reply, missing: Sequence[str] 
     other = _told_aside(catalogue.aside, aside) if verdict.right else None
     if other is None:
         return verdict
+    return _another(verdict, other)
+
+
+def _another(verdict: Verdict, other: Mistake) -> Verdict:
+    """The verdict on what answers all rightly, and is another scheme."""
     found = Finding(other.name, other.words, other.hint)
-    return replace(verdict, outcome="another scheme", findings=(found,), passed=(False,) * asked)
+    passed = (False,) * len(verdict.passed)
+    return replace(verdict, outcome="another scheme", findings=(found,), passed=passed)
 
 
 def _told_aside(aside: AnswerCatalogue, answers: Sequence[Mapping[str, Any]]) -> Mistake | None:

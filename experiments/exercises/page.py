@@ -38,9 +38,9 @@ th, td {{ border-bottom: 1px solid #8888; padding: 0.25rem 0.75rem 0.25rem 0; te
 """
 
 
-def page(exercise: Exercise) -> str:
-    """The page."""
+def page(exercise: Exercise, text: str) -> str:
+    """The page of one of its texts."""
     from markdown_it import MarkdownIt
 
-    body = MarkdownIt("commonmark", {"html": False}).enable("table").render(exercise.text)
+    body = MarkdownIt("commonmark", {"html": False}).enable("table").render(text)
     return _PAGE.format(title=escape(f"Exercise {exercise.number}: {exercise.title}"), body=body)

@@ -26,12 +26,16 @@ from typing import IO, Any
 import numpy as np
 
 from experiments.exercises import child
+from experiments.exercises.c_compiler import Compiled
 from experiments.exercises.reply import LONGEST, Reply, read
 from experiments.exercises.sandbox_errors import NotGradedError
 
 #: What a submission may have unless told otherwise: seconds of computing, and in all; memory [bytes].
 SECONDS, MEMORY = 10, 2**30
 WALL_CLOCK = 20.0
+
+#: What a compiled submission is called in its folder.
+LIBRARY = "submission.so"
 
 #: How often its process is looked at [s]; and what a look counts for at most: a machine that stood still is not its
 #: fault.
@@ -61,6 +65,8 @@ def run(
     limits: Limits | None = None,
     files: Mapping[str, str] | None = None,
     search: Mapping[str, Any] | None = None,
+    compiled: Compiled | None = None,
+    exercise: int = 0,
 ) -> Reply:
     """Put questions to a submission.
 
@@ -69,6 +75,7 @@ def run(
         questions: each with function, arguments, steps and parts.
         files: what it finds in its folder, by name: what the student was given.
         search: what small changes of it are searched for (`source_search.search`).
+        compiled: what was made of it, where it is in C; and the number of its exercise.
 
     Raises:
         NotGradedError: where it is not the submission's fault that there is no answer.
@@ -88,6 +95,10 @@ def run(
     }
     try:
         with _folder(files or {}) as folder, _file() as asked, _file() as said, _file() as printed, _file() as mark:
+            if compiled is not None:
+                (folder / LIBRARY).write_bytes(compiled.library)
+                (folder / LIBRARY).chmod(0o644)
+                task |= {"library": str(folder / LIBRARY), "lines": list(compiled.lines), "exercise": exercise}
             task |= {"folder": str(folder), "readable": [*_readable(), str(folder)], "mark": mark.fileno()}
             asked.write(child.pack(task))
             asked.flush()
@@ -102,7 +113,10 @@ def run(
         raise NotGradedError(f"its process never came so far as to read it: {reason or 'it ended early'}")
     if ending == "not graded":
         raise NotGradedError(reason)
-    return Reply(ending, reason) if ending != "done" else read(marked, data, len(questions))
+    reply = Reply(ending, reason) if ending != "done" else read(marked, data, len(questions))
+    if reply.error and reply.error["type"] == "LibraryNotLoadedError":
+        raise NotGradedError(f"this machine cannot load what was compiled: {reply.error['words']}")
+    return reply
 
 
 @contextmanager

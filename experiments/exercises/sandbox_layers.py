@@ -34,7 +34,8 @@ CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
 SECCOMP = {"x86_64": 317, "aarch64": 277}
 
 #: Rights to files (include/uapi/linux/landlock.h).
-READ_FILE, READ_FOLDER = 1 << 2, 1 << 3
+EXECUTE, WRITE_FILE, READ_FILE, READ_FOLDER = 1 << 0, 1 << 1, 1 << 2, 1 << 3
+REMOVE_FILE, MAKE_FILE, TRUNCATE, TRUNCATE_FROM = 1 << 5, 1 << 8, 1 << 14, 3
 
 #: How many rights to files, and to the network, each version of Landlock knows; from 6 on it scopes signals.
 FILE_RIGHTS = {1: 13, 2: 14, 3: 15, 4: 15}
@@ -123,8 +124,14 @@ def drop_capabilities(libc: ctypes.CDLL) -> None:
     libc.capset(header, struct.pack("=6I", *[0] * 6))
 
 
-def landlock_rules(libc: ctypes.CDLL, readable: Iterable[str]) -> int | None:
-    """A ruleset of these files alone, opened while they can be; None where the kernel has no Landlock."""
+def landlock_rules(
+    libc: ctypes.CDLL, readable: Iterable[str], programs: bool = False, writable: Iterable[str] = ()
+) -> int | None:
+    """A ruleset of these files alone, opened while they can be; None where the kernel has no Landlock.
+
+    Args:
+        programs: whether what may be read may be run, too. writable: folders in which files may be made and removed.
+    """
     version = libc.syscall(CREATE_RULESET, None, ctypes.c_size_t(0), 1)
     if version < 1:
         return None
@@ -135,10 +142,14 @@ def landlock_rules(libc: ctypes.CDLL, readable: Iterable[str]) -> int | None:
     rules = libc.syscall(CREATE_RULESET, attributes, ctypes.c_size_t(len(attributes)), 0)
     if rules < 0:
         return None
-    for path in readable:
+    reading = READ_FILE | (EXECUTE if programs else 0)
+    changing = READ_FILE | WRITE_FILE | (TRUNCATE if version >= TRUNCATE_FROM else 0)
+    given = [(path, reading, READ_FOLDER) for path in readable]
+    given += [(path, changing, READ_FOLDER | MAKE_FILE | REMOVE_FILE) for path in writable]
+    for path, of_files, of_folders in given:
         if os.path.exists(path):
             place = os.open(path, os.O_PATH | os.O_CLOEXEC)
-            rights = READ_FILE | (READ_FOLDER if os.path.isdir(path) else 0)
+            rights = of_files | (of_folders if os.path.isdir(path) else 0)
             libc.syscall(ADD_RULE, rules, 1, struct.pack("=Qi", rights, place), 0)
             os.close(place)
     return int(rules)

@@ -5,12 +5,14 @@ from __future__ import annotations
 import ast
 import codecs
 import hashlib
+import re
 import tokenize
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
+from typing import Literal
 
 from experiments.exercises.exercise import Exercise, find
 from experiments.exercises.notebook import program_in
@@ -23,7 +25,10 @@ LARGEST = 2**20
 MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
 #: What programs and notebooks are called.
-NOTEBOOK, SUFFIXES = ".ipynb", (".py", ".ipynb")
+NOTEBOOK, IN_C, SUFFIXES = ".ipynb", ".c", (".py", ".ipynb", ".c")
+
+#: What they are written in.
+Language = Literal["python", "c"]
 
 #: The names that say whose a file is.
 HEADER = ("EXERCISE", "SEED", "KEYED")
@@ -41,6 +46,7 @@ class Submission:
         seed: the student's, "" where the exercise has none.
         says_keyed: whether it says that it was started with a key: a reminder to students, who cannot check it then.
         keyed: whether its answers depend on the teacher's key: that is for the teacher to say.
+        language: what it is written in.
     """
 
     name: str
@@ -49,6 +55,7 @@ class Submission:
     seed: str = ""
     says_keyed: bool = False
     keyed: bool = True
+    language: Language = "python"
 
     def seed_with(self, key: str | None) -> str:
         """The seed that its questions are made from."""
@@ -56,7 +63,9 @@ class Submission:
 
     def digest(self, key: str | None) -> str:
         """Of all that its grade depends on, but for springlab itself."""
-        return hashlib.sha256(f"{self.exercise.name}\0{key}\0{self.keyed}\0{self.source}".encode()).hexdigest()[:16]
+        return hashlib.sha256(
+            f"{self.exercise.name}\0{key}\0{self.keyed}\0{self.language}\0{self.source}".encode()
+        ).hexdigest()[:16]
 
 
 def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = True) -> Submission:
@@ -70,14 +79,20 @@ def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = 
         InputError: for a file that is not a submission, by name.
     """
     source = source_of(path, name)
-    says = header(source)
+    in_c = path.suffix.lower() == IN_C
+    says = header_in_c(source) if in_c else header(source)
     if exercise is None and says.get("EXERCISE") is None:
-        raise InputError(f"{name} does not say of which exercise it is: expected a line such as EXERCISE = 4")
+        line = "#define EXERCISE 4" if in_c else "EXERCISE = 4"
+        raise InputError(f"{name} does not say of which exercise it is: expected a line such as {line}")
     exercise = exercise or find(str(says["EXERCISE"]))
+    if in_c and exercise.starter_in_c is None:
+        raise InputError(f"{name}: exercise {exercise.number} cannot be done in C: expected {exercise.name}.py")
     seed = str(says.get("SEED") or "").strip()
     if exercise.seeded and not (seed.isprintable() and 0 < len(seed) <= LONGEST_SEED):
         raise InputError(f'{name} has no seed: expected the starter\'s line, such as SEED = "example"')
-    return Submission(name, source, exercise, seed if exercise.seeded else "", says.get("KEYED") is True, keyed)
+    seed = seed if exercise.seeded else ""
+    language: Language = "c" if in_c else "python"
+    return Submission(name, source, exercise, seed, says.get("KEYED") is True, keyed, language)
 
 
 def source_of(path: Path, name: str) -> str:
@@ -85,7 +100,7 @@ def source_of(path: Path, name: str) -> str:
     if path.is_symlink() or not path.is_file():
         raise InputError(f"{name}: expected a file")
     if path.suffix.lower() == ".zip":
-        raise InputError(f"{name}: expected a Python file or a notebook, or a zip of such that can be read")
+        raise InputError(f"{name}: expected a Python or C file or a notebook, or a zip of such that can be read")
     if path.stat().st_size > LARGEST:
         raise InputError(f"{name} has {path.stat().st_size} bytes: expected at most {LARGEST}")
     text = decoded(path.read_bytes(), name)
@@ -137,6 +152,16 @@ def header(source: str) -> dict[str, object]:
     return found
 
 
+def header_in_c(source: str) -> dict[str, object]:
+    """What the line EXERCISE of a C file says; the last one counts.
+
+    >>> header_in_c("#define EXERCISE 4  // the whole state")
+    {'EXERCISE': 4}
+    """
+    found = re.findall(r"^[ \t]*#[ \t]*define[ \t]+EXERCISE[ \t]+\(?(\d+)", source, re.MULTILINE)
+    return {"EXERCISE": int(found[-1])} if found else {}
+
+
 def _lines_by_themselves(source: str) -> Iterator[ast.Module]:
     for line in source.splitlines():
         if line.startswith(HEADER):
@@ -159,7 +184,7 @@ def files_of(paths: Sequence[Path]) -> list[tuple[Path, str]]:
                 if p.suffix.lower() in SUFFIXES and not any(q.startswith(".") for q in p.relative_to(path).parts)
             )
             if not inside:
-                raise InputError(f"{path}: expected Python files in it")
+                raise InputError(f"{path}: expected Python or C files, or notebooks, in it")
             found += [(p, str(p.relative_to(path))) for p in inside]
         elif path.exists():
             found.append((path, path.name))

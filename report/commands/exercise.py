@@ -11,7 +11,7 @@ import tempfile
 import textwrap
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -107,8 +107,11 @@ def list_command(as_json: bool) -> None:
 @click.argument("exercise")
 @click.argument("folder", required=False, type=click.Path(path_type=Path, file_okay=False))
 @click.option("--seed", default="example", help="Yours, where an exercise gives everybody other numbers.")
+@click.option("--language", type=click.Choice(["python", "c"]), default="python", show_default=True)
 @key_option
-def start_command(exercise: str, folder: Path | None, seed: str, key: str | None) -> None:
+def start_command(
+    exercise: str, folder: Path | None, seed: str, language: Literal["python", "c"], key: str | None
+) -> None:
     """Write EXERCISE into FOLDER: its text, and the file to begin with."""
     from rich.console import Console
     from rich.markdown import Markdown
@@ -117,8 +120,8 @@ def start_command(exercise: str, folder: Path | None, seed: str, key: str | None
     from experiments.exercises.handout import hand_out
 
     found = find(exercise)
-    written = hand_out(found, folder or Path(found.name), seed, key)
-    Console().print(Markdown(found.text))
+    written = hand_out(found, folder or Path(found.name), seed, key, language)
+    Console().print(Markdown(found.text if language == "python" else found.text_in_c))
     for file in written:
         click.echo(f"written: {file}")
     click.echo(f"Then: springlab exercise check {written[0]}")

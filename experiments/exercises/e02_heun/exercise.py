@@ -32,6 +32,19 @@ def where_drag_grows(random: np.random.Generator) -> list[Question]:
     ]
 
 
+def near_the_largest_number() -> list[Question]:
+    """One step where a whole dt of the first slope is more than the largest number, and half of it is not.
+
+    Heun's guess is infinite there; midpoint's is not, nor in the first question Ralston's, which goes 2/3 of dt. The
+    spring does not pull, so that nothing else is large: v' = -c/m v, with c/m dt less than 2.5.
+    """
+    given = ((1.3, 1.3e308), (1.5684, 1.1e308))
+    return [
+        Question("step", (-0.2, v, rate, {**EXAMPLE, "mass": 1.0, "stiffness": 0.0, "damping": rate}), ("y", "v"), "")
+        for rate, v in given
+    ]
+
+
 EXERCISE = Exercise(
     title="The same mass, by Heun",
     minutes=30,
@@ -39,6 +52,7 @@ EXERCISE = Exercise(
     solutions={"step": step},
     questions=questions_on_one,
     aside=where_drag_grows,
+    aside_in_c=near_the_largest_number,
     told_aside=[other for other in OTHERS if other.name in SAME],
     mistakes=(
         *OF_HEUN,

@@ -26,7 +26,7 @@ def test_the_texts_have_no_violation_and_ask_for_nothing(tmp_path: Path, request
         check_that_faults_are_noticed(browser, tmp_path / "wrong.html")
         for exercise in exercises().values():
             file = tmp_path / f"{exercise.name}.html"
-            file.write_text(page(exercise), encoding="utf-8")
+            file.write_text(page(exercise, exercise.text), encoding="utf-8")
             views = VIEWS if request.config.getoption("--full") else [VIEWS[(exercise.number + 1) % len(VIEWS)]]
             wrong |= {(exercise.name, view): complaints(Shown(browser, file, view)) for view in views}
     assert {where: found for where, found in wrong.items() if found} == {}
@@ -37,7 +37,8 @@ def test_markup_in_a_text_is_text(tmp_path: Path) -> None:
     folder = tmp_path / "e99_markup"
     folder.mkdir()
     (folder / "text.md").write_text("Is <b>a</b> < *c*?\n\n| x |\n| - |\n| 1 |\n\n", encoding="utf-8")
-    body = page(replace(next(iter(exercises().values())), folder=folder)).partition("<main>")[2]
+    exercise = replace(next(iter(exercises().values())), folder=folder)
+    body = page(exercise, exercise.text).partition("<main>")[2]
     assert "Is &lt;b&gt;a&lt;/b&gt; &lt; <em>c</em>?" in body
     assert "<td>1</td>" in body
 
