@@ -1,4 +1,6 @@
-"""Rates on programs of somebody who had only texts and starters (`blind`): passed, refused, and led by which way.
+"""Rates on programs of people who had only texts and starters: passed, refused, and led by which way.
+
+Two samples, kept apart: `blind`, which the checker has been mended by since, and `blind2`, written after that.
 
 python -m tests.experiments.exercises.confusion --blind
 """
@@ -8,14 +10,57 @@ from __future__ import annotations
 import os
 import tomllib
 from collections import Counter
+from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 
 from experiments.exercises.exercise import find
 from experiments.exercises.grading import EFFORT, Grade, grade
 from experiments.exercises.submission import Submission
 
-BLIND = Path(__file__).parent / "blind"
+HERE = Path(__file__).parent
+
+
+@dataclass(frozen=True)
+class Program:
+    """One program of a sample.
+
+    Attributes:
+        words: what it is, by who wrote it.
+        lines: of its mistake, where who wrote it has said which.
+    """
+
+    file: Path
+    name: str
+    right: bool
+    words: str
+    lines: tuple[int, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """As it was handed in."""
+        return self.file.read_text(encoding="utf-8")
+
+
+def _samples() -> Mapping[str, list[Program]]:
+    first = tomllib.loads((HERE / "blind" / "expected.toml").read_text(encoding="utf-8"))
+    second = tomllib.loads((HERE / "blind2" / "expected.toml").read_text(encoding="utf-8"))
+    return {
+        "blind": [
+            Program(HERE / "blind" / name, name, kind == "right", words)
+            for kind, entries in first.items()
+            for name, words in entries.items()
+        ],
+        "blind2": [
+            Program(HERE / "blind2" / name, name, e["kind"] == "right", e["words"], tuple(e["lines"]))
+            for name, e in second.items()
+        ],
+    }
+
+
+#: The programs of each sample.
+SAMPLES = _samples()
 
 
 def way(given: Grade) -> str:
@@ -32,27 +77,34 @@ def way(given: Grade) -> str:
     return "behaviour" if given.closer.findings else "place of departure only"
 
 
-def rates() -> dict[str, Counter[str]]:
-    """Of right and of wrong programs, how many were told by each way; and each that is not as it should be."""
-    expected = tomllib.loads((BLIND / "expected.toml").read_text(encoding="utf-8"))
-    names = [(kind, name) for kind, entries in expected.items() for name in entries]
+def way_and_line(program: Program, given: Grade) -> str:
+    """The same; where the line of the mistake is known, whether it is the one that is told."""
+    found = way(given)
+    if found != "line of its text" or not program.lines:
+        return found
+    return "line of its mistake" if set(program.lines) & set(given.closer.lines) else "another line of its text"
 
-    def one(name: str) -> Grade:
-        exercise = find(str(int(name[1:3])))
-        text = (BLIND / name).read_text(encoding="utf-8")
-        return grade(Submission(name, text, exercise, "example", keyed=False), "sesame", None, EFFORT)
+
+def rates(sample: str) -> dict[str, Counter[str]]:
+    """Of right and of wrong programs of a sample, how many were told by each way; each program is printed."""
+
+    def one(program: Program) -> Grade:
+        exercise = find(str(int(program.name[1:3])))
+        return grade(Submission(program.name, program.text, exercise, "example", keyed=False), "sesame", None, EFFORT)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        graded = list(pool.map(one, [name for _, name in names]))
+        graded = list(pool.map(one, SAMPLES[sample]))
     found: dict[str, Counter[str]] = {"right": Counter(), "wrong": Counter()}
-    for (kind, name), given in zip(names, graded, strict=True):
-        found[kind][way(given)] += 1
-        found[kind]["with a line or a name"] += bool(given.closer.told or given.verdict.findings)
-        print(f"{name:36} {way(given):24} {given.verdict.name[:40]:40} lines {given.closer.lines}")
+    for program, given in zip(SAMPLES[sample], graded, strict=True):
+        kind, how = "right" if program.right else "wrong", way_and_line(program, given)
+        found[kind][how] += 1
+        print(f"{program.name:36} {how:24} {given.verdict.name[:40]:40} lines {given.closer.lines}")
     return found
 
 
 def main() -> None:
-    """Print each program, and the rates."""
-    for kind, counts in rates().items():
-        print(f"{kind}: {', '.join(f'{words} {many}' for words, many in counts.most_common())}")
+    """Print each program, and the rates of each sample."""
+    told = {sample: rates(sample) for sample in SAMPLES}
+    for sample, found in told.items():
+        for kind, counts in found.items():
+            print(f"{sample}, {kind}: {', '.join(f'{words} {many}' for words, many in counts.most_common())}")

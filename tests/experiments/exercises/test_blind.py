@@ -1,10 +1,8 @@
-"""Programs of somebody who had only texts and starters: none that is wrong passes, none that is right is refused."""
+"""Programs of people who had only texts and starters: none that is wrong passes, none that is right is refused."""
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Iterator, Mapping
-from pathlib import Path
+from collections.abc import Iterator
 
 import numpy as np
 import pytest
@@ -15,19 +13,14 @@ from experiments.exercises.exercise import Exercise, find
 from experiments.exercises.judge import judge
 from experiments.exercises.naming import SINGLE
 from tests.experiments.exercises import here
+from tests.experiments.exercises.blind_rates import SAMPLES
 from tests.experiments.exercises.corpus import solution, wrong
 
 #: What they are warned of (np.matrix, for one) ends nothing in the sandbox, and here neither.
 pytestmark = pytest.mark.filterwarnings("ignore")
 
-BLIND = Path(__file__).parent / "blind"
-
-#: By file: whether it is right, and what it is in the words of who wrote it.
-EXPECTED: Mapping[str, tuple[bool, str]] = {
-    name: (kind == "right", words)
-    for kind, entries in tomllib.loads((BLIND / "expected.toml").read_text(encoding="utf-8")).items()
-    for name, words in entries.items()
-}
+#: Of both samples, by file.
+PROGRAMS = sorted((program for sample in SAMPLES.values() for program in sample), key=lambda p: (p.name, p.file))
 
 #: Whose grade depends on no number: what they return is right to rounding, how they do it is not.
 BY_OTHER_MEANS = ("modifies_its_input", "midpoint")
@@ -51,12 +44,12 @@ def test_right_ones_pass_and_wrong_ones_do_not(corpus_part: slice, request: pyte
 
     Far is twenty times what counts as single precision (SINGLE), or twice the tolerance where numbers are typed in.
     """
-    for name in sorted(EXPECTED)[corpus_part]:
-        exercise, (right, words) = find(str(int(name[1:3]))), EXPECTED[name]
+    for program in PROGRAMS[corpus_part]:
+        name, exercise = program.name, find(str(int(program.name[1:3])))
         for key in keys(exercise, request.config.option.full):
-            verdict = judge(exercise, (BLIND / name).read_text(encoding="utf-8"), "example", key)
-            assert verdict.right == right, (name, key, words, verdict.name)
-            if not right and verdict.right_error is not None and verdict.name not in BY_OTHER_MEANS:
+            verdict = judge(exercise, program.text, "example", key)
+            assert verdict.right == program.right, (name, key, program.words, verdict.name)
+            if not program.right and verdict.right_error is not None and verdict.name not in BY_OTHER_MEANS:
                 assert verdict.right_error > max(20 * SINGLE, 1.1 * exercise.tolerance), (name, key)
 
 
