@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -129,16 +130,31 @@ def test_the_keyboard_reaches_everything(browser: Any, file: Path) -> None:
     shown.page.close()
 
 
-def test_what_is_folded_is_open_on_paper(browser: Any, short: Path) -> None:
-    """Every table and finding has a height there, and has none on the screen before it is opened."""
+def test_on_paper_findings_are_open_and_tables_are_folded(browser: Any, short: Path) -> None:
+    """Also tables that are open on the screen; a finding that is folded there has a height on paper."""
     heights = {}
     for medium in ("screen", "print"):
         shown = Shown(browser, short, (800, "light", medium))
         heights[medium] = shown.page.evaluate(
-            """() => [...document.querySelectorAll("details:not([open])")].map(d => d.getBoundingClientRect().height
-                - d.querySelector("summary").getBoundingClientRect().height)"""
+            """() => [...document.querySelectorAll("details:not(.cards *)")].map(d => [
+                d.querySelector("table") !== null,
+                d.getBoundingClientRect().height - d.querySelector("summary").getBoundingClientRect().height])"""
         )
         shown.page.close()
-    assert len(heights["screen"]) > 3
-    assert all(height < 1 for height in heights["screen"])
-    assert all(height > 10 for height in heights["print"])
+    on_screen, on_paper = heights["screen"], heights["print"]
+    assert any(height > 10 for table, height in on_screen if table)
+    assert all(height < 1 for table, height in on_paper if table)
+    assert all(height > 10 for table, height in on_paper if not table)
+    assert any(not table for table, _ in on_paper)
+
+
+def test_a_section_prints_on_less_than_a_page(browser: Any, file: Path) -> None:
+    """A figure is at most 9.5 cm high, so that a report of fifteen experiments has under 15 pages of A4.
+
+    `page.pdf` counts: a page object for each page of the document.
+    """
+    shown = Shown(browser, file, (800, "light", "print"))
+    sections = shown.page.evaluate("document.querySelectorAll('main > section').length")
+    pages = len(re.findall(rb"/Type\s*/Page[^s]", shown.page.pdf(format="A4")))
+    assert 1 < pages < sections
+    shown.page.close()
