@@ -86,7 +86,7 @@ def result_of(
     """
     data = {"rows": rows, "natural": natural, "linear": linear, "line": line}
     tables = [_resonance_table(rows, linear), _truck_table(rows, line), _sway_table(rows, linear)]
-    return Result(_findings(rows, linear, line), tables, data, failures)
+    return Result(_findings(rows, natural, linear, line), tables, data, failures)
 
 
 def claims(engine: EngineStepper) -> tuple[str, str]:
@@ -245,11 +245,11 @@ def _sway_table(rows: Mapping[str, Ran], linear: Array) -> Table:
     return Table("ground_motion_sway", columns, body)
 
 
-def _findings(rows: Mapping[str, Ran], linear: Array, line: tuple[Array, Array]) -> list[str]:
-    return [*_of_the_ground(rows, linear), *_of_the_truck(rows, line), *_of_engines(rows)]
+def _findings(rows: Mapping[str, Ran], natural: Array, linear: Array, line: tuple[Array, Array]) -> list[str]:
+    return [*_of_the_ground(rows, natural, linear), *_of_the_truck(rows, line), *_of_engines(rows)]
 
 
-def _of_the_ground(rows: Mapping[str, Ran], linear: Array) -> Iterator[str]:
+def _of_the_ground(rows: Mapping[str, Ran], natural: Array, linear: Array) -> Iterator[str]:
     peaks = [peak(ran.shaken) for ran in rows.values()]
     if not peaks:
         return
@@ -258,7 +258,18 @@ def _of_the_ground(rows: Mapping[str, Ran], linear: Array) -> Iterator[str]:
     yield (
         "Shaken up and down, ever faster, the bridge sways most while the ground shakes at "
         f"{_span(low, high, '.2f')} Hz, by {_span(1e3 * least, 1e3 * most, '.1f')} mm, measured in {len(peaks)} runs. "
-        f"Predicted by the linear bridge: {at:.2f} Hz, {1e3 * by:.1f} mm."
+        f"Predicted by the linear bridge: {at:.2f} Hz, {1e3 * by:.1f} mm.{_why_later(natural, at)}"
+    )
+
+
+def _why_later(natural: Array, at: float) -> str:
+    """Why the largest sway does not come at a natural frequency but after it; nothing where it does not."""
+    before = natural[natural < at]
+    if not len(before):
+        return ""
+    return (
+        f" Shaken at one frequency for long it would sway most near its natural frequency, predicted {before[-1]:.2f} "
+        "Hz; in a sweep it takes some swings to build up, and meanwhile the frequency goes on."
     )
 
 

@@ -9,8 +9,8 @@ from reference.stepper import stepper_named
 from report.figures.overview import Explained
 from report.page.section import Section
 
-#: Units of length, the largest first [m].
-UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "pm": 1e-12, "fm": 1e-15}
+#: Units of length, the largest first [m]; what is shorter is rounding, and in powers of ten as everywhere on the page.
+UNITS = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "nm": 1e-9}
 
 
 def explained(section: Section | None) -> list[Explained]:
@@ -27,9 +27,13 @@ def explained(section: Section | None) -> list[Explained]:
 
 
 def sentences(sections: Sequence[Section]) -> list[str]:
-    """Whether engines are explained, whether limits are as predicted, and what differs; or why that cannot be said."""
+    """Whether engines are explained, whether limits are as predicted, and what differs; or why that cannot be said.
+
+    Of a page without the experiment `stability`, as the sample is, limits are left out.
+    """
     found = {section.experiment.name: section for section in sections}
-    return [_explanation(found), _limits(found), _differences(found)]
+    limits = [_limits(found)] if "stability" in found or not found else []
+    return [_explanation(found), *limits, _differences(found)]
 
 
 def records(section: Section | None, table: str) -> list[dict[str, Any]]:
@@ -90,11 +94,11 @@ def _differences(found: Mapping[str, Section]) -> str:
 
 
 def length(metres: float) -> str:
-    """A length as people say it: two figures and a unit."""
+    """A length as people say it, two figures and a unit; a power of ten where it is rounding."""
     for unit, size in UNITS.items():
         if metres >= 0.0999 * size:
             return f"{float(f'{metres / size:.2g}'):g} {unit}"
-    return f"{metres:.1g} m"
+    return f"{metres:.1e} m"
 
 
 def takes_springs_for_rods(engine: Explained) -> bool:

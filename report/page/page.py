@@ -14,6 +14,7 @@ from report.page import overview
 from report.page.engine_cards import Package, packages
 from report.page.inline_svg import dark_colours, inline
 from report.page.overview import explained
+from report.page.scheme_equations import Shown, scheme_equations
 from report.page.section import Section
 from report.plain import plain
 
@@ -70,7 +71,7 @@ def page(sections: Sequence[Section], lab: str = "") -> str:
         ENGINE_COLUMNS,
         [[engine.engine, engine.scheme, engine.error, engine.deviation] for engine in engines],
     )
-    return _rendered(first, sections, sections, packages(_identified(engines)), lab)
+    return _rendered(first, sections, sections, packages(_identified(engines)), lab, scheme_equations(engines))
 
 
 def scene_page(name: str, sections: Sequence[Section]) -> str:
@@ -95,7 +96,12 @@ def scene_page(name: str, sections: Sequence[Section]) -> str:
 
 
 def _rendered(
-    first: First, shown: Sequence[Section], sections: Sequence[Section], cards: Sequence[Package], lab: str = ""
+    first: First,
+    shown: Sequence[Section],
+    sections: Sequence[Section],
+    cards: Sequence[Package],
+    lab: str = "",
+    schemes: Sequence[Shown] = (),
 ) -> str:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
@@ -108,6 +114,7 @@ def _rendered(
         sections=shown,
         pictures={s.experiment.name: inline(s.svg, s.experiment.name, s.alt) for s in shown if s.svg},
         packages=cards,
+        schemes=schemes,
         undone=_undone(sections),
         environment=_environment(),
         script=_script() if any(section.motions for section in shown) else "",

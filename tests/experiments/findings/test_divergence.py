@@ -55,6 +55,14 @@ def test_where_all_have_constraints_the_farthest_of_them_is_said() -> None:
     assert "cable is up to 2.4e-01 m" in finding(divergence.of(*constrained), "are identified")
 
 
+def test_why_euler_looks_as_good_is_said_where_both_ran() -> None:
+    """With both distances, Euler's first; nothing without an engine of each, or where they are apart."""
+    assert numbers(finding(divergence.full(), "first order")) == [0.02, ERRORS["euler"], ERRORS["kick_drift"]]
+    alone = divergence.of(divergence.ran("a", "kick_drift"), divergence.ran("b", "rk4"))
+    apart = divergence.of(divergence.ran("a", "kick_drift"), divergence.ran("b", "euler", 1.0))
+    assert not [sentence for sentence in (*alone.findings, *apart.findings) if "first order" in sentence]
+
+
 def test_failures_have_their_reasons() -> None:
     """One for who did not come to its end."""
     (failure,) = divergence.usual().failures

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 from experiments.ground_motion import SPEEDS, peak, result_of
 from tests.experiments.canned import ground_motion
-from tests.experiments.canned.ground_motion import HIGH, PEAK, sway
+from tests.experiments.canned.ground_motion import HIGH, NATURAL, PEAK, sway
 from tests.experiments.canned.reading import finding, in_order, numbers, records
 
 
@@ -50,8 +51,17 @@ def test_sentences_have_the_range_that_was_measured_then_what_is_predicted() -> 
     least, most = sorted(1e3 * row["by [m]"] for row in records(ground_motion.usual()))
     at, by = peak(sway(PEAK, HIGH))
     said = finding(ground_motion.usual(), "sways most")
-    assert numbers(said) == pytest.approx([low, high, least, most, 2, at, 1e3 * by], abs=0.05)
+    assert numbers(said) == pytest.approx([low, high, least, most, 2, at, 1e3 * by, NATURAL], abs=0.05)
     assert in_order(said, "measured", "Predicted")
+
+
+def test_why_the_peak_comes_later_is_said_where_it_does() -> None:
+    """Of the natural frequency that the sweep has passed by then; of one that is still to come nothing."""
+    usual = ground_motion.usual()
+    rows, linear, line = (usual.data[name] for name in ("rows", "linear", "line"))
+    for natural, said in (([NATURAL], [NATURAL]), ([1.0, NATURAL], [NATURAL]), ([1.9], [])):
+        found = finding(result_of(rows, np.array(natural), linear, line), "sways most")
+        assert numbers(found)[7:] == said
 
 
 def test_the_truck_s_sentence_has_the_most_of_each_speed() -> None:

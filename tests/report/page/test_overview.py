@@ -39,8 +39,8 @@ GOOD = divergence(
 def test_the_first_sentence_has_the_worst_distance_from_a_scheme() -> None:
     """Not the best, and no distance from the true motion."""
     explanation = sentences([GOOD, stability(1e-6)])[0]
-    assert numbers(explanation) == [5, 30]
-    assert in_order(explanation, "All 5", "to 30 fm or better")
+    assert numbers(explanation) == [5, 3e-14]
+    assert in_order(explanation, "All 5", "to 3.0e-14 m or better")
 
 
 def test_the_second_sentence_has_the_widest_difference_of_the_limits_that_have_one() -> None:
@@ -58,7 +58,7 @@ def test_the_third_sentence_goes_from_the_best_to_the_worst_each_with_its_scheme
 def test_an_engine_that_is_not_explained_is_named() -> None:
     """And is not counted; where none is, that is said. Nor is it the worst of those that are."""
     mixed = divergence(("a", 4e-3, "kick_drift", 2e-15), ("odd", 1e-3, None, 1e-7))
-    assert numbers(sentences([mixed])[0]) == [1, 2, 2]
+    assert numbers(sentences([mixed])[0]) == [1, 2, 2e-15]
     assert sentences([mixed])[0].endswith("Not explained: odd.")
     assert numbers(sentences([divergence(("odd", 1e-3, None, 1e-7))])[0]) == [1]
 
@@ -70,7 +70,14 @@ def test_what_is_missing_or_failed_is_said() -> None:
     assert all("(timed out: 900 s)" in sentence for sentence in sentences([failed, stability(0.0)])[::2])
     assert "no limit was both predicted and measured" in sentences([stability(None)])[1]
     only_rods = sentences([divergence(("c", 0.24, "pendulum_rk4", 1e-15))])
-    assert "all that ran" in only_rods[2]
+    assert "all that ran" in only_rods[-1]
+
+
+def test_a_page_without_limits_has_no_sentence_about_them() -> None:
+    """As the sample is: two sentences, on what is explained and what differs."""
+    explanation, differences = sentences([GOOD])
+    assert numbers(explanation) == [5, 3e-14]
+    assert numbers(differences) == [3, 2, 10, 4, 2, 0.25]
 
 
 def test_the_experiments_own_tables_are_understood() -> None:
@@ -82,14 +89,14 @@ def test_the_experiments_own_tables_are_understood() -> None:
     assert explained(Section(find("divergence"), canned_divergence.not_installed())) == []
     full = [Section(find("divergence"), canned_divergence.full()), Section(find("stability"), canned_stability.usual())]
     explanation, limits, differences = sentences(full)
-    assert numbers(explanation) == [15, 16, 2]
+    assert numbers(explanation) == [15, 16, 2e-15]
     assert numbers(limits) == [4, 1]
     assert in_order(differences, "12 settings with 5 schemes", "10 nm (rk4) to 5 mm (euler)", "as 3 have, up to 0.25 m")
 
 
 @pytest.mark.parametrize(
     ("metres", "words"),
-    [(0.2414, "0.24 m"), (4.78e-3, "4.8 mm"), (1e-8, "10 nm"), (2.8e-14, "28 fm"), (3e-17, "3e-17 m")],
+    [(0.2414, "0.24 m"), (4.78e-3, "4.8 mm"), (1e-8, "10 nm"), (2.8e-14, "2.8e-14 m"), (3e-17, "3.0e-17 m")],
 )
 def test_lengths_are_said_in_units_that_suit_them(metres: float, words: str) -> None:
     """To two figures."""

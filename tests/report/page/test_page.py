@@ -22,7 +22,7 @@ from tests.report.page.canned import RESULTS
 from tests.report.page.doubles import answering, failing, put
 
 #: The sections after the experiments'.
-CLOSING = ["engines", "undone", "environment"]
+CLOSING = ["schemes", "engines", "undone", "environment"]
 
 #: The experiments the page is made of here, in the order of the report.
 SHOWN = [name for name in NAMES if name in RESULTS]
