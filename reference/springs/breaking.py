@@ -17,7 +17,7 @@ from reference.lengths import rates_of
 from reference.springs.linear_law import spring_force
 from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches
 from reference.state import Array, State, Trajectory
-from reference.system import BREAK, IntArray, MassSpringSystem
+from reference.system import BREAK, BoolArray, IntArray, MassSpringSystem
 
 
 def tensions(system: MassSpringSystem, positions: Array, velocities: Array) -> Array:
@@ -42,6 +42,12 @@ def after_breaking(system: MassSpringSystem, state: State) -> MassSpringSystem:
     """The system from the next step on: itself, where nothing breaks."""
     broken = breaking(system, state)
     return system.with_parameter(BREAK, broken.tolist()) if len(broken) else system
+
+
+def without_force(system: MassSpringSystem) -> BoolArray:
+    """Which springs pull with nothing whatever their masses do: those that are broken, and any that never did."""
+    forceless = (system.stiffness == 0) & (system.damping == 0)
+    return np.asarray(forceless if system.nonlinear is None else forceless & (system.nonlinear.hardening == 0))
 
 
 def breaks_of(system: MassSpringSystem, motion: Trajectory, dt: float, changes: Sequence[Change] = ()) -> list[Change]:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from reference.springs.breaking import without_force
 from reference.state import Array
 from reference.system import BoolArray, MassSpringSystem
 from report.film.obstacle_image import HIDDEN, ObstacleImage
@@ -88,11 +89,12 @@ def colour_map() -> Any:
 
 
 def lines(system: MassSpringSystem, positions: Array, look: Look, colours: Any) -> Lines:
-    """The springs of a system at positions (n, d) [m], by the colours of `colour_map`."""
+    """The springs of a system at positions (n, d) [m], by the colours of `colour_map`, but for those without force."""
     places, depth = look.view.project(positions)
-    ends, near = places[system.springs], depth[system.springs].mean(axis=1)
+    near = depth[system.springs].mean(axis=1)
     order = np.argsort(near, kind="stable")
-    ends, near = ends[order], near[order]
+    order = order[~without_force(system)[order]]
+    ends, near = places[system.springs[order]], near[order]
     widths = _widths(system)[order]
     far, close = look.depths
     with np.errstate(over="ignore", invalid="ignore"):
@@ -115,9 +117,15 @@ def _widths(system: MassSpringSystem) -> Array:
     return np.asarray(most * np.clip((lengths.min() / lengths) ** 2, THINNEST, 1))
 
 
-def scale_of(system: MassSpringSystem, positions: Array) -> float:
-    """The strain for both ends of the colours, for positions (..., n, d) [m]."""
-    return nice(max(float(np.quantile(np.abs(strain(system, positions)), WITHIN)), 1e-6))
+def scale_of(system: MassSpringSystem, positions: Array, seen: BoolArray | None = None) -> float:
+    """The strain for both ends of the colours, for positions (m, n, d) [m].
+
+    Args:
+        seen: which springs are drawn at which time, shape (m, s); all where left out.
+    """
+    found = np.abs(strain(system, positions))
+    found = found if seen is None else found[seen]
+    return nice(max(float(np.quantile(found, WITHIN)) if found.size else 0.0, 1e-6))
 
 
 def _within_reach(places: Array, window: Window) -> Array:
@@ -160,14 +168,17 @@ class Drawing:
         for spine in axes.spines.values():
             spine.set(visible=True, color="#cccccc", linewidth=0.8)
 
-    def show(self, positions: Array, system: MassSpringSystem, true: Array | None = None) -> None:
-        """Draw the system, as it is now, at positions (n, d) [m]; what is not finite is not drawn.
+    def show(
+        self, positions: Array, system: MassSpringSystem, true: tuple[Array, MassSpringSystem] | None = None
+    ) -> None:
+        """Draw the system, as it is now, at positions (n, d) [m]; what is not finite, or broken, is not drawn.
 
         Args:
-            true: where it should be, drawn behind it.
+            true: where it should be, and as what, drawn behind it.
         """
         if true is not None:
-            self._true.set_segments(self._look.view.project(true)[0][system.springs])
+            there = true[1].springs[~without_force(true[1])]
+            self._true.set_segments(self._look.view.project(true[0])[0][there])
         drawn = lines(system, positions, self._look, self._colours)
         for collection, chosen in ((self.behind, drawn.hidden), (self.front, ~drawn.hidden)):
             collection.set_segments(drawn.segments[chosen])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,8 +14,9 @@ from reference.identification import TOLERANCE
 from reference.line import obstacle_in_plane
 from reference.outcome import Outcome
 from reference.scenes import Setup
+from reference.springs.breaking import breaks_of, without_force
 from reference.state import Array, Trajectory
-from reference.system import MassSpringSystem
+from reference.system import BREAK, BoolArray, MassSpringSystem
 from report.film.contact_sheet import Shot, contact_sheet
 from report.film.drawing import FEW, Look, scale_of
 from report.film.obstacle_image import obstacle_image
@@ -85,10 +86,13 @@ def frame_steps(setup: Setup, steps: int, slow: float = 1.0) -> list[int]:
     return np.linspace(0, steps, shown).round().astype(int).tolist()
 
 
-def look_at(system: MassSpringSystem, motions: Sequence[Trajectory]) -> Look:
+def look_at(system: MassSpringSystem, motions: Sequence[Trajectory], seen: BoolArray | None = None) -> Look:
     """A view, a window and a scale of strain for the first motion: others are seen so far as they go no further.
 
     Steady, so that a motion that blows up makes nothing of the others.
+
+    Args:
+        seen: which springs are drawn of the first motion at which step, shape (m, s); all where left out.
     """
     model = motions[0].positions
     view = view_of(model)
@@ -97,7 +101,7 @@ def look_at(system: MassSpringSystem, motions: Sequence[Trajectory]) -> Look:
     depth = view.project(model)[1]
     depths = (float(depth.min()), float(depth.max()))
     obstacles = [obstacle_in_plane(obstacle) for obstacle in system.obstacles]
-    return Look(view, window, scale_of(system, model), depths, obstacle_image(obstacles, view, window))
+    return Look(view, window, scale_of(system, model, seen), depths, obstacle_image(obstacles, view, window))
 
 
 def leaves(motion: Trajectory, view: View, window: Window) -> float | None:
@@ -129,6 +133,10 @@ class Film:
         motion = shot.motion.positions
         return motion[step] if step < len(motion) else np.full_like(motion[0], np.nan)
 
+    def systems(self, motion: Trajectory) -> list[MassSpringSystem]:
+        """The system at every step that is shown, without the springs that are broken then in a motion."""
+        return _broken(self.setup, motion).systems_at(self.steps)
+
     def frames(self, progress: Progress) -> Iterator[Array]:
         """The pictures, each of shape (h, w, 3), of bytes; h and w are even."""
         from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -138,14 +146,15 @@ class Film:
             self.setup.system, self.shots, self.look, f"{self.setup.name}, dt = {self.setup.dt:g} s{behind}"
         )
         canvas = FigureCanvasAgg(sheet.figure)
-        systems = self.setup.systems_at(self.steps)
-        for i, (step, system) in enumerate(zip(self.steps, systems, strict=True)):
+        systems = [self.systems(shot.motion) for shot in self.shots]
+        of_true = None if self.true is None else self.systems(self.true)
+        for i, step in enumerate(self.steps):
             progress(f"{i} of {len(self.steps)} frames")
             time = step * self.setup.dt
             sheet.clock.set_text(f"t = {time:.3f} s")
-            true = None if self.true is None else self.true.positions[step]
-            for shot, drawing, note in zip(self.shots, sheet.drawings, sheet.notes, strict=True):
-                drawing.show(self.positions(shot, step), system, true)
+            true = None if self.true is None or of_true is None else (self.true.positions[step], of_true[i])
+            for k, (shot, drawing, note) in enumerate(zip(self.shots, sheet.drawings, sheet.notes, strict=True)):
+                drawing.show(self.positions(shot, step), systems[k][i], true)
                 note.set_visible(shot.left is not None and time >= shot.left)
             canvas.draw()
             yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
@@ -169,10 +178,24 @@ def film_of(setup: Setup, shown: Sequence[Shot], true: Trajectory | None, slow: 
     sane = [shot.motion for shot in shown if shot.outcome.ending == "done"]
     if true is not None:
         sane.insert(0, true)
-    look = look_at(setup.system, sane or [_start(shown[0].motion)])
+    sane = sane or [_start(shown[0].motion)]
+    look = look_at(setup.system, sane, _seen(setup, sane[0]))
     shown = [Shot(s.names, s.caption, s.outcome, leaves(s.motion, look.view, look.window)) for s in shown]
     steps = frame_steps(setup, setup.steps, slow)
     return Film(setup, shown, steps, look, true if len(setup.system.masses) <= FEW else None)
+
+
+def _broken(setup: Setup, motion: Trajectory) -> Setup:
+    """The setup, with the springs that broke in a motion of it among its changes."""
+    return replace(setup, changes=(*setup.changes, *breaks_of(setup.system, motion, setup.dt, setup.changes)))
+
+
+def _seen(setup: Setup, motion: Trajectory) -> BoolArray | None:
+    """Which springs are there at every step of a motion, shape (m, s); None where all are."""
+    broken = _broken(setup, motion)
+    if not any(change.parameter == BREAK for change in broken.changes):
+        return None
+    return np.array([~without_force(system) for system in broken.systems_at(range(len(motion)))])
 
 
 def _start(motion: Trajectory) -> Trajectory:

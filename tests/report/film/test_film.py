@@ -17,6 +17,7 @@ from reference.changes import Change
 from reference.errors import InputError
 from reference.obstacles import Plane, Sphere
 from reference.scenes import Setup, find
+from reference.springs.breaking import breaks_of
 from reference.stepper import catalogued
 from reference.system import MassSpringSystem
 from report.film.drawing import FAR, Look, colour_map, lines, strain
@@ -119,6 +120,26 @@ def test_what_blows_up_leaves_the_picture_and_changes_nothing_for_the_others() -
     assert not ((x[:, 0] >= left) & (x[:, 0] <= right) & (x[:, 1] >= bottom) & (x[:, 1] <= top)).all()
     assert leaves(bad.motion, made.look.view, (-1e300, 1e300, -1e300, 1e300)) != bad.left
     assert len(list(made.frames(quiet))) == len(made.steps)
+
+
+def test_a_spring_that_is_broken_is_drawn_no_more() -> None:
+    """From the step after it broke on, in its own panel; what it would be stretched by has no part in the colours."""
+    setup = find("chain").setup({"masses": 5, "breaking_force": 0.8})
+    breaking, soft = (catalogued()[name] for name in ("kick_drift", "euler"))
+    made = film(compare(setup, [breaking, soft]), ["kick_drift", "euler"])
+    times = []
+    for shot in made.shots:
+        drawn = [
+            len(lines(system, made.positions(shot, step), made.look, colour_map()).segments)
+            for step, system in zip(made.steps, made.systems(shot.motion), strict=True)
+        ]
+        broke = [change.step(setup.dt) for change in breaks_of(setup.system, shot.motion, setup.dt)]
+        assert drawn == [5 - sum(step > at for at in broke) for step in made.steps]
+        times.append(broke)
+    assert times[0][0] > 0
+    assert times[0] != times[1]
+    assert made.look.most < 0.5
+    assert look_at(setup.system, [made.shots[0].motion]).most > 1  # without the breaks
 
 
 def test_strain_is_length_over_rest_length_less_one() -> None:
