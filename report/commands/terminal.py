@@ -72,6 +72,18 @@ def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]
         console.print(note, markup=False)
 
 
+def show_lines(lines: Sequence[str]) -> None:
+    """Lines on standard output, folded between words where a terminal is narrower: what goes on is set in."""
+    from textwrap import fill
+
+    from rich.console import Console
+
+    console = Console()
+    for line in map(printable, lines):
+        folded = fill(line, console.width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False)
+        print(folded if console.is_terminal else line)
+
+
 def with_notes(cells: Sequence[Sequence[str]]) -> tuple[list[list[str]], list[str]]:
     """The cells, sentences replaced by the numbers of notes, and the notes; the same sentence is one note."""
     numbers: dict[str, int] = {}

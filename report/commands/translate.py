@@ -10,7 +10,10 @@ import click
 
 from reference.errors import InputError
 from report.commands.options import json_option
-from report.commands.terminal import progress, show_table
+from report.commands.terminal import progress, show_lines, show_table
+
+#: Of k and c, as parts of the larger of them, what is rounding.
+ROUNDING = 1e-12
 
 if TYPE_CHECKING:
     from engines.translation.translation import Spring, Translation
@@ -131,18 +134,32 @@ def _typed(translation: Translation, words: Sequence[str]) -> tuple[Translation,
 
 
 def _show(rows: Sequence[Row], whole: bool) -> None:
-    """A table; and of a single row the snippet, and all that there is to say."""
-    columns = ["engine", "type", "k predicted", "c predicted", "k measured", "c measured", "largest stable dt [s]"]
-    cells: list[list[object]] = []
-    for row in rows:
-        settings = ", ".join(f"{name}={value:.6g}" for name, value in row.settings.items())
-        numbers = [*(row.effective or (None, None)), *(row.measured or (None, None))]
-        limit = "none" if row.largest_stable_dt is None else f"{row.largest_stable_dt:.4g}"
-        cells.append([row.engine, settings, *("-" if n is None else f"{n:.5g}" for n in numbers), limit])
+    """What to type, and what that is, each in a table; all there is to say; of a single row the snippet."""
     wanted = {row.wanted for row in rows}
     title = "".join(f"meant: k = {k:.6g} N/m, c = {c:.6g} N s/m" for k, c in wanted) if len(wanted) == 1 else ""
-    show_table(title, columns, cells)
+    lines = [
+        (row.engine if first else "", f"{name}={value:.6g}")
+        for row in rows
+        for name, value, first in zip(row.settings, row.settings.values(), (True, *[False] * 9), strict=False)
+    ]
+    show_table(title, ["engine", "type"], lines)
+    measured = any(row.measured for row in rows)
+    columns = ["k predicted", "c predicted", *(["k measured", "c measured"] if measured else [])]
+    cells = []
     for row in rows:
-        click.echo(f"{row.engine}, {row.title}: {row.reason}" if row.reason else f"{row.engine}, {row.title}")
+        springs = [row.effective, *([row.measured] if measured else [])]
+        limit = "none" if row.largest_stable_dt is None else f"{row.largest_stable_dt:.4g}"
+        cells.append([row.engine, *(text for spring in springs for text in _numbers(spring, row.wanted)), limit])
+    show_table("", ["engine", *columns, "largest stable dt [s]"], cells)
+    show_lines([f"{row.engine}, {row.title}" + (f": {row.reason}" if row.reason else "") for row in rows])
     if whole and rows[0].snippet:
         click.echo(f"\n{rows[0].snippet}")
+
+
+def _numbers(spring: tuple[float, float] | None, wanted: tuple[float, float]) -> tuple[str, str]:
+    """Stiffness and damping; rounding is no damping, and no stiffness."""
+    if spring is None:
+        return "-", "-"
+    small = ROUNDING * max(*map(abs, spring), *wanted)
+    stiffness, damping = (0.0 if abs(q) < small else q for q in spring)
+    return f"{stiffness:.5g}", f"{damping:.4g}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -28,6 +29,18 @@ def test_rows_of_all_engines_have_the_promised_keys() -> None:
         assert {"largest_stable_dt_s", "reason"} <= set(row)
         assert row["measured_stiffness"] is None
         assert row["snippet"]
+
+
+@pytest.mark.parametrize("width", [80, 100])
+def test_tables_fit_a_terminal(monkeypatch: pytest.MonkeyPatch, width: int) -> None:
+    """No line is longer, no setting is broken, and what only rounding leaves of a damping is 0."""
+    monkeypatch.setenv("COLUMNS", str(width))
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")  # Rich takes this for a terminal
+    said = springlab("translate", "--stiffness", "200", "--mass", "0.02", "--dt", "0.001", "--predict")
+    lines = re.sub(r"\x1b\[\d*m", "", said.out).splitlines()
+    assert max(map(len, lines)) <= width
+    assert any(line.split() == ["bullet", "springElasticStiffness=200"] for line in lines)
+    assert any(line.split() == ["mujoco", "200.17", "0", "0.02"] for line in lines)
 
 
 def test_a_step_that_blows_up_is_said_to() -> None:
