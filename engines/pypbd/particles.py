@@ -10,10 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from engines.engine import LINEAR_SPRINGS, changed, refuse_beyond
+from engines.engine import CAPABILITIES, LINEAR_SPRINGS, changed, refuse_beyond
 from reference.errors import Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
+
+#: PyPBD's gravity along y [m/s^2]; no other can be told it from Python.
+GRAVITY = -9.81
 
 #: The sweeps of a step: PyPBD has one, and five sub-steps.
 SWEEPS = 5
@@ -50,11 +53,18 @@ class PbdParticles:
         return "stiffness is k [N/m] of each constraint, by a compliance 1/k; there is neither damping nor drag"
 
     def start(self, system: MassSpringSystem, dt: float) -> PbdSimulation:
-        """The system as particles and constraints. Raises Unsupported beyond the capabilities, or for k = 0."""
-        refuse_beyond(self, system)
-        if (system.stiffness <= 0).any():
-            raise Unsupported(f"{self.name} takes a spring without stiffness for a rigid rod")
+        """The system as particles and constraints. Raises Unsupported as `check` does."""
+        check(self, system)
         return PbdSimulation(self, system, dt)
+
+
+def check(engine: PbdParticles, system: MassSpringSystem) -> None:
+    """Raise Unsupported beyond the capabilities, and for what PyPBD would take for something else."""
+    refuse_beyond(engine, system)
+    if (system.stiffness <= 0).any():
+        raise Unsupported(f"{engine.name} takes a spring without stiffness for a rigid rod")
+    if system.gravity[system.vertical_axis] != GRAVITY:
+        raise Unsupported(f"{engine.name} cannot do {CAPABILITIES['tilted gravity']}, nor any but {GRAVITY} m/s^2")
 
 
 class PbdSimulation:
@@ -82,6 +92,7 @@ class PbdSimulation:
     def change(self, parameter: str, value: Value) -> None:
         """Every parameter it has can change: it is filled anew from here, as it keeps nothing else."""
         system = changed(self._engine, self._system, parameter, value)
+        check(self._engine, system)
         x, v = self.state()
         self._system = replace(system, positions=x, velocities=v)
         self._begin()

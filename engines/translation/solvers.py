@@ -1,4 +1,4 @@
-"""Rapier, PhysX, Jolt, Godot, Newton and XPBD itself: solvers of constraints, most of them in single precision."""
+"""Rapier, Jolt, Godot, Newton and XPBD itself: solvers of constraints, most of them in single precision."""
 
 from __future__ import annotations
 
@@ -174,19 +174,6 @@ def jolt_constraint(system: MassSpringSystem, stepping: Stepping, steps: int, se
     )
 
 
-def physx(system: MassSpringSystem, stepping: Stepping, steps: int, settings: list[Settings]) -> str:
-    """The calls, in C++: a distance joint with equal limits."""
-    typed, rest = settings[0], float(system.rest_lengths[0])
-    return (
-        "// C++; one for each spring, and PxSolverType::ePGS\n"
-        "PxDistanceJoint* spring = PxDistanceJointCreate(physics, a, frame_a, b, frame_b);\n"
-        f"spring->setMinDistance({rest!r}f);\nspring->setMaxDistance({rest!r}f);\n"
-        f"spring->setStiffness({typed['stiffness']!r}f);\nspring->setDamping({typed['damping']!r}f);\n"
-        "spring->setDistanceJointFlags(PxDistanceJointFlag::eSPRING_ENABLED | "
-        "PxDistanceJointFlag::eMIN_DISTANCE_ENABLED | PxDistanceJointFlag::eMAX_DISTANCE_ENABLED);\n"
-    )
-
-
 def godot(system: MassSpringSystem, stepping: Stepping, steps: int, settings: list[Settings]) -> str:
     """The fields, in GDScript; its lengths are pixels, which stiffness in N/m does not ask about."""
     typed = settings[0]
@@ -221,14 +208,6 @@ TRANSLATIONS = (
         substeps=True,
         iterations=True,
         note="many stiff springs together blow up at a long step: one sweep does not solve them",
-        **_NEWTONS,  # type: ignore[arg-type]
-    ),
-    Translation(
-        "physx",
-        "PhysX 5: distance joint, PGS",
-        scheme=lambda s: f"soft_constraints_cold(substeps=1, sweeps={s.iterations or 10})",
-        snippet=physx,
-        iterations=True,
         **_NEWTONS,  # type: ignore[arg-type]
     ),
     Translation(
