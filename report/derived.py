@@ -61,7 +61,7 @@ def force_lines(explanation: Explanation) -> list[str]:
     """Where a stepper that only steps takes forces, and what it makes of them."""
     from reference.derivation.formula import product
 
-    taken = explanation.taken
+    taken = explanation.seen.taken
     if not taken:
         return []
     lines = [
@@ -106,6 +106,10 @@ def name_line(explanation: Explanation) -> str:
     if explanation.tableau is not None:
         kind = "an explicit" if explanation.tableau.explicit else "an implicit"
         words += f": {kind} Runge-Kutta method of {explanation.tableau.stages} stages and order {explanation.order}"
+    multistep = explanation.seen.multistep
+    if multistep is not None:
+        kind = "an explicit" if multistep.explicit else "an implicit"
+        words += f": {kind} multistep method of {len(multistep.alpha)} steps and order {multistep.order}"
     # beside a nearest one by motion, which is among the reasons
     by = "" if explanation.nearest.startswith("its ") else "nearest by coefficients: "
     return words + (f"; {by}{explanation.nearest}" if explanation.nearest else "")
@@ -145,6 +149,8 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
 def _order(explanation: Explanation) -> Iterator[str]:
     if explanation.tableau is not None and explanation.tableau.fails:
         yield f"Order {explanation.order}, by the conditions on its tableau: {explanation.tableau.fails}"
+    elif explanation.seen.multistep is not None:
+        yield f"Order {explanation.order}, by its coefficients"
     elif explanation.order is not None:
         follows = explanation.follows
         known = []
@@ -196,10 +202,12 @@ def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
     """Everything there is to say, under headings; what there is nothing of is left out."""
     from reference.derivation.updates import in_words
 
+    multistep = explanation.seen.multistep
     found = [
         ("Derived: a step of the damped oscillator", matrix_lines(explanation)),
         ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
         ("Derived: where forces of springs are taken, without damping", force_lines(explanation)),
+        ("Derived: the multistep method", [str(multistep)] if multistep else []),
         ("Derived: the Butcher tableau", tableau_lines(explanation)),
         ("What follows", [f"- {line}." for line in property_lines(explanation)]),
         ("What cannot be told, and why", [f"- {reason}." for reason in _beside_the_name(explanation)]),

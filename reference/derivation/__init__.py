@@ -14,6 +14,9 @@
 - `implicit`: tableaux of steppers that solve equations
 - `force_jumps`: where a stepper that only steps takes forces, and with which weights
 - `stages`: its tableau, from these
+- `multistep`: coefficients of multistep methods, implicit ones too
+- `irrational`: numbers with roots
+- `seen`: all of what a stepper does with slopes and forces
 - `pasts`: whether a step depends on more than the state
 - `nonlinear_order`: the order on a spring that turns
 - `explanation`: all of it together

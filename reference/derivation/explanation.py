@@ -9,25 +9,21 @@ from typing import Any
 import numpy as np
 
 from reference.derivation.consequences import FAR, Consequences, Windows, consequences
-from reference.derivation.force_jumps import Taken, forces_taken
-from reference.derivation.implicit import implicit_tableau, tableau_by_points
 from reference.derivation.near import SAME_TABLEAU, nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order
-from reference.derivation.of_schemes import updates_of_scheme
 from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_of
 from reference.derivation.oscillators import DT as OSCILLATOR_DT
 from reference.derivation.pasts import Pasts, pasts
-from reference.derivation.recording import LENGTHS, Recording
-from reference.derivation.stages import tableau_by_jumps
+from reference.derivation.recording import LENGTHS
+from reference.derivation.seen import NOTHING, Seen, forces_of, slopes_of, tried
 from reference.derivation.step_matrix import StepMatrix, step_matrix
-from reference.derivation.tableau import Tableau, tableau_of
-from reference.derivation.updates import Updates, updates_of
-from reference.errors import Unsupported
+from reference.derivation.tableau import Tableau
+from reference.derivation.updates import Updates
 from reference.identification import Identification, identify
 from reference.identification.scale import precision_of
 from reference.outcome import Outcome
 from reference.scenes import find as find_scene
-from reference.stepper import SchemeStepper, Stepper
+from reference.stepper import Stepper
 
 #: What it is identified on: a string of few masses, so many steps of dt [s], with damping and drag where it can.
 MASSES, DT, STEPS, DAMPING, DRAG = 4, 2e-3, 60, 2.0, 0.1
@@ -67,13 +63,10 @@ class Explanation:
         pasts: whether a step depends on the state alone.
         matrix: its step matrix.
         follows: what follows from that.
-        updates: its update formulas, where it asks for slopes.
-        tableau: its Butcher tableau, where it is a Runge-Kutta method.
-        taken: where it takes forces, of a stepper that asks for no slopes, but only steps.
+        seen: what it does with slopes and forces.
         nonlinear_order: the order seen on a spring that turns.
         nearest: where it has no name, the nearest scheme and in what it differs, in words.
         reasons: why something cannot be told, each a sentence without its stop.
-        remarks: what it does that a stepper should not.
     """
 
     stepper: str
@@ -81,13 +74,25 @@ class Explanation:
     pasts: Pasts | None = None
     matrix: StepMatrix | None = None
     follows: Consequences | None = None
-    updates: Updates | None = None
-    tableau: Tableau | None = None
-    taken: tuple[Taken, ...] = ()
+    seen: Seen = NOTHING
     nonlinear_order: int | None = None
     nearest: str = ""
     reasons: tuple[str, ...] = ()
-    remarks: tuple[str, ...] = ()
+
+    @property
+    def updates(self) -> Updates | None:
+        """Its update formulas, where it asks for slopes."""
+        return self.seen.updates
+
+    @property
+    def tableau(self) -> Tableau | None:
+        """Its Butcher tableau, where it is a Runge-Kutta method."""
+        return self.seen.tableau
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What it does that a stepper should not."""
+        return self.seen.remarks
 
     @property
     def failed(self) -> bool:
@@ -99,18 +104,22 @@ class Explanation:
         """Whether a step is had without solving equations."""
         if self.tableau is not None:
             return self.tableau.explicit
+        if self.seen.multistep is not None:
+            return self.seen.multistep.explicit
         if self.updates is not None:
             return True
         return None if self.matrix is None else self.matrix.is_polynomial
 
     @property
     def order(self) -> int | None:
-        """By the conditions on its tableau; else the lower of those on the oscillator and on a spring that turns.
+        """By its tableau or coefficients; else the lower of those on the oscillator and on a spring that turns.
 
         Both without damping, which may cost orders: `follows` has the order with damping, too.
         """
         if self.tableau is not None:
             return self.tableau.order
+        if self.seen.multistep is not None:
+            return self.seen.multistep.order
         if self.pasts is not None and self.pasts.one_step is False:
             return self.nonlinear_order
         known = [
@@ -184,7 +193,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         nothing = Identification(stepper.name, (), 0.0, first.reason)
         return Explanation(stepper.name, nothing, reasons=(first.reason,))
     tell("its step matrix")
-    matrix = _tried(lambda: step_matrix(runs, precision), reasons, "no step matrix: ")
+    matrix = tried(lambda: step_matrix(runs, precision), reasons, "no step matrix: ")
     damped, dragged = (matrix.damped, matrix.dragged) if matrix else (False, False)
     swapped = _swapped(rest)
     if swapped:
@@ -193,29 +202,29 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if matrix is not None and matrix.only_at is not None:
         reasons.append(f"{ONLY_AT}: no limits of stability follow")
     tell("its past")
-    past = _tried(lambda: pasts(runs, precision, damped, dragged), reasons, "whether it looks back: ")
+    past = tried(lambda: pasts(runs, precision, damped, dragged), reasons, "whether it looks back: ")
     if past is not None and not past.deterministic:
         reason = NOT_TWICE if getattr(stepper, "begins_anew", True) else f"{NOT_TWICE}, {OR_REMEMBERS}"
         nothing = Identification(stepper.name, (), 0.0, reason)
         return Explanation(stepper.name, nothing, past, reasons=(reason,))
-    tell("its slopes")
+    tell("its slopes and forces")
     of_slopes: list[str] = []
-    updates, tableau, remarks = _asked(stepper, of_slopes)
-    taken: tuple[Taken, ...] = ()
-    only_steps = updates is None and tableau is None and matrix is not None and matrix.only_at is None
-    if only_steps and past is not None and past.one_step and precision == "double":
-        tell("where it takes forces")
-        taken, tableau = _forces(runs, matrix, of_slopes)
+    seen = slopes_of(stepper, of_slopes)
+    of_one_step = past is not None and past.one_step and precision == "double"
+    if seen == NOTHING and of_one_step and matrix is not None and matrix.only_at is None:
+        seen = forces_of(runs, matrix, of_slopes)
     # rounding, not the formulas, is why these are not found
     reasons += of_slopes if IN_SINGLE not in reasons else []
     tell("its order")
-    seen = None if precision == "single" else nonlinear_order(runs, False, False)
+    order = None if precision == "single" else nonlinear_order(runs, False, False)
     tell("its name")
     identification = identified_on_a_string(stepper, damped, dragged)
     nearest = ""
     if identification.identified_as is None:
         reasons.append(f"not identified by its motion: {identification.reason}")
-        nearest = nearest_known(tableau, updates, None if past is not None and past.one_step is False else matrix)
+        nearest = nearest_known(
+            seen.tableau, seen.updates, None if past is not None and past.one_step is False else matrix
+        )
         if nearest.startswith(SAME_TABLEAU):
             reasons.append(CONTRADICTION)
     if past is not None and past.one_step is False:
@@ -227,24 +236,11 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         past,
         matrix,
         follows,
-        updates,
-        tableau,
-        taken,
         seen,
+        order,
         nearest,
         tuple(reasons),
-        remarks,
     )
-
-
-def _forces(runs: Runs, matrix: StepMatrix, reasons: list[str]) -> tuple[tuple[Taken, ...], Tableau | None]:
-    """Where a step takes forces, where it takes them explicitly; and its tableau, where it is a Runge-Kutta method."""
-    if any(entry.divided_by("a") for entry in matrix.entries):
-        return (), None
-    taken: tuple[Taken, ...] | None = _tried(
-        lambda: forces_taken(runs), reasons, "where forces are taken was not seen: "
-    )
-    return (taken, tableau_by_jumps(taken, matrix)) if taken else ((), None)
 
 
 def _rounds_to_single(runs: Runs) -> bool:
@@ -274,36 +270,3 @@ def identified_on_a_string(stepper: Stepper, damped: bool, dragged: bool) -> Ide
         return found
     hanging = find_scene("spring").system({"damping": damping, "drag": drag})
     return identify(stepper, hanging, DT, STEPS)
-
-
-def _tried(find: Callable[[], Any], reasons: list[str], words: str) -> Any:
-    try:
-        return find()
-    except Unsupported as error:
-        reasons.append(f"{words}{error}")
-        return None
-
-
-def _asked(stepper: Stepper, reasons: list[str]) -> tuple[Updates | None, Tableau | None, tuple[str, ...]]:
-    """What is seen of a stepper that asks for slopes: its formulas, its tableau, what it does that it should not."""
-    if isinstance(stepper, SchemeStepper):
-        if stepper.on_rods or stepper.scheme.needs != "accelerations":
-            return None, None if stepper.on_rods else implicit_tableau(stepper.scheme), ()
-        updates = _tried(lambda: updates_of_scheme(stepper.scheme), reasons, "no update formulas: ")
-        return updates, tableau_of(updates) if updates else None, ()
-    recorded: Callable[[], Recording | None] | None = getattr(stepper, "recording", None)
-    recording = recorded() if recorded else None
-    if recording is None:
-        return None, None, ()
-    remarks: tuple[str, ...] = ("it writes into the state it is given",) if recording.overwrites else ()
-    solved = recording.solved
-    if solved is not None:
-        found = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes)
-        if found is None:
-            reasons.append("no tableau: it iterates, and its stages were not found among the points that it asks at")
-        return None, found, remarks
-    updates = _tried(lambda: updates_of(recording), reasons, "no update formulas: ")
-    tableau = tableau_of(updates, recording.timed) if updates else None
-    if tableau is not None and tableau.times_at_odds:
-        remarks += (tableau.times_at_odds,)
-    return updates, tableau, remarks

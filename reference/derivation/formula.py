@@ -9,6 +9,7 @@ from math import comb
 
 import numpy as np
 
+from reference.derivation.irrational import irrational
 from reference.state import Array
 
 #: The variables; and what they count in powers of h, by which terms are ordered. Exponentials count nothing.
@@ -119,6 +120,11 @@ def product(c: Number, letters: str) -> str:
 def number(c: Number) -> str:
     """A coefficient as text: a fraction, or seven figures of what is none."""
     return str(c) if isinstance(c, Fraction) else f"{c:.7g}"
+
+
+def exact_text(c: Number) -> str:
+    """A coefficient as text: also with roots, where it is one of such numbers to rounding."""
+    return number(c) if isinstance(c, Fraction) else irrational(c) or number(c)
 
 
 def _of_both(terms: Terms) -> dict[Monomial, Number]:

@@ -15,6 +15,8 @@ from itertools import combinations, product
 import numpy as np
 
 from reference.derivation.formula import Number
+from reference.derivation.multistep import Multistep, multistep_of
+from reference.derivation.recording import ROW
 from reference.derivation.small_fractions import recognised
 from reference.derivation.tableau import Tableau
 from reference.forces import SpringMotion
@@ -99,6 +101,20 @@ def implicit_tableau(scheme: Scheme) -> Tableau | None:
     h = 0.05
     end = scheme.on(motion)(motion.start, h)
     return tableau_by_points(_row(motion.start), _row(end), h, motion.points, motion.slopes)
+
+
+@cache
+def implicit_multistep(scheme: Scheme) -> Multistep | None:
+    """The coefficients of a scheme that is given the springs and looks back; None where it has none."""
+    if scheme.needs != "springs" or scheme.one_step:
+        return None
+    motion = _Recording(_strong_spring_net())
+    h, states = 0.01, [motion.start]
+    advance = scheme.on(motion)
+    for _ in range(ROW):
+        states.append(advance(states[-1], h))
+    rates = [np.concatenate([s.velocities, SpringMotion.acceleration(motion, s)], axis=None) for s in states]
+    return multistep_of(h, [_row(s) for s in states], rates)
 
 
 class _Recording(SpringMotion):

@@ -42,7 +42,8 @@ def nearest_known(tableau: Tableau | None, updates: Updates | None, matrix: Step
 
 
 def _by_tableau(tableau: Tableau) -> str:
-    found = nearest(tableau, list(known_tableaux().items()))
+    alike = [(name, known) for name, known in known_tableaux().items() if known.explicit == tableau.explicit]
+    found = nearest(tableau, alike)
     if found is None or len(found[1]) > MOST:
         return ""
     scheme, differences = found

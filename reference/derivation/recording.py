@@ -32,6 +32,9 @@ MOST_CALLS = 48
 #: One that solves equations asks up to so often.
 MOST_SOLVING = 20_000
 
+#: So many steps in a row are then taken, for what looks back.
+ROW = 8
+
 #: Gives x' and v' at a time [s], positions and velocities, each shape (n,).
 Slopes = Callable[[float, Array, Array], tuple[Array, Array]]
 
@@ -96,6 +99,8 @@ class Solved:
         start, end: y before and after it.
         points: every y it asked at, in order.
         slopes: what it was answered.
+        states: y0, and y after each of a row of steps from there.
+        rates: the slopes at these.
     """
 
     h: float
@@ -103,6 +108,8 @@ class Solved:
     end: Array
     points: tuple[Array, ...]
     slopes: tuple[Array, ...]
+    states: tuple[Array, ...]
+    rates: tuple[Array, ...]
 
 
 @dataclass(frozen=True)
@@ -186,18 +193,24 @@ def _dense_steps(advance: Advance, size: float) -> tuple[Step, ...]:
 
 
 def _solved(advance: Advance) -> Solved:
-    """A step of equations of which every unknown is its own: l y + m y^2 + n + sin(3 y)/3, with numbers of its own."""
+    """Steps of equations of which every unknown is its own: l y + m cos(2 y) + n + sin(3 y)/3, with its own numbers."""
     random = np.random.default_rng(11)
     size, h = 12, LENGTHS[0]
-    linear, square, constant = (random.uniform(-1, 1, 2 * size) for _ in range(3))
+    linear, bent, constant = (random.uniform(-1, 1, 2 * size) for _ in range(3))
 
     def answer(time: float, x: Array, v: Array) -> tuple[Array, Array]:
         y = np.concatenate([x, v])
-        slope = linear * y + 0.5 * square * y**2 + constant + np.sin(3 * y) / 3
+        slope = linear * y + 0.5 * bent * np.cos(2 * y) + constant + np.sin(3 * y) / 3
         return slope[:size], slope[size:]
 
+    state = State(START, random.uniform(-1, 1, size), random.uniform(-1, 1, size))
+    states = [state]
     step = Step(h)
-    step.take(advance, answer, State(START, random.uniform(-1, 1, size), random.uniform(-1, 1, size)), MOST_SOLVING)
+    states.append(step.take(advance, answer, state, MOST_SOLVING))
+    while len(states) <= ROW:
+        states.append(Step(h).take(advance, answer, states[-1], MOST_SOLVING))
+    ys = [np.concatenate([s.positions, s.velocities]) for s in states]
+    rates = [np.concatenate(answer(s.time, s.positions, s.velocities)) for s in states]
     row = [np.concatenate(pair) for pair in (step.start, step.end)]
     points, slopes = (tuple(map(np.concatenate, pairs)) for pairs in (step.points, step.answers))
-    return Solved(h, row[0], row[1], points, slopes)
+    return Solved(h, row[0], row[1], points, slopes, tuple(ys), tuple(rates))

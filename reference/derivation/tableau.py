@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from reference.derivation.formula import Number, number
+from reference.derivation.formula import Number, exact_text, number
 from reference.derivation.order_conditions import order_of
 from reference.derivation.updates import Coefficient, Form, Symbol, Updates
 
@@ -71,9 +71,9 @@ class Tableau:
     def text(self) -> dict[str, list[str] | list[list[str]]]:
         """Its numbers as they are written."""
         return {
-            "a": [[number(c) for c in row] for row in self.a],
-            "b": [number(c) for c in self.b],
-            "c": [number(c) for c in self.c],
+            "a": [[exact_text(c) for c in row] for row in self.a],
+            "b": [exact_text(c) for c in self.b],
+            "c": [exact_text(c) for c in self.c],
         }
 
     def same(self, other: Tableau) -> bool:

@@ -10,6 +10,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from reference.derivation.formula import Number, product
+from reference.derivation.irrational import irrational
 from reference.derivation.recording import LENGTHS, STEPS, Recording, Step
 from reference.derivation.small_fractions import recognised
 from reference.errors import Unsupported
@@ -205,7 +206,9 @@ def in_words(found: Updates) -> list[str]:
         lines.append(f"{name}{i + 1} = {'acceleration' if name == 'a' else 'slope'}({where}){again}")
     lines.append(f"x' = {_written(found.end[0], name)}")
     lines.append(f"v' = {_written(found.end[1], name)}")
-    return lines
+    numbers = [abs(c.number) for form in found._forms() for c in form.values()]
+    roots = {f"{c:.7g}": text for c in numbers if isinstance(c, float) and (text := irrational(c))}
+    return [*lines, *(["with " + ", ".join(f"{c} = {text}" for c, text in roots.items())] if roots else [])]
 
 
 def _written(form: Form, name: str) -> str:

@@ -52,7 +52,13 @@ class Explained:
 
         F is taken `at` c h v, and is in v' with h b F/m (`in_velocity`), in x' with h^2 beta F/m (`in_position`).
         """
-        return tuple(force.text() for force in self._found.taken)
+        return tuple(force.text() for force in self._found.seen.taken)
+
+    @property
+    def multistep(self) -> dict[str, list[str]] | None:
+        """Of one that solves equations: alpha of y0, y-1, ..., beta of h f(y1), h f(y0), ...; None of others."""
+        found = self._found.seen.multistep
+        return found.text() if found else None
 
     @property
     def document(self) -> dict[str, Any]:

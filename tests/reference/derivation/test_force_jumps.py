@@ -100,7 +100,7 @@ def test_the_stages_of_an_engines_rk4_are_seen(name: str) -> None:
     assert found.tableau.same(known)
     assert not found.tableau.same(other)
     assert found.order == 4
-    assert len(found.taken) == 4
+    assert len(found.seen.taken) == 4
     assert force_lines(found)[1] == "v' = v + h (F1/6 + F2/3 + F3/3 + F4/6)/m"
 
 

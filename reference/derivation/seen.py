@@ -1,0 +1,94 @@
+"""What a stepper does with slopes and forces: those that it asks for, or where it takes them as seen from its steps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeVar
+
+from reference.derivation.force_jumps import Taken, forces_taken
+from reference.derivation.implicit import implicit_multistep, implicit_tableau, tableau_by_points
+from reference.derivation.multistep import Multistep, multistep_of
+from reference.derivation.of_schemes import updates_of_scheme
+from reference.derivation.oscillators import Runs
+from reference.derivation.recording import Recording, Solved
+from reference.derivation.stages import tableau_by_jumps
+from reference.derivation.step_matrix import StepMatrix
+from reference.derivation.tableau import Tableau, tableau_of
+from reference.derivation.updates import Updates, updates_of
+from reference.errors import Unsupported
+from reference.stepper import SchemeStepper, Stepper
+
+T = TypeVar("T")
+
+
+class Seen(NamedTuple):
+    """What was seen; None, or nothing, where something was not.
+
+    Attributes:
+        updates: update formulas, where it asks for slopes.
+        tableau: its Butcher tableau, where it is a Runge-Kutta method.
+        multistep: its coefficients, where it solves equations and looks back.
+        taken: where it takes forces, where it asks for no slopes, but only steps.
+        remarks: what it does that a stepper should not.
+    """
+
+    updates: Updates | None = None
+    tableau: Tableau | None = None
+    multistep: Multistep | None = None
+    taken: tuple[Taken, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+
+#: Of what neither asks for slopes, nor was looked at from outside.
+NOTHING = Seen()
+
+
+def tried(find: Callable[[], T], reasons: list[str], words: str) -> T | None:
+    """What is found; None where that cannot be, with the reason behind these words."""
+    try:
+        return find()
+    except Unsupported as error:
+        reasons.append(f"{words}{error}")
+        return None
+
+
+def slopes_of(stepper: Stepper, reasons: list[str]) -> Seen:
+    """Of a stepper that asks for slopes."""
+    if isinstance(stepper, SchemeStepper):
+        if stepper.on_rods:
+            return NOTHING
+        scheme = stepper.scheme
+        if scheme.needs != "accelerations":
+            return Seen(tableau=implicit_tableau(scheme), multistep=implicit_multistep(scheme))
+        updates = tried(lambda: updates_of_scheme(scheme), reasons, "no update formulas: ")
+        return Seen(updates, tableau_of(updates) if updates else None)
+    recorded: Callable[[], Recording | None] | None = getattr(stepper, "recording", None)
+    recording = recorded() if recorded else None
+    if recording is None:
+        return NOTHING
+    remarks: tuple[str, ...] = ("it writes into the state it is given",) if recording.overwrites else ()
+    if recording.solved is not None:
+        return _of_solved(recording.solved, reasons)._replace(remarks=remarks)
+    updates = tried(lambda: updates_of(recording), reasons, "no update formulas: ")
+    tableau = tableau_of(updates, recording.timed) if updates else None
+    if tableau is not None and tableau.times_at_odds:
+        remarks += (tableau.times_at_odds,)
+    return Seen(updates, tableau, remarks=remarks)
+
+
+def _of_solved(solved: Solved, reasons: list[str]) -> Seen:
+    multistep = multistep_of(solved.h, solved.states, solved.rates)
+    if multistep is not None:
+        return Seen(multistep=multistep)
+    found = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes)
+    if found is None:
+        reasons.append("no tableau: it iterates, and its stages were not found among the points that it asks at")
+    return Seen(tableau=found)
+
+
+def forces_of(runs: Runs, matrix: StepMatrix, reasons: list[str]) -> Seen:
+    """Where a step takes forces, where it takes them explicitly; and its tableau, where it is a Runge-Kutta method."""
+    if any(entry.divided_by("a") for entry in matrix.entries):
+        return NOTHING
+    taken = tried(lambda: forces_taken(runs), reasons, "where forces are taken was not seen: ")
+    return Seen(taken=taken, tableau=tableau_by_jumps(taken, matrix)) if taken else NOTHING
