@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -71,6 +72,8 @@ class PbdSimulation:
     """PyPBD has one simulation in a process: it is emptied, and filled with a particle for each mass."""
 
     def __init__(self, engine: PbdParticles, system: MassSpringSystem, dt: float) -> None:
+        # one thread: on a busy machine several wait long for one another, at every colour of every sweep
+        os.environ.setdefault("OMP_NUM_THREADS", "1")
         self._pbd: Any = importlib.import_module("pypbd")
         self._engine, self._system, self._dt = engine, system, dt
         self._begin()

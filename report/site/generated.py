@@ -1,4 +1,4 @@
-"""The pages that are written from the project itself: every scheme's equations, the commands, the API."""
+"""The pages that are written from the project itself: every scheme's equations, engines, the commands, the API."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from reference.compiled.tracing import trace
 from reference.errors import Unsupported
 from reference.schemes.catalogue import Scheme, schemes
 from report.commands import main
+from report.site.engines_page import engines_page
 from report.site.linear_form import NotLinear, equations
 from report.site.mathml import of_equations
 
@@ -117,4 +118,9 @@ def api_page() -> str:
 
 
 #: What these pages are called.
-PAGES: dict[str, Callable[[], str]] = {"schemes": schemes_page, "api": api_page, "commands": commands_page}
+PAGES: dict[str, Callable[[], str]] = {
+    "schemes": schemes_page,
+    "engines": engines_page,
+    "api": api_page,
+    "commands": commands_page,
+}
