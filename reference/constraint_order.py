@@ -6,7 +6,7 @@ Those of ORDERS are
     reversed    the last made first
     colours     springs that share no moving mass are of one colour; colour after colour, each in the order made
     apart       the same, of springs that share no mass at all
-    fixed_last  colours of springs between moving masses; then those to fixed ones, as they are numbered
+    fixed_last  colours of springs between moving masses; then those to fixed ones, the first colour of them last
     from_fixed  those nearest to a fixed mass along springs first, as Jolt puts them (up to 128 masses)
     island      as Box2D 2 walks from body to body: the newest first, along the newest joints first
 """
@@ -41,9 +41,11 @@ def in_order(system: MassSpringSystem, order: str) -> IntArray:
         made = made[::-1]
     if order in ("colours", "apart", "fixed_last"):
         held = np.zeros_like(system.fixed) if order == "apart" else system.fixed
-        last = system.fixed[system.springs[made]].any(axis=1) & (order == "fixed_last")
-        first = made[~last]
-        made = np.concatenate([first[np.argsort(_colours(system, first, held), kind="stable")], made[last]])
+        to_fixed = system.fixed[system.springs[made]].any(axis=1) & (order == "fixed_last")
+        first, last = made[~to_fixed], made[to_fixed]
+        # the colours of the last are counted downwards from the last colour there is
+        parts = ((first, _colours(system, first, held)), (last, -_colours(system, last, held)))
+        made = np.concatenate([springs[np.argsort(colours, kind="stable")] for springs, colours in parts])
     return np.ascontiguousarray(made, dtype=np.int64)
 
 
