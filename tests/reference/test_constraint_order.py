@@ -36,7 +36,7 @@ def test_the_springs_nearest_to_a_fixed_mass_come_first_however_they_are_numbere
 
 
 def test_of_springs_between_a_mass_and_several_fixed_ones_the_first_is_the_very_last() -> None:
-    """Of a string held at both ends and at its second mass: the middle one's two springs, and the others before them."""
+    """Of a string held at both ends, numbered from the one to the other, and at its middle."""
     string = find_scene("string").system({"masses": 4})
     held = replace(string, fixed=np.array([True, False, True, False, False]))
     assert in_order(held, "fixed_last").tolist() == [3, 1, 0, 2]
