@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from reference.state import Array
 from reference.system import BoolArray, IntArray
+
+#: So many springs are looked at together: what is computed of many frames of them stays near to the processor.
+BLOCK = 512
 
 
 def lengths(vectors: Array) -> Array:
@@ -13,23 +18,38 @@ def lengths(vectors: Array) -> Array:
     return np.asarray(np.sqrt(np.einsum("...i,...i->...", vectors, vectors)))
 
 
-def between(values: Array, springs: IntArray) -> list[Array]:
-    """The second end's less the first end's of every spring, axis by axis: of values (..., n, d), each (..., s).
+def _axes(values: Array) -> Array:
+    """Of values (..., n, d), shape (d, n, ...): the times of many frames side by side, so that a mass is a row."""
+    return np.ascontiguousarray(values.T)
 
-    With the times of many frames side by side in memory, so that a spring's ends are rows, and not single numbers.
-    """
+
+def _apart(axes: Array, springs: IntArray) -> list[Array]:
+    """The second end's less the first end's of every spring: of (d, n, ...), each (s, ...)."""
     a, b = springs.T
-    axes = np.ascontiguousarray(values.T)
-    return [(axis[b] - axis[a]).T for axis in axes]
+    return [axis.take(b, 0) - axis.take(a, 0) for axis in axes]
 
 
-def spring_lengths(positions: Array, springs: IntArray) -> Array:
-    """How long springs are [m], with masses at positions (..., n, d) [m]: shape (..., s)."""
-    first, *others = between(positions, springs)
+def _length(apart: list[Array]) -> Array:
+    """Of vectors, axis by axis."""
+    first, *others = apart
     squares = first * first
     for along in others:
         squares += along * along
     return np.asarray(np.sqrt(squares))
+
+
+def _blocks(count: int) -> Iterator[slice]:
+    """So many springs, BLOCK at a time."""
+    return (slice(begin, begin + BLOCK) for begin in range(0, count, BLOCK))
+
+
+def spring_lengths(positions: Array, springs: IntArray) -> Array:
+    """How long springs are [m], with masses at positions (..., n, d) [m]: shape (..., s)."""
+    axes = _axes(positions)
+    length = np.empty((len(springs), *axes.shape[2:]))
+    for block in _blocks(len(springs)):
+        length[block] = _length(_apart(axes, springs[block]))
+    return length.T
 
 
 def divisors(length: Array, rest_lengths: Array) -> Array:
@@ -40,15 +60,23 @@ def divisors(length: Array, rest_lengths: Array) -> Array:
     return np.where((length == 0) & (rest_lengths == 0), 1.0, length)
 
 
-def rates_of(positions: Array, velocities: Array, springs: IntArray, wanted: BoolArray) -> Array:
-    """How fast springs get longer [m/s], with masses (..., n, d): shape (..., s); zero of those that are not wanted.
+def lengths_and_rates(positions: Array, velocities: Array, springs: IntArray, wanted: BoolArray) -> tuple[Array, Array]:
+    """How long springs are [m], and how fast they get longer [m/s], with masses (..., n, d): both (..., s).
 
-    An engine that tells no velocities has forces all the same where a spring is not damped.
+    Rates are zero of springs that are not wanted: an engine that tells no velocities has forces all the same where a
+    spring is not damped.
     """
     if not wanted.any():
-        return np.zeros(len(springs))
-    along = zip(between(positions, springs), between(velocities, springs), strict=True)
-    length = spring_lengths(positions, springs)
+        return spring_lengths(positions, springs), np.zeros(len(springs))
+    x, v = _axes(positions), _axes(velocities)
+    length = np.empty((len(springs), *x.shape[2:]))
+    rate = np.zeros_like(length)
     with np.errstate(invalid="ignore", divide="ignore"):
-        rate = np.where(length > 0, sum(x * v for x, v in along) / length, 0.0)
-    return np.where(wanted, rate, 0.0)
+        for block in _blocks(len(springs)):
+            apart, speeds = (_apart(axes, springs[block]) for axes in (x, v))
+            length[block] = _length(apart)
+            for along, speed in zip(apart, speeds, strict=True):
+                rate[block] += along * speed
+            rate[block] /= length[block]
+            rate[block][~(length[block] > 0) | ~wanted[block].reshape(-1, *(1,) * (length.ndim - 1))] = 0.0
+    return length.T, rate.T

@@ -9,8 +9,7 @@ import numpy as np
 
 from reference.conserved import energy_parts
 from reference.scenes import Setup
-from reference.springs.breaking import tensions
-from reference.springs.nonlinear_law import stretches
+from reference.springs.breaking import stretches_and_tensions
 from reference.state import Array, State, Trajectory
 from reference.system import BREAK, MassSpringSystem
 
@@ -65,7 +64,7 @@ def _forget_broken(setup: Setup, steps: Sequence[int], stretch: Array) -> None:
 
 def _springs(system: MassSpringSystem, part: Trajectory) -> tuple[Array, Array]:
     """Stretches and forces in frames with one and the same system, both (m, s)."""
-    return stretches(system, part.positions), tensions(system, part.positions, part.velocities)
+    return stretches_and_tensions(system, part.positions, part.velocities)
 
 
 def energies(setup: Setup, motion: Trajectory, frames: Sequence[int]) -> dict[str, Array]:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reference.changes import Change, changes_by_step
-from reference.lengths import rates_of
+from reference.lengths import lengths_and_rates
 from reference.springs.linear_law import spring_force
 from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches
 from reference.state import Array, State, Trajectory
@@ -22,9 +22,14 @@ from reference.system import BREAK, BoolArray, IntArray, MassSpringSystem
 
 def tensions(system: MassSpringSystem, positions: Array, velocities: Array) -> Array:
     """The force of every spring [N], tension positive, with masses (..., n, d): shape (..., s)."""
-    stretch = stretches(system, positions)
-    rate = rates_of(positions, velocities, system.springs, system.damping > 0)
-    return spring_force(secant_stiffness(system, stretch), stretch, damping_at(system, stretch), rate)
+    return stretches_and_tensions(system, positions, velocities)[1]
+
+
+def stretches_and_tensions(system: MassSpringSystem, positions: Array, velocities: Array) -> tuple[Array, Array]:
+    """How far springs are stretched [m], and with which force they pull [N], with masses (..., n, d): both (..., s)."""
+    length, rate = lengths_and_rates(positions, velocities, system.springs, system.damping > 0)
+    stretch = length - system.rest_lengths
+    return stretch, spring_force(secant_stiffness(system, stretch), stretch, damping_at(system, stretch), rate)
 
 
 def breaking(system: MassSpringSystem, state: State) -> IntArray:

@@ -16,7 +16,7 @@ from experiments.simulation.simulation import OF_MOTION, simulate_all
 from reference.changes import Change
 from reference.conserved import energy, energy_parts
 from reference.files.setup import setup_for
-from reference.lengths import between, lengths, spring_lengths
+from reference.lengths import lengths, lengths_and_rates, spring_lengths
 from reference.state import State
 from tests.report.commands.terminal import springlab
 
@@ -177,5 +177,12 @@ def test_lengths_axis_by_axis_are_lengths() -> None:
         x = rng.normal(size=shape)
         apart = x[..., springs[:, 1], :] - x[..., springs[:, 0], :]
         np.testing.assert_allclose(spring_lengths(x, springs), np.linalg.norm(apart, axis=-1), rtol=1e-15)
-        np.testing.assert_allclose(np.stack(between(x, springs), axis=-1), apart)
+        v = rng.normal(size=shape)
+        speeds = v[..., springs[:, 1], :] - v[..., springs[:, 0], :]
+        wanted = np.array([True, False, True])
+        with np.errstate(invalid="ignore"):
+            right = np.nan_to_num(np.where(wanted, (apart * speeds).sum(axis=-1) / np.linalg.norm(apart, axis=-1), 0))
+        length, rate = lengths_and_rates(x, v, springs, wanted)
+        assert np.array_equal(length, spring_lengths(x, springs))
+        np.testing.assert_allclose(rate, right, rtol=1e-13, atol=1e-15)
         np.testing.assert_allclose(lengths(x), np.linalg.norm(x, axis=-1), rtol=1e-15)
