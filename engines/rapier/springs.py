@@ -37,8 +37,8 @@ class RapierSprings:
     @property
     def identified_as(self) -> Mapping[str, str]:
         """Soft constraints without a warm start."""
-        substeps = "" if self.substeps == SUBSTEPS else f"(substeps={self.substeps})"
-        return dict.fromkeys(("plain", "damping", "drag"), f"soft_constraints_cold{substeps}")
+        substeps = "" if self.substeps == SUBSTEPS else f", substeps={self.substeps}"
+        return dict.fromkeys(("plain", "damping", "drag"), f"soft_constraints_cold(single=True{substeps})")
 
     @property
     def settings(self) -> Mapping[str, object]:

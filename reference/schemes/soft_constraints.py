@@ -20,6 +20,7 @@ import numpy as np
 from reference.jit import compiled
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import scheme
+from reference.schemes.position_based import dots
 from reference.solver_numbers import SolverNumbers, kept, numbers_of
 from reference.spring_frequencies import frequencies
 from reference.state import Array, State
@@ -70,24 +71,26 @@ def soft_constraints_cold(
     PhysX's PGS 1 sub-step, 10 sweeps and 1 after, and drag first.
     """
     it = numbers_of(motion.system, state, order, single)
-    h = it.number(dt / substeps)
+    h = it.number(dt) / it.number(substeps)
+    mass = inverse_of(it.inverse)[:, None]
+    kick = it.weight * mass * it.inverse[:, None] * h  # by way of a force, which rounds
     for _ in range(substeps):
-        it.v[:] += h * it.weight
+        it.v[:] += kick
         if drag_first:
             it.v[:] *= np.maximum(1 - h * it.drag, 0)
         axes, lengths = axes_of(it, it.x)
         damped = h * it.stiffness + it.damping
         bias = (lengths - it.rest) * (it.stiffness * inverse_of(damped))
         softness = inverse_of(h * h * it.stiffness + h * it.damping)
-        impulses = np.zeros_like(it.rest)
-        given = (it.ends, it.order, it.inverse, axes, bias, softness, 1 / (it.both + softness), impulses)
+        impulses, along = np.zeros_like(it.rest), dots(axes, it.both[:, None] * axes)  # 1/m_a + 1/m_b, rounded
+        given = (it.ends, it.order, it.inverse, axes, bias, softness, 1 / (along + softness), impulses)
         for _ in range(sweeps):
             _sweep_totals(it.v, *given)
         it.x[:] += h * it.v
         for _ in range(sweeps_after):
             _sweep_totals(it.v, *given)
     if not drag_first:
-        it.v[:] /= 1 + it.number(dt) * it.drag
+        it.v[:] *= 1 / (1 + it.number(dt) * it.drag)
     return it.state(state.time + dt)
 
 
@@ -211,8 +214,9 @@ def sweep_totals(
         change = total - impulses[j]
         impulses[j] = total
         for axis in range(v.shape[1]):
-            v[a, axis] -= axes[j, axis] * inverse[a] * change
-            v[b, axis] += axes[j, axis] * inverse[b] * change
+            impulse = axes[j, axis] * change
+            v[a, axis] -= impulse * inverse[a]
+            v[b, axis] += impulse * inverse[b]
 
 
 def direction(a: int, b: int, moved: Array, x: Array, out: Array, one: float) -> float:
