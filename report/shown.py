@@ -13,6 +13,8 @@ if TYPE_CHECKING:  # these import NumPy and Numba: a command's help does without
     from experiments.simulation.simulation import Largest, Simulation
     from reference.identification import Identification
     from reference.scenes import Setup
+    from reference.state import Array
+    from reference.system import MassSpringSystem
 
 #: So many springs that broke are named.
 FEW_BREAKS = 3
@@ -102,6 +104,16 @@ def of_springs_at_rest(modes: Modes) -> Shown:
         for j, ((a, b), force) in enumerate(zip(springs, modes.forces, strict=True))
     ]
     return Shown("Springs at rest", ["spring", "masses", "force [N]", ""], rows)
+
+
+def of_bends(system: MassSpringSystem, bends: Array, torques: Array, when: str) -> Shown:
+    """How far every angular spring is bent, and what it gives."""
+    masses = [] if system.angular_springs is None else system.angular_springs.masses.tolist()
+    rows = [
+        [str(j), " - ".join(map(str, three)), float(bend), float(torque)]
+        for j, (three, bend, torque) in enumerate(zip(masses, bends, torques, strict=True))
+    ]
+    return Shown(f"Angular springs {when}", ["spring", "masses", "bend [rad]", "torque [N m]"], rows)
 
 
 def _of_motion(cell: Callable[[Any], Any]) -> Callable[[Any], Any]:

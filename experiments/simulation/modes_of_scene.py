@@ -12,6 +12,7 @@ from experiments.runs.comparison import finite
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
 from reference.scenes import Setup
+from reference.springs.angular_law import bends_and_torques
 from reference.springs.breaking import tensions
 from reference.state import Array
 from reference.stepper import SchemeStepper, Stepper
@@ -38,6 +39,7 @@ class Modes:
         about: which rest that is, where there are obstacles.
         natural: its modes, slowest first.
         forces: of springs at rest [N], tension positive, shape (s,).
+        bends, torques: of angular springs at rest [rad], [N m], shape (k,).
         asked: how many modes there are in all.
     """
 
@@ -46,6 +48,8 @@ class Modes:
     about: str
     natural: NaturalModes
     forces: Array
+    bends: Array
+    torques: Array
     asked: int
 
     @property
@@ -57,6 +61,8 @@ class Modes:
             "frequencies_hz": self.natural.frequencies.tolist(),
             "damping_ratios": [finite(value) for value in self.natural.damping_ratios.tolist()],
             "spring_forces_n": self.forces.tolist(),
+            "bends_rad": self.bends.tolist(),
+            "torques_n_m": self.torques.tolist(),
             "modes_in_all": self.asked,
             "damping_couples_modes": self.natural.coupled,
             "about": self.about,
@@ -114,7 +120,8 @@ def modes_of(setup: Setup, lowest: int | None = None) -> Modes:
     count = len(rest.linear.mass)
     kept = lowest if lowest is not None else None if count <= ALL_UP_TO else LOWEST
     forces = tensions(system, rest.state.positions, np.zeros_like(rest.state.positions))
-    return Modes(setup, rest, about, natural_modes(rest.linear, kept), forces, count)
+    bent = bends_and_torques(system.angular_springs, rest.state.positions)
+    return Modes(setup, rest, about, natural_modes(rest.linear, kept), forces, *bent, count)
 
 
 def swings(modes: Modes, steppers: Sequence[Stepper], progress: Progress) -> list[StepperSwing]:

@@ -19,6 +19,7 @@ from reference.changes import Change
 from reference.conserved import energy_parts, momentum
 from reference.outcome import Outcome, first_blown_up_frame
 from reference.scenes import Setup
+from reference.springs.angular_law import bends_and_torques
 from reference.springs.breaking import breaks_of, tensions
 from reference.state import Array, State, Trajectory
 from reference.stepper import SchemeStepper, Stepper
@@ -51,6 +52,7 @@ class Motion:
         end: its last state, shape (n, d).
         stretch: at the end, length less rest length of every spring [m], shape (s,).
         forces: at the end, tension positive [N], shape (s,); None where rods stand for springs.
+        bends, torques: at the end, of the angular springs [rad], [N m], shape (k,).
         energy_at_start, energy: kinetic, elastic, gravitational and total [J], at the start and at the end.
         momentum: at the end [kg m/s], shape (d,).
         sag: how far a mass came below where it started, at most.
@@ -63,6 +65,8 @@ class Motion:
     end: State
     stretch: Array
     forces: Array | None
+    bends: Array
+    torques: Array
     energy_at_start: dict[str, float]
     energy: dict[str, float]
     momentum: Array
@@ -110,6 +114,8 @@ class Run:
             "velocities_m_s": _plain(motion.end.velocities),
             "spring_forces_n": None if motion.forces is None else _plain(motion.forces),
             "stretch": _plain(motion.stretch),
+            "bends_rad": _plain(motion.bends),
+            "torques_n_m": _plain(motion.torques),
             "energy_j": {name: finite(value) for name, value in motion.energy.items()},
             "energy_at_start_j": {name: finite(value) for name, value in motion.energy_at_start.items()},
             "momentum_kg_m_s": _plain(motion.momentum),
@@ -126,6 +132,8 @@ OF_MOTION = (
     "velocities_m_s",
     "spring_forces_n",
     "stretch",
+    "bends_rad",
+    "torques_n_m",
     "energy_j",
     "energy_at_start_j",
     "momentum_kg_m_s",
@@ -204,6 +212,7 @@ def _motion(setup: Setup, motion: Trajectory, rods: bool, broken: Sequence[Chang
         end,
         stretch,
         None if rods else forces,
+        *bends_and_torques(setup.system.angular_springs, end.positions),
         energy_parts(first, motion.frames([0]).states()[0]),
         energy_parts(last, end),
         momentum(last, end),

@@ -40,6 +40,13 @@ def torques(springs: AngularSprings, positions: Array) -> Array:
     return np.asarray(springs.stiffness * bends(springs, positions))
 
 
+def bends_and_torques(springs: AngularSprings | None, positions: Array) -> tuple[Array, Array]:
+    """Both [rad], [N m]; empty where there are none, shape (..., k)."""
+    if springs is None:
+        return np.zeros((*positions.shape[:-2], 0)), np.zeros((*positions.shape[:-2], 0))
+    return bends(springs, positions), torques(springs, positions)
+
+
 def energy_of_bends(springs: AngularSprings, positions: Array) -> Array:
     """In every angular spring [J], shape (..., k)."""
     return np.asarray(springs.stiffness * bends(springs, positions) ** 2 / 2)

@@ -62,7 +62,7 @@ def _document(swing: StepperSwing) -> dict[str, Any]:
 
 
 def _show(modes: Modes, made: list[StepperSwing]) -> None:
-    from report.shown import of_modes, of_springs_at_rest
+    from report.shown import of_bends, of_modes, of_springs_at_rest
 
     shown, springs = of_modes(modes), of_springs_at_rest(modes)
     show_table(shown.title, shown.columns, shown.rows[:SHOWN])
@@ -73,6 +73,11 @@ def _show(modes: Modes, made: list[StepperSwing]) -> None:
     show_table(springs.title, springs.columns, springs.rows[:SHOWN])
     if len(springs.rows) > SHOWN:
         click.echo(f"{SHOWN} of {len(springs.rows)} springs are shown; --json has all.")
+    if len(modes.bends):
+        bent = of_bends(modes.setup.system, modes.bends, modes.torques, "at rest")
+        show_table(bent.title, bent.columns, bent.rows[:SHOWN])
+        if len(bent.rows) > SHOWN:
+            click.echo(f"{SHOWN} of {len(bent.rows)} angular springs are shown; --json has all.")
     if made:
         _show_swings(modes, made)
 

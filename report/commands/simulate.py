@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from experiments.simulation.simulation import Run, Simulation
     from reference.scenes import Setup
     from reference.stepper import Stepper
+    from reference.system import MassSpringSystem
 
 #: The stepper where none is named: the lecture's.
 DEFAULT = "heun"
@@ -100,14 +101,16 @@ def _show(simulation: Simulation) -> None:
     for note in shown.notes:
         click.echo(note)
     for run in simulation.runs:
-        _show_end(run)
+        _show_end(run, simulation.setup.system)
 
 
 #: So many masses are listed at the end of a run.
 FEW = 30
 
 
-def _show_end(run: Run) -> None:
+def _show_end(run: Run, system: MassSpringSystem) -> None:
+    from report.shown import of_bends
+
     if run.motion is None or len(run.motion.end.positions) > FEW:
         return
     end = run.motion.end
@@ -117,6 +120,9 @@ def _show_end(run: Run) -> None:
         [str(i), *x, *v] for i, (x, v) in enumerate(zip(end.positions.tolist(), end.velocities.tolist(), strict=True))
     ]
     show_table(f"{run.stepper.name}, t = {end.time:.6g} s", columns, rows)
+    if len(run.motion.bends):
+        bent = of_bends(system, run.motion.bends, run.motion.torques, f"under {run.stepper.name} then")
+        show_table(bent.title, bent.columns, bent.rows)
 
 
 def _write(simulation: Simulation, out: Path, every: int, tell: Any) -> None:

@@ -8,7 +8,7 @@ from typing import get_args
 
 import pytest
 
-from engines.engine import CAPABILITIES, LAWS, Engine, Precision, demands, precision
+from engines.engine import CAPABILITIES, LAWS, Engine, Precision, demands, precision, registry
 from reference.stepper import stepper_named
 from tests.conformance.cases import CAPABILITIES as CASES
 from tests.conformance.checks import check_capability
@@ -43,6 +43,12 @@ def test_springs_that_are_not_linear_move_otherwise(law: str) -> None:
     assert runs[0] is not None
     assert runs[1] is not None
     assert runs[0].distance(runs[1]).max() > 1e-3
+
+
+@pytest.mark.parametrize("kind", [*LAWS, "angular springs", "pulls", "no rest length", "collisions"])
+def test_every_kind_of_spring_is_stepped_by_engines_of_two_packages(kind: str) -> None:
+    """To rounding, which the tests above hold them to; the others refuse it."""
+    assert len({engine.package for engine in registry().values() if kind in engine.capabilities}) >= 2
 
 
 def test_an_engine_declares_known_capabilities_and_catalogued_schemes(engine: Engine) -> None:

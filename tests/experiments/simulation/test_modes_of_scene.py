@@ -75,6 +75,27 @@ def test_a_howe_truss_carries_what_the_method_of_joints_says() -> None:
     assert found["pratt"] != pytest.approx(right, rel=1e-1)  # shown to fail
 
 
+def test_what_angular_springs_carry_is_told(tmp_path: Path) -> None:
+    """A beam of two springs, held at its root: the torque there is m g times how far out the tip is; modes and runs."""
+    (tmp_path / "beam.toml").write_text(
+        "[system]\npositions = [[0, 0], [0.3, 0], [0.6, 0]]\nsprings = [[0, 1], [1, 2]]\nmasses = 0.1\n"
+        "stiffness = 1e5\ndamping = 5\ndrag = 0.3\nfixed = [0, 1]\n"
+        "[[angular_springs]]\nmasses = [0, 1, 2]\nstiffness = 2.0\n"
+    )
+    beam = str(tmp_path / "beam.toml")
+    at_rest = json.loads(springlab("modes", beam, "--json").out)
+    (after,) = json.loads(
+        springlab("simulate", beam, "--json", "--stepper=backward_euler", "--dt=0.01", "--duration=8").out
+    )["runs"]
+    for told, x in ((at_rest, at_rest["equilibrium_m"]), (after, after["positions_m"])):
+        out = x[2][0] - 0.3
+        assert np.abs(told["torques_n_m"]) == pytest.approx([0.1 * 9.81 * out], rel=1e-6)
+        assert np.abs(told["bends_rad"]) == pytest.approx([np.arccos(out / np.hypot(out, x[2][1]))], rel=1e-9)
+    shown = springlab("modes", beam).out
+    assert "torque [N m]" in shown
+    assert "torque [N m]" not in springlab("modes", "spring").out
+
+
 def test_damping_ratios_are_those_of_one_oscillator() -> None:
     """One mass on one damped spring: zeta = c / (2 sqrt(k m)); with drag beside, (c + Cd) / (2 sqrt(k m))."""
     for damping, drag in ((0.4, 0.0), (0.1, 0.3)):
