@@ -97,7 +97,13 @@ def name_line(explanation: Explanation) -> str:
         ties = f"; on the string it was run on it cannot be told from {', '.join(found.ties)}" if found.ties else ""
         return f"{explanation.stepper} is what the catalogue has by this name{ties}"
     if found.identified_as is not None:
-        return f"{found}. {found.remark}".rstrip(". ")
+        held = explanation.held
+        only = (
+            f", but not at every dt: not at {', '.join(f'{dt:g}' for dt in held.other)} s"
+            if held and held.other
+            else ""
+        )
+        return f"{found}{only}. {found.remark}".rstrip(". ")
     if not found.ranking:
         return f"{explanation.stepper} cannot be told: {found.reason}"
     words = f"{explanation.stepper} is not in the catalogue"
@@ -136,6 +142,8 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
             yield f"It remembers earlier steps: begun anew, a step is {past.apart:.2g} of the displacement off"
         else:
             yield "One step: it depends on positions and velocities alone"
+    if explanation.held is not None and explanation.held.same and not explanation.held.other:
+        yield str(explanation.held)
     if explanation.explicit is not None:
         yield "Explicit: no equations are solved" if explanation.explicit else "Implicit: equations are solved"
     if explanation.updates is not None:

@@ -18,6 +18,7 @@
 - `irrational`: numbers with roots
 - `seen`: all of what a stepper does with slopes and forces
 - `pasts`: whether a step depends on more than the state
+- `over_dts`: at which other dt a name holds
 - `nonlinear_order`: the order on a spring that turns
 - `explanation`: all of it together
 """

@@ -13,6 +13,7 @@ from reference.derivation.near import SAME_TABLEAU, nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order
 from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_of
 from reference.derivation.oscillators import DT as OSCILLATOR_DT
+from reference.derivation.over_dts import OverDts, over_dts
 from reference.derivation.pasts import Pasts, pasts
 from reference.derivation.recording import LENGTHS
 from reference.derivation.seen import NOTHING, Seen, forces_of, slopes_of, tried
@@ -24,6 +25,7 @@ from reference.identification.scale import precision_of
 from reference.outcome import Outcome
 from reference.scenes import find as find_scene
 from reference.stepper import Stepper
+from reference.system import MassSpringSystem
 
 #: What it is identified on: a string of few masses, so many steps of dt [s], with damping and drag where it can.
 MASSES, DT, STEPS, DAMPING, DRAG = 4, 2e-3, 60, 2.0, 0.1
@@ -66,6 +68,7 @@ class Explanation:
         seen: what it does with slopes and forces.
         nonlinear_order: the order seen on a spring that turns.
         nearest: where it has no name, the nearest scheme and in what it differs, in words.
+        held: at which other dt it has its name, where it has one that is not its own.
         reasons: why something cannot be told, each a sentence without its stop.
     """
 
@@ -77,6 +80,7 @@ class Explanation:
     seen: Seen = NOTHING
     nonlinear_order: int | None = None
     nearest: str = ""
+    held: OverDts | None = None
     reasons: tuple[str, ...] = ()
 
     @property
@@ -219,7 +223,13 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     order = None if precision == "single" else nonlinear_order(runs, False, False)
     tell("its name")
     identification = identified_on_a_string(stepper, damped, dragged)
-    nearest = ""
+    nearest, held = "", None
+    name = identification.identified_as
+    if name is not None and name != stepper.name:
+        tell("over which dt it has that name")
+        string = _string(damped, dragged)
+        held = over_dts(runs, name, string, precision, lambda dt: identify(stepper, string, dt, STEPS).identified_as)
+        reasons += [str(held)] if held.other else []
     if identification.identified_as is None:
         reasons.append(f"not identified by its motion: {identification.reason}")
         nearest = nearest_known(
@@ -239,6 +249,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         seen,
         order,
         nearest,
+        held,
         tuple(reasons),
     )
 
@@ -263,10 +274,14 @@ def _swapped(rest: Outcome) -> bool:
 
 def identified_on_a_string(stepper: Stepper, damped: bool, dragged: bool) -> Identification:
     """Which scheme it is, with damping and drag or without, on a string; of what knows one mass, on an oscillator."""
-    damping, drag = DAMPING if damped else 0.0, DRAG if dragged else 0.0
-    string = find_scene("string").system({"masses": MASSES, "damping": damping, "drag": drag, "angle": 0.5})
-    found = identify(stepper, string, DT, STEPS)
+    found = identify(stepper, _string(damped, dragged), DT, STEPS)
     if found.ranking:
         return found
+    damping, drag = DAMPING if damped else 0.0, DRAG if dragged else 0.0
     hanging = find_scene("spring").system({"damping": damping, "drag": drag})
     return identify(stepper, hanging, DT, STEPS)
+
+
+def _string(damped: bool, dragged: bool) -> MassSpringSystem:
+    damping, drag = DAMPING if damped else 0.0, DRAG if dragged else 0.0
+    return find_scene("string").system({"masses": MASSES, "damping": damping, "drag": drag, "angle": 0.5})
