@@ -65,6 +65,11 @@ class SchemeStepper:
         return "pendulum" if self.on_rods else self.scheme.kind
 
     @property
+    def claims(self) -> tuple[str, ...]:
+        """Itself, where identification tries it only if it is named: a solver of constraints, or with parameters."""
+        return (self.name,) if self.kind == "constraint_scheme" or "(" in self.name else ()
+
+    @property
     def interactive_up_to(self) -> int | None:
         """The scheme's."""
         return self.scheme.interactive_up_to

@@ -49,7 +49,7 @@ def test_bad_input_is_one_line() -> None:
 
 def test_a_solver_is_in_the_catalogue() -> None:
     """It is found by its name, so it is not said to be a stranger."""
-    assert "is in the catalogue" in springlab("explain", "vertex_block_descent").out
+    assert "is what the catalogue has by this name" in springlab("explain", "vertex_block_descent").out
 
 
 def test_a_file_of_the_users_own_is_explained(tmp_path: Path) -> None:
