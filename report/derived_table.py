@@ -40,7 +40,7 @@ not show all: what `heun_aliased` does to a chain lowers its order there, which 
 """
 
 #: What is said of the engines that are not in the table.
-NONE = "Of these there is none here: springs are rods to them, or they know no single spring, or have an environment apart:"
+NONE = "Of these there is none here: springs are rods to them, they know no single spring, or they are apart:"
 
 #: Oscillators at which matrices are held against one another; how near they have to be, and those of differences.
 A, B, D, SAME, NEAR = (0.7, 1.9), (0.2, 0.9), 0.3, 1e-9, 1e-6
