@@ -26,6 +26,11 @@ def unwritten_in_c(source: str, functions: Iterable[str]) -> list[str]:
     return [name for name in dict.fromkeys(functions) if re.search(rf"\b{name}\s*\([^(){{;]*\)\s*{{\s*;?\s*}}", text)]
 
 
+def without_comments(source: str) -> str:
+    """The text without its comments; what stands in quotes stays."""
+    return SILENT.sub(lambda found: " " if found[0].startswith("/") else found[0], source)
+
+
 def whole_divisions(source: str) -> list[tuple[int, str]]:
     r"""Lines on which one whole number is divided by another, and something is left.
 

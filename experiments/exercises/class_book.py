@@ -7,19 +7,18 @@ columns of their own, for the teacher to judge; a mark that was written by hand 
 from __future__ import annotations
 
 import ast
-import csv
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import datetime
-from io import StringIO
 from math import ceil
 from pathlib import Path
 
+from experiments.exercises.c_text import without_comments
 from experiments.exercises.collected import HandedIn
-from experiments.exercises.table_file import read_table
+from experiments.exercises.submission import IN_C, source_of
+from experiments.exercises.table_file import as_meant, read_table, written
 from experiments.exercises.writing import write_anew
 from reference.errors import InputError
-from reference.files.csv_cell import cell
 
 #: The columns; `by_hand` is the teacher's, and counts in place of the score where it is not empty.
 COLUMNS = (
@@ -77,10 +76,10 @@ def book(
         due: until when. before: rows of an earlier book, whose marks by hand stay.
     """
     by_name = {file.name: file for file in files}
-    by_hand = {(row["student"], row["exercise"]): row.get("by_hand", "") for row in before}
+    by_hand = {(as_meant(row["student"]), row["exercise"]): as_meant(row.get("by_hand", "")) for row in before}
     groups: dict[tuple[str, str], list[tuple[HandedIn, Mapping[str, str]]]] = {}
     for row in graded:
-        file = by_name.get(row["file"].removeprefix("'"))
+        file = by_name.get(as_meant(row["file"]))
         if file is not None:
             groups.setdefault((file.student, row["exercise"]), []).append((file, row))
     _drop_what_is_of_no_exercise(groups)
@@ -130,11 +129,15 @@ def _programs(newest: Mapping[tuple[str, str], tuple[HandedIn, Mapping[str, str]
 
 
 def _digest(path: Path) -> str:
-    """Of a program's syntax tree without strings that stand alone and without its seed; "" where it has none."""
-    from experiments.exercises.submission import source_of
+    """Of a program's syntax tree without strings that stand alone and without its seed; "" where it has none.
 
+    Of one in C the text without comments and spaces.
+    """
     try:
-        tree = ast.parse(source_of(path, path.name))
+        source = source_of(path, path.name)
+        if path.suffix.lower() == IN_C:
+            return hashlib.sha256("".join(without_comments(source).split()).encode()).hexdigest()
+        tree = ast.parse(source)
     except (InputError, OSError, SyntaxError, ValueError, RecursionError, MemoryError):
         return ""
     tree.body = [s for s in tree.body if not (isinstance(s, ast.Assign) and "SEED" in ast.dump(s.targets[0]))]
@@ -162,8 +165,4 @@ def _seeds(
 
 def write_book(rows: Sequence[Mapping[str, str]], file: Path) -> None:
     """As CSV, with a byte order mark, by which spreadsheets know UTF-8; nothing in it is a formula."""
-    text = StringIO(newline="")
-    writer = csv.DictWriter(text, COLUMNS)
-    writer.writeheader()
-    writer.writerows({name: str(cell(row[name])) for name in COLUMNS} for row in rows)
-    write_anew(file, text.getvalue().encode("utf-8-sig"))
+    write_anew(file, written(COLUMNS, rows).encode("utf-8-sig"))

@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises import behaviour, derived_step, findings, sandbox
-from experiments.exercises.answer_catalogue import catalogue_of
+from experiments.exercises import behaviour, behaviour_parts, behaviour_terms, derived_step, findings, sandbox
+from experiments.exercises.answer_catalogue import AnswerCatalogue, catalogue_of
 from experiments.exercises.c_compiler import DoesNotCompileError, MissingFunctionError, compiled
 from experiments.exercises.c_text import whole_divisions
 from experiments.exercises.exercise import Exercise, Question
@@ -31,6 +31,9 @@ SECOND = "a closer look"
 
 #: Answers of a changed program are right to this part of their scale.
 TOLERANCE = 1e-7
+
+#: The same where students may round: a limit of 0.01 s to six digits.
+TYPED = 2e-4
 
 #: How many lines a student is told at most, and how long a change is in a table.
 MOST_PLACES, LONGEST_CHANGE = 3, 160
@@ -85,8 +88,9 @@ class CloserLook:
 
     @property
     def lines(self) -> list[int]:
-        """The lines that are told, likeliest first."""
-        return list(dict.fromkeys(line for repair in self.told for line, _ in repair.places))
+        """The lines that are told, likeliest first: those of changes, then those from which what is wrong comes."""
+        changed = [line for repair in self.told for line, _ in repair.places]
+        return list(dict.fromkeys([*changed, *(line for finding in self.findings for line in finding.lines)]))
 
     @property
     def told(self) -> tuple[Repair, ...]:
@@ -117,26 +121,21 @@ def look_closer(
         effort = Effort(effort.named * effort.singles, 0.0)
     if language == "c":
         return _look_closer_at_c(exercise, source, verdict, limits)
-    catalogue = catalogue_of(exercise, seed, None)
-    cases = behaviour.cases(catalogue) if verdict.outcome != "error" else []
+    looks = _Looks(exercise, catalogue_of(exercise, seed, None), verdict)
     groups = _groups(exercise, seed, verdict)
     task = {
         "groups": [[_told(exercise, q) for q in group] for group in groups],
         "seconds": effort.singles,
         "pair_seconds": effort.pairs,
     }
-    swinging = derived_step.questions(exercise, catalogue.questions) if verdict.outcome != "error" else []
-    looked_at = [*catalogue.questions, *(case.question for case in cases)]
-    asked = [question.asked() for question in [*looked_at, *swinging]]
     files = exercise.files(seed) if exercise.files else {}
     try:
-        reply = sandbox.run(source, asked, limits, files, task)
+        reply = sandbox.run(source, looks.asked(), limits, files, task)
     except NotGradedError:
         return CloserLook(complete=False)
     if reply.ended != "done" or reply.error is not None:
         return CloserLook(complete=False)
-    seen = behaviour.seen(catalogue, cases, reply.answers[: len(looked_at)]) if cases else []
-    seen += derived_step.seen(exercise, swinging, reply.answers[len(looked_at) :])
+    seen = looks.seen(reply.answers, source)
     repairs = [r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)]
     searched = [found["singles_done"] and (bool(found["repairs"]) or found["pairs_done"]) for found in reply.search]
     tried = sum(found["tried"] for found in reply.search)
@@ -147,19 +146,49 @@ def _look_closer_at_c(exercise: Exercise, source: str, verdict: Verdict, limits:
     """Nothing is searched for in C."""
     if any(f.name in ("does_not_compile", "missing_function") for f in verdict.findings):
         return CloserLook()
-    catalogue = catalogue_of(exercise, "", None)
-    cases = behaviour.cases(catalogue) if verdict.outcome != "error" else []
-    asked = [question.asked() for question in [*catalogue.questions, *(case.question for case in cases)]]
+    looks = _Looks(exercise, catalogue_of(exercise, "", None), verdict)
     try:
         made = compiled(exercise.number, source, limits is not None and limits.exposed)
         warned = tuple(findings.of_warning(line, words) for line, words in made.warnings)
         warned += tuple(findings.of_whole_division(line, words) for line, words in whole_divisions(source))
-        reply = sandbox.run(source, asked, limits, compiled=made, exercise=exercise.number)
+        reply = sandbox.run(source, looks.asked(), limits, compiled=made, exercise=exercise.number)
     except (NotGradedError, DoesNotCompileError, MissingFunctionError):
         return CloserLook(complete=False)
     if reply.ended != "done" or reply.error is not None:
         return CloserLook(warned)
-    return CloserLook((*warned, *(behaviour.seen(catalogue, cases, reply.answers) if cases else ())))
+    return CloserLook((*warned, *looks.seen(reply.answers, None)))
+
+
+class _Looks:
+    """What is asked to see how a program behaves; nothing beside the public check of one that raises an error."""
+
+    def __init__(self, exercise: Exercise, catalogue: AnswerCatalogue, verdict: Verdict) -> None:
+        runs = verdict.outcome != "error"
+        self._catalogue, self._runs = catalogue, runs
+        self._line = next((f.line for f in verdict.findings if f.line is not None), None)
+        self._named = verdict.outcome in ("mistake", "mistakes")
+        self._cases = behaviour.cases(catalogue) if runs else []
+        self._terms = behaviour_terms.cases(catalogue) if runs else []
+        self._swinging = derived_step.questions(exercise, catalogue.questions) if runs else []
+
+    def asked(self) -> list[dict[str, Any]]:
+        """All questions."""
+        cases = [*(case.question for case in self._cases), *(case.question for case in self._terms)]
+        return [question.asked() for question in [*self._catalogue.questions, *cases, *self._swinging]]
+
+    def seen(self, answers: Sequence[Mapping[str, Any]], source: str | None) -> list[Finding]:
+        """What the answers show; the source where its lines can be read."""
+        if not self._runs:
+            return behaviour_parts.of_an_error(source, self._line) if source is not None else []
+        rest = list(answers)
+        own, cases, terms, swinging = (
+            [rest.pop(0) for _ in part]
+            for part in (self._catalogue.questions, self._cases, self._terms, self._swinging)
+        )
+        found = behaviour.seen(self._catalogue, self._cases, [*own, *cases]) if self._cases else []
+        found += behaviour_terms.seen(self._catalogue, self._terms, terms, self._named)
+        found += behaviour_parts.seen(self._catalogue, own, source)
+        return found + derived_step.seen(self._catalogue.exercise, self._swinging, swinging)
 
 
 def _groups(exercise: Exercise, seed: str, verdict: Verdict) -> list[list[Question]]:
@@ -177,7 +206,8 @@ def _told(exercise: Exercise, question: Question) -> dict[str, Any]:
     right = plain.answer(question, {})
     scales = [max(float(np.abs(step[p]).max(initial=0.0)) for step in right) or 1.0 for p in range(len(question.parts))]
     unordered = exercise.canonical is not None
-    return {**question.asked(), "right": right, "scales": scales, "tolerance": TOLERANCE, "pairs": unordered}
+    tolerance = TOLERANCE if exercise.tolerance <= TOLERANCE else TYPED
+    return {**question.asked(), "right": right, "scales": scales, "tolerance": tolerance, "pairs": unordered}
 
 
 def _repairs(source: str, group: Sequence[Question], found: Mapping[str, Any]) -> list[Repair]:

@@ -10,12 +10,12 @@ from __future__ import annotations
 import re
 import zipfile
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path, PurePosixPath
 
-from experiments.exercises.submission import LARGEST, SUFFIXES
+from experiments.exercises.submission import LARGEST, SUFFIXES, files_of
 from reference.errors import InputError
 
 #: How many files a zip may have, and how much [bytes] is taken out of it at most.
@@ -82,6 +82,25 @@ def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
             found.append(HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime)))
     if not found:
         raise InputError(f"{folder}: expected Python or C files, notebooks or zips in it")
+    return found
+
+
+def files_in(paths: Sequence[Path], unpacked: Path) -> list[tuple[Path, str]]:
+    """The files that are meant, as `submission.files_of` gives them, and those in zips, also in zips in folders.
+
+    Args:
+        unpacked: an empty folder to unpack zips into.
+
+    Raises:
+        InputError: for a path where nothing is, or nothing that can be graded.
+    """
+    found: list[tuple[Path, str]] = []
+    for i, path in enumerate(paths):
+        holds_zips = path.is_dir() and any(p.suffix.lower() == ".zip" for p in path.rglob("*"))
+        if holds_zips or path.suffix.lower() == ".zip":
+            found += [(file.path, file.name) for file in collect(path, unpacked / f"path{i}")]
+        else:
+            found += files_of([path])
     return found
 
 

@@ -241,6 +241,8 @@ def _of_call(node: ast.Call, names: dict[str, list[str]]) -> Iterator[tuple[str,
                 1.5,
                 renewed(node, keywords=[*node.keywords, ast.keyword("axis", expression(str(axis), node))]),
             )
+    if name in ("zeros", "ones", "empty", "full"):
+        yield from _other_sizes(node, names)
     if name in ("zeros_like", "ones_like", "array", "zeros", "asarray") and not any(
         k.arg == "dtype" for k in node.keywords
     ):
@@ -253,6 +255,18 @@ def _of_call(node: ast.Call, names: dict[str, list[str]]) -> Iterator[tuple[str,
             for way in (ast.Add, ast.Sub):
                 shifted = binary(argument, way(), ast.copy_location(ast.Constant(1), argument))
                 yield "index", 1.3, renewed(node, args=[*node.args[:i], shifted, *node.args[i + 1 :]])
+
+
+def _other_sizes(node: ast.Call, names: dict[str, list[str]]) -> Iterator[tuple[str, float, Any]]:
+    """An array of another size: a length that is a multiple of a name, or a few longer."""
+    shape = node.args[0] if node.args else None
+    lengths = shape.elts if isinstance(shape, ast.Tuple | ast.List) else [shape] if shape is not None else []
+    for i, length in enumerate(lengths):
+        longer = [binary(length, ast.Add(), ast.copy_location(ast.Constant(n), node)) for n in (1, 2, 3)]
+        times = [binary(length, ast.Mult(), expression(name, node)) for name in names[""] if name not in MODULES]
+        for new in (*longer, *times):
+            whole = renewed(shape, elts=[*lengths[:i], new, *lengths[i + 1 :]]) if shape is not length else new
+            yield "factor", 1.6, renewed(node, args=[whole, *node.args[1:]])
 
 
 def _of_augmented(node: ast.AugAssign) -> Iterator[tuple[str, float, Any]]:
@@ -284,7 +298,8 @@ def _scaled(node: ast.expr, names: dict[str, list[str]], holder: ast.AST) -> Ite
         for name in names[""] if "dt" in names[""] else ():
             for operator in (ast.Add(), ast.Sub()):
                 yield "left out", 2.3, binary(node, operator, expression(f"dt * {name}", node))
-    if is_term or is_value or isinstance(holder, ast.Compare | ast.BinOp):
+    of_a_root = isinstance(holder, ast.Call) and ast.unparse(holder.func).split(".")[-1] == "sqrt"
+    if is_term or is_value or of_a_root or isinstance(holder, ast.Compare | ast.BinOp):
         yield from _with_another(node, names)
 
 
@@ -296,6 +311,8 @@ def _with_what_is_unused(node: ast.expr, names: dict[str, list[str]]) -> Iterato
         for name in names[""]:
             for operator in (ast.Sub(), ast.Add()):
                 yield "left out", 2.1, binary(node, operator, expression(f"{text} * {name}", node))
+            for difference in (f"({name} - {text})", f"({name} - {text}[:, None])"):
+                yield "left out", 2.2, binary(node, ast.Mult(), expression(difference, node))
 
 
 def _with_another(node: ast.expr, names: dict[str, list[str]]) -> Iterator[tuple[str, float, Any]]:

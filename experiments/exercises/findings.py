@@ -23,12 +23,14 @@ class Finding:
         words: what it is, in a sentence or two.
         hint: what to look at.
         line: of the submission, where an error has one.
+        lines: of the submission, from which what is meant comes.
     """
 
     name: str
     words: str
     hint: str = ""
     line: int | None = None
+    lines: tuple[int, ...] = ()
 
 
 #: Errors that are known by their type: a name and a hint.

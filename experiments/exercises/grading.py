@@ -8,7 +8,6 @@ import threading
 from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field, replace
-from io import StringIO
 from pathlib import Path
 from time import perf_counter
 
@@ -19,7 +18,7 @@ from experiments.exercises.judge import Verdict, judge, not_asked
 from experiments.exercises.sandbox import Limits
 from experiments.exercises.sandbox_errors import NotGradedError
 from experiments.exercises.submission import Submission, read
-from experiments.exercises.table_file import read_table
+from experiments.exercises.table_file import read_table, written
 from experiments.exercises.writing import write_anew
 from reference.errors import InputError
 from reference.files.csv_cell import cell
@@ -248,8 +247,4 @@ def _write(table: Path, rows: Iterable[dict[str, str]]) -> None:
     """The table anew, in one go; columns that somebody has added stay, behind the others."""
     kept = list(rows)
     added = dict.fromkeys(name for row in kept for name in row if name not in COLUMNS)
-    text = StringIO(newline="")
-    writer = csv.DictWriter(text, [*COLUMNS, *added], restval="")
-    writer.writeheader()
-    writer.writerows(kept)
-    write_anew(table, text.getvalue().encode("utf-8"))
+    write_anew(table, written([*COLUMNS, *added], kept, guarded=True).encode("utf-8"))

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Mapping, Sequence
-from io import StringIO
 
-from reference.files.csv_cell import cell
+from experiments.exercises.table_file import written
 
 Row = Mapping[str, str]
 
@@ -48,8 +46,4 @@ def words(row: Row) -> str:
 def table(rows: Sequence[Row], platform: str, title: str) -> str:
     """The CSV of one exercise."""
     made = [PLATFORMS[platform](row, title) for row in rows]
-    text = StringIO(newline="")
-    writer = csv.DictWriter(text, list(made[0]) if made else [])
-    writer.writeheader()
-    writer.writerows({name: str(cell(value)) for name, value in row.items()} for row in made)
-    return text.getvalue()
+    return written(list(made[0]) if made else [], made)

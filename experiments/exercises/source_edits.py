@@ -91,9 +91,11 @@ def edits_of(tree: ast.Module, given: Mapping[str, Sequence[str]] | None = None)
     found: list[Edit] = []
     fields = dict(_given_fields(tree, given or {}))
     read = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+    numbers = _module_names(tree)
     for statement in tree.body:
         if isinstance(statement, ast.FunctionDef | ast.ClassDef | ast.Assign):
             names = _names(statement)
+            names[""] = list(dict.fromkeys([*names[""], *numbers]))
             for owner, attributes in fields.items():
                 if owner in names[""]:
                     names[owner] = list(dict.fromkeys([*names.get(owner, []), *attributes]))
@@ -102,6 +104,13 @@ def edits_of(tree: ast.Module, given: Mapping[str, Sequence[str]] | None = None)
                 found += _changes(site, names)
     found += [edit for function in functions_of(tree) for edit in _of_function(function)]
     return sorted(found, key=lambda edit: edit.cost)
+
+
+def _module_names(tree: ast.Module) -> list[str]:
+    """Names that are assigned outside of functions, but for those that say whose a file is."""
+    targets = [target for s in tree.body if isinstance(s, ast.Assign) for target in s.targets]
+    names = [node.id for target in targets for node in ast.walk(target) if isinstance(node, ast.Name)]
+    return [name for name in dict.fromkeys(names) if name not in ("EXERCISE", "SEED", "KEYED")]
 
 
 def _given_fields(tree: ast.Module, given: Mapping[str, Sequence[str]]) -> Iterator[tuple[str, Sequence[str]]]:

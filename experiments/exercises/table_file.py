@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable, Mapping, Sequence
 from io import StringIO
 from pathlib import Path
 
 from reference.errors import InputError
+from reference.files.csv_cell import cell
 
 #: What may stand between two cells; that which the first line has most of does.
 BETWEEN = ",;\t"
@@ -29,3 +31,27 @@ def read_table(file: Path) -> list[dict[str, str]]:
     first = text.partition("\n")[0]
     reader = csv.DictReader(StringIO(text, newline=""), delimiter=max(BETWEEN, key=first.count))
     return [row for row in reader if None not in row and all(isinstance(value, str) for value in row.values())]
+
+
+def written(columns: Sequence[str], rows: Iterable[Mapping[str, str]], guarded: bool = False) -> str:
+    """Rows as CSV, in these columns; what a row has not is empty, and nothing is a formula.
+
+    Args:
+        guarded: whether the rows are from a table, so that what is a formula there is somebody's own.
+    """
+    text = StringIO(newline="")
+    writer = csv.DictWriter(text, columns)
+    writer.writeheader()
+    writer.writerows(
+        {name: row.get(name, "") if guarded else str(cell(row.get(name, ""))) for name in columns} for row in rows
+    )
+    return text.getvalue()
+
+
+def as_meant(text: str) -> str:
+    """A cell without the apostrophe that keeps it from being a formula.
+
+    >>> as_meant("'=ada"), as_meant("'t Hooft"), as_meant("ada")
+    ('=ada', "'t Hooft", 'ada')
+    """
+    return text[1:] if text[:1] == "'" and cell(text[1:]) == text else text

@@ -154,17 +154,20 @@ def check_command(
 
     Exit code 1 where something is not right, 3 where something could not be graded.
     """
+    from experiments.exercises.collected import files_in
     from experiments.exercises.exercise import find
     from experiments.exercises.sandbox import Limits
-    from experiments.exercises.submission import files_of, read
+    from experiments.exercises.submission import read
 
     limits, keyed = Limits(exposed=exposed), not started_without_key
 
     chosen = find(exercise) if exercise else None
-    found = files_of(files)
-    if table is not None or len(found) > 1:
-        sys.exit(_check_class(found, chosen, key, table, jobs, limits, keyed, as_json))
-    sys.exit(_check_one(found[0][0], read(*found[0], chosen, keyed), key, limits, plot, as_json))
+    with tempfile.TemporaryDirectory() as unpacked:
+        found = files_in(files, Path(unpacked))
+        if table is not None or len(found) > 1:
+            sys.exit(_check_class(found, chosen, key, table, jobs, limits, keyed, as_json))
+        beside = found[0][0] if not found[0][0].is_relative_to(unpacked) else files[0]
+        sys.exit(_check_one(beside, read(*found[0], chosen, keyed), key, limits, plot, as_json))
 
 
 def _check_one(path: Path, submission: Submission, key: str | None, limits: Limits, plot: bool, as_json: bool) -> int:

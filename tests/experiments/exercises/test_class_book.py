@@ -16,13 +16,14 @@ import pytest
 
 from experiments.exercises import collected, notebook, sandbox
 from experiments.exercises.class_book import COLUMNS, book, students_in, write_book
-from experiments.exercises.collected import collect
+from experiments.exercises.collected import collect, files_in
 from experiments.exercises.feedback import write_feedback
 from experiments.exercises.grading import grade_class
 from experiments.exercises.platforms import PLATFORMS, table
 from experiments.exercises.submission import read
 from experiments.exercises.table_file import read_table
 from reference.errors import InputError
+from reference.files.csv_cell import cell
 from tests.experiments.exercises import here
 from tests.experiments.exercises.corpus import solution, wrong
 
@@ -117,6 +118,29 @@ def test_a_table_of_grades_may_have_been_through_a_spreadsheet(a_class: Path, tm
     (again,) = grade_class([(file, file.name)], grades, workers=1)
     assert again == {**first, "remark": "talk to her"}
     assert read_table(grades) == [again]
+
+
+def test_a_mark_by_hand_stays_whatever_the_name_begins_with(tmp_path: Path) -> None:
+    """Names that a spreadsheet would take for formulas: they are guarded in the table, and found again."""
+    (tmp_path / "handed").mkdir()
+    for name in ("=ada", "@bob", "-cyd"):
+        (tmp_path / "handed" / f"{name}.py").write_text(RIGHT, encoding="utf-8")
+    files = collect(tmp_path / "handed", tmp_path)
+    graded = [{"file": str(cell(f.name)), "exercise": "1", "score": "100.0", "outcome": "right"} for f in files]
+    rows = book(graded, files)
+    write_book([{**row, "by_hand": "50"} for row in rows], tmp_path / "book.csv")
+    again = book(graded, files, before=read_table(tmp_path / "book.csv"))
+    assert {row["student"]: row["mark"] for row in again} == {"=ada": "50", "@bob": "50", "-cyd": "50"}
+
+
+def test_zips_and_notebooks_are_checked_too(a_class: Path, tmp_path: Path) -> None:
+    """A folder, a zip in it, a zip by itself: what `springlab exercise check` grades."""
+    (tmp_path / "own.ipynb").write_text("{}", encoding="utf-8")
+    assert {name for _, name in files_in([tmp_path / "own.ipynb"], tmp_path)} == {"own.ipynb"}
+    alone = {name for _, name in files_in([a_class / "eve.zip"], tmp_path / "one")}
+    inside = {name for _, name in files_in([a_class], tmp_path / "two")}
+    assert alone
+    assert {f"eve/{name}" for name in alone} <= inside
 
 
 def test_seeds_are_tied_to_students(tmp_path: Path) -> None:

@@ -155,8 +155,34 @@ def test_behaviour_is_told_as_it_was_seen(trusted: None) -> None:
     assert "not_used" in names_of(ignored)
     assert "masses" in ignored.findings[0].words
     dragged = looked(3, model(3).replace("- string.drag * v", "- string.drag * v**3"), quick)
-    assert names_of(dragged) == ["right_where"]
+    assert names_of(dragged)[0] == "right_where"
     assert names_of(looked(3, model(3).replace("return total", "return 0 * total"), quick)) == ["always_the_same"]
+
+
+def test_terms_and_slopes_are_told_apart(trusted: None) -> None:
+    """One term of a force at a time; and an error of dt^2 or of dt, as the second slope is wrong or the first."""
+    quick = Effort(0.0, 0.0)
+
+    def words(number: int, old: str, new: str, name: str) -> str:
+        found = looked(number, model(number).replace(old, new), quick).findings
+        return next((f.words for f in found if f.name == name), "")
+
+    terms = words(3, "total[:-1] -= pull[1:]", "total[:-1] -= 0.9 * pull[1:]", "right_and_wrong_terms")
+    assert terms.index("the spring above") < terms.index(" right") < terms.index("the spring below")
+    assert "the drag wrong" in words(3, "- string.drag * v", "- 2 * string.drag * v", "right_and_wrong_terms")
+    first = "a = acceleration(1.01 * x, v, string)"
+    halved = "guess_x, guess_v = x + 0.9 * dt * v, v + 0.9 * dt * a"
+    assert words(4, "guess_x, guess_v = x + dt * v, v + dt * a", halved, "first_slope_right")
+    assert words(4, "a = acceleration(x, v, string)", first, "first_slope_wrong")
+
+
+def test_which_part_is_wrong_is_told_with_the_lines_it_comes_from(trusted: None) -> None:
+    """Of two things that are returned one is right; the other is assigned on a line that is told."""
+    text = solution("loops", 2)
+    line = text[: text.index("dt * (k1v + k2v) / 2")].count("\n") + 1
+    found = looked(2, text.replace("dt * (k1v + k2v) / 2", "dt * (k1v + k2v) / 3"), Effort(0.0, 0.0))
+    (told,) = (f for f in found.findings if f.name == "right_and_wrong_parts")
+    assert line in told.lines
 
 
 def test_a_cap_is_told_as_a_cap(trusted: None) -> None:
