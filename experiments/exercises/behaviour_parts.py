@@ -14,6 +14,7 @@ import numpy as np
 
 from experiments.exercises.answer_catalogue import AnswerCatalogue
 from experiments.exercises.findings import Finding
+from experiments.exercises.parsing import parsed
 
 #: Numbers are the same up to this part of the largest, or to the exercise's own tolerance.
 SAME = 1e-9
@@ -43,7 +44,7 @@ def seen(catalogue: AnswerCatalogue, answers: Sequence[Mapping[str, Any]], sourc
 def of_an_error(source: str, line: int | None) -> list[Finding]:
     """Where the names on a line that raised an error get their values: the mistake may be there."""
     try:
-        tree = ast.parse(source)
+        tree = parsed(source)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
     lines = sorted(set(lines_behind(tree, line))) if line else []
@@ -91,7 +92,7 @@ def _same(given: Any, want: Any, tolerance: float) -> bool:
 def _lines(source: str | None, bad: Sequence[tuple[str, str]], parts: Mapping[str, Sequence[str]]) -> list[int]:
     """Where what is wrong gets its values, if these are few lines."""
     try:
-        tree = ast.parse(source or "")
+        tree = parsed(source or "")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
     found: set[int] = set()

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from experiments.exercises.c_text import without_comments
 from experiments.exercises.collected import HandedIn
+from experiments.exercises.parsing import parsed
 from experiments.exercises.submission import IN_C, source_of
 from experiments.exercises.table_file import as_meant, read_table, written
 from experiments.exercises.writing import write_anew
@@ -137,7 +138,7 @@ def _digest(path: Path) -> str:
         source = source_of(path, path.name)
         if path.suffix.lower() == IN_C:
             return hashlib.sha256("".join(without_comments(source).split()).encode()).hexdigest()
-        tree = ast.parse(source)
+        tree = parsed(source)
     except (InputError, OSError, SyntaxError, ValueError, RecursionError, MemoryError):
         return ""
     tree.body = [s for s in tree.body if not (isinstance(s, ast.Assign) and "SEED" in ast.dump(s.targets[0]))]

@@ -21,6 +21,7 @@ from experiments.exercises.c_text import whole_divisions
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.findings import Finding
 from experiments.exercises.judge import Verdict
+from experiments.exercises.parsing import PARSING, parsed
 from experiments.exercises.sandbox_errors import NotGradedError
 from experiments.exercises.source_edits import Edit, edits_of, without_main
 from experiments.exercises.source_search import fields_given
@@ -136,7 +137,10 @@ def look_closer(
     if reply.ended != "done" or reply.error is not None:
         return CloserLook(complete=False)
     seen = looks.seen(reply.answers, source)
-    repairs = [r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)]
+    with PARSING:
+        repairs = [
+            r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)
+        ]
     searched = [found["singles_done"] and (bool(found["repairs"]) or found["pairs_done"]) for found in reply.search]
     tried = sum(found["tried"] for found in reply.search)
     return CloserLook(tuple(seen), tuple(repairs), tried, all(searched) and len(searched) == len(groups))
@@ -212,7 +216,7 @@ def _told(exercise: Exercise, question: Question) -> dict[str, Any]:
 
 def _repairs(source: str, group: Sequence[Question], found: Mapping[str, Any]) -> list[Repair]:
     """The changes with these numbers; none where there is no such number."""
-    tree = without_main(ast.parse(source))
+    tree = without_main(parsed(source))
     edits = edits_of(tree, fields_given([question.asked() for question in group]))
     made = []
     for numbers in found["repairs"]:

@@ -121,6 +121,8 @@ def replacements(node: ast.AST, names: dict[str, list[str]], holder: ast.AST) ->
                 yield "operator", 1.6, ast.copy_location(ast.AugAssign(target, operator(), node.value), node)
     if isinstance(node, ast.Expr | ast.Assign | ast.AugAssign):
         yield "too much", 2.5, ast.copy_location(ast.Pass(), node)
+    if isinstance(getattr(node, "ctx", None), ast.Store):
+        return
     if isinstance(node, ast.expr) and not isinstance(node, ast.Constant | ast.UnaryOp | ast.Slice | ast.Compare):
         yield from _scaled(node, names, holder)
 
@@ -194,6 +196,12 @@ def _other_indices(part: ast.expr) -> Iterator[tuple[float, ast.expr]]:
             if ast.dump(made.slice) != ast.dump(part):
                 yield 1.3, made.slice
     elif isinstance(part, ast.Constant) and isinstance(part.value, int):
+        every = ast.parse("a[:, None]", mode="eval").body
+        assert isinstance(every, ast.Subscript)
+        for inner in ast.walk(every.slice):
+            ast.copy_location(inner, part)
+        if part.value == 0:
+            yield 1.4, every.slice  # of all masses, for that of the first
         for value in (0, 1, -1, part.value + 1, part.value - 1):
             if value != part.value:
                 yield 1.2, renewed(part, value=value)
@@ -236,18 +244,13 @@ def _of_call(node: ast.Call, names: dict[str, list[str]]) -> Iterator[tuple[str,
         k.arg == "axis" for k in node.keywords
     ):
         for axis in (1, 0):
-            yield (
-                "axis",
-                1.5,
-                renewed(node, keywords=[*node.keywords, ast.keyword("axis", expression(str(axis), node))]),
-            )
+            yield "axis", 1.5, _with_keyword(node, "axis", str(axis))
     if name in ("zeros", "ones", "empty", "full"):
         yield from _other_sizes(node, names)
     if name in ("zeros_like", "ones_like", "array", "zeros", "asarray") and not any(
         k.arg == "dtype" for k in node.keywords
     ):
-        real = ast.keyword("dtype", expression("float", node))
-        yield "copy", 1.6, renewed(node, keywords=[*node.keywords, real])
+        yield "copy", 1.6, _with_keyword(node, "dtype", "float")
     if name == "eigvalsh" and isinstance(node.func, ast.Attribute):
         yield "name", 1.5, renewed(node, func=renewed(node.func, attr="eigvals"))
     if name == "range":
@@ -255,6 +258,13 @@ def _of_call(node: ast.Call, names: dict[str, list[str]]) -> Iterator[tuple[str,
             for way in (ast.Add, ast.Sub):
                 shifted = binary(argument, way(), ast.copy_location(ast.Constant(1), argument))
                 yield "index", 1.3, renewed(node, args=[*node.args[:i], shifted, *node.args[i + 1 :]])
+
+
+def _with_keyword(node: ast.Call, name: str, text: str) -> ast.Call:
+    """The call with one more argument, by its name."""
+    more = ast.copy_location(ast.keyword(name, expression(text, node)), node)
+    made: ast.Call = renewed(node, keywords=[*node.keywords, more])
+    return made
 
 
 def _other_sizes(node: ast.Call, names: dict[str, list[str]]) -> Iterator[tuple[str, float, Any]]:

@@ -60,10 +60,15 @@ def _of_all(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> Explanation 
 
 
 def _single_mistakes(catalogue: AnswerCatalogue, given: Sequence[Answer]) -> list[Explanation]:
-    """How far the answers are from those of each mistake."""
+    """How far the answers are from those of each mistake that comes near with the first steps; most are ruled out.
+
+    Near is as far as single precision has to be beside the others: no answer that is farther can matter.
+    """
+    near = max(APART * SINGLE, catalogue.exercise.tolerance)
     return [
         Explanation((mistake,), catalogue.distance(given, catalogue.answers(mistake.parameters)))
         for mistake in catalogue.exercise.mistakes
+        if catalogue.begins_with(given, mistake.parameters, near)
     ]
 
 

@@ -184,7 +184,12 @@ def _of_block(holder: ast.AST, name: str, block: Sequence[ast.stmt]) -> Iterator
             yield Edit(after[0].lineno, "order", 1.9, ((place, swapped),))
         if isinstance(statement, ast.If):
             for kept in (statement.body, statement.orelse):
-                yield Edit(statement.lineno, "condition", 2.1, ((place, [*before, *(kept or [ast.Pass()]), *after]),))
+                yield Edit(
+                    statement.lineno,
+                    "condition",
+                    2.1,
+                    ((place, [*before, *(kept or [ast.copy_location(ast.Pass(), statement)]), *after]),),
+                )
         if isinstance(statement, ast.For | ast.While | ast.If | ast.With) and len(statement.body) > 1:
             last = statement.body[-1]
             rest = renewed(statement, body=statement.body[:-1])

@@ -16,6 +16,7 @@ from typing import Literal
 
 from experiments.exercises.exercise import Exercise, find
 from experiments.exercises.notebook import program_in
+from experiments.exercises.parsing import parsed
 from reference.errors import InputError
 
 #: A file larger than this is not a submission [bytes].
@@ -139,7 +140,7 @@ def header(source: str) -> dict[str, object]:
     {'SEED': 'ada'}
     """
     try:
-        trees = [ast.parse(source)]
+        trees = [parsed(source)]
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         trees = list(_lines_by_themselves(source))
     found: dict[str, object] = {}
@@ -166,7 +167,7 @@ def _lines_by_themselves(source: str) -> Iterator[ast.Module]:
     for line in source.splitlines():
         if line.startswith(HEADER):
             with suppress(SyntaxError, ValueError, RecursionError, MemoryError):
-                yield ast.parse(line)
+                yield parsed(line)
 
 
 def files_of(paths: Sequence[Path]) -> list[tuple[Path, str]]:

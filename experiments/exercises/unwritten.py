@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterable
 
+from experiments.exercises.parsing import parsed
+
 
 def unwritten(source: str, starter: str, functions: Iterable[str]) -> list[str]:
     r"""Of these functions, those that nothing was written into; none where Python cannot read the file.
@@ -28,7 +30,7 @@ def unwritten(source: str, starter: str, functions: Iterable[str]) -> list[str]:
 
 
 def _functions(source: str) -> dict[str, ast.FunctionDef]:
-    return {node.name: node for node in ast.parse(source).body if isinstance(node, ast.FunctionDef)}
+    return {node.name: node for node in parsed(source).body if isinstance(node, ast.FunctionDef)}
 
 
 def _body(function: ast.FunctionDef) -> list[ast.stmt]:

@@ -115,7 +115,7 @@ def test_mutants_fail_and_what_is_told_of_them_was_tried(trusted: None, request:
         if closer.told and len({r.function for r in closer.told}) == 1:
             mended = mended_by(number, text, closer)
             assert all(judge(exercise, mended, "example", key).right for key in (None, "k")), (number, closer.told[0])
-    assert led >= (0.75 if request.config.option.full else 0.5) * wrong
+    assert led >= (0.9 if request.config.option.full else 0.5) * wrong
 
 
 def mended_by(number: int, text: str, closer: CloserLook) -> str:
@@ -229,6 +229,6 @@ def test_a_tree_is_what_it_was_after_every_change() -> None:
     assert len(edits) > 500
     for edit in edits:
         with edit.applied():
-            pass
+            compile(tree, "own", "exec")  # every node has its line
         assert 1 <= edit.line <= before.count("lineno")
     assert ast.dump(tree, include_attributes=True) == before
