@@ -131,7 +131,7 @@ def system(positions: Any, springs: Any, *, masses: Any, stiffness: Any, **other
     Raises:
         InputError: naming the field, the index, the value, and what was expected.
     """
-    from reference.files.scene_file import SystemTable
+    from reference.files.system_tables import SystemTable
 
     fields = {"positions": positions, "springs": springs, "masses": masses, "stiffness": stiffness, **others}
     for name in fields:

@@ -10,7 +10,8 @@ import pytest
 
 from reference.errors import InputError
 from reference.files.mesh_file import EDGES
-from reference.files.scene_file import GroundMotionTable, MeshTable, SystemTable, load
+from reference.files.scene_file import GroundMotionTable, load
+from reference.files.system_tables import MeshTable, SystemTable
 from reference.scenes import Setup
 
 DOCS = Path(__file__).parents[3] / "report" / "docs" / "scene-files.md"
