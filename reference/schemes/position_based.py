@@ -15,11 +15,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from reference.constraint_solvers.solver_numbers import SolverNumbers, numbers_of
 from reference.errors import SolverError
 from reference.jit import compiled
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import scheme
-from reference.solver_numbers import SolverNumbers, numbers_of
 from reference.state import Array, State
 from reference.system import IntArray
 

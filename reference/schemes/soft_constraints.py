@@ -17,11 +17,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from reference.constraint_solvers.solver_numbers import SolverNumbers, kept, numbers_of
 from reference.jit import compiled
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import scheme
 from reference.schemes.position_based import dots
-from reference.solver_numbers import SolverNumbers, kept, numbers_of
 from reference.spring_frequencies import frequencies
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from reference.constraint_order import in_order
+from reference.constraint_solvers.spring_order import in_order
 from reference.errors import Unsupported
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from reference.constraint_order import ORDERS, in_order
+from reference.constraint_solvers.spring_order import ORDERS, in_order
 from reference.scenes import find as find_scene
 
 #: Of a string of five springs: the anchor's is number 0.
