@@ -14,6 +14,7 @@ from typing import Any, Literal
 import numpy as np
 
 from engines.engine import LINEAR_SPRINGS, changed, refuse_beyond
+from engines.vectors import three
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -100,8 +101,8 @@ class DrakeSimulation:
         tree, system = importlib.import_module("pydrake.multibody.tree"), self._system
         plant_type = importlib.import_module("pydrake.multibody.plant").MultibodyPlant
         self._plant = plant = plant_type(self._dt if self._engine.stepping == "discrete" else 0.0)
-        plant.mutable_gravity_field().set_gravity_vector(_three(system.gravity))
-        ends: list[tuple[Any, Array]] = [(plant.world_body(), _three(x)) for x in system.positions]
+        plant.mutable_gravity_field().set_gravity_vector(three(system.gravity))
+        ends: list[tuple[Any, Any]] = [(plant.world_body(), three(x)) for x in system.positions]
         for i in self._free.tolist():
             inertia = tree.SpatialInertia(float(system.masses[i]), np.zeros(3), tree.UnitInertia.SolidSphere(1.0))
             ends[i] = (plant.AddRigidBody(f"mass {i}", inertia), np.zeros(3))
@@ -118,8 +119,8 @@ class DrakeSimulation:
         count = len(self._free)
         q, v = np.zeros((count, 7)), np.zeros((count, 6))
         q[:, 0] = 1.0
-        q[:, 4:] = [_three(x) for x in system.positions[self._free]]
-        v[:, 3:] = [_three(x) for x in system.velocities[self._free]]
+        q[:, 4:] = [three(x) for x in system.positions[self._free]]
+        v[:, 3:] = [three(x) for x in system.velocities[self._free]]
         self._plant.SetPositions(self._context, q.ravel())
         self._plant.SetVelocities(self._context, v.ravel())
         self._simulator = analysis.Simulator(self._plant, self._context)
@@ -130,10 +131,6 @@ class DrakeSimulation:
             analysis.ApplySimulatorConfig(config, self._simulator)
         self._simulator.Initialize()
         self._steps = 0
-
-
-def _three(vector: Array) -> Array:
-    return np.pad(vector, (0, 3 - len(vector)))
 
 
 ENGINES = (

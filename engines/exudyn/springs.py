@@ -12,6 +12,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from engines.engine import CAPABILITIES, COLLISIONS, OBSTACLES, changed, refuse_beyond
+from engines.vectors import three
 from reference.springs.angular import AngularSprings
 from reference.springs.angular_law import forces_on_masses
 from reference.springs.nonlinear_law import damping_at, secant_stiffness
@@ -145,7 +146,7 @@ class Items:
         ends = []
         for i, fixed in enumerate(system.fixed):
             # free nodes have their reference at the origin, so that coordinates are positions
-            at = item.NodePointGround(referenceCoordinates=_three(system.positions[i])) if fixed else node_type()
+            at = item.NodePointGround(referenceCoordinates=list(three(system.positions[i]))) if fixed else node_type()
             node = mbs.AddNode(at)
             ends.append(mbs.AddMarker(item.MarkerNodePosition(nodeNumber=node)))
             if fixed:
@@ -169,9 +170,9 @@ class Items:
         for body, mass in zip(self._bodies, system.masses[self._free].tolist(), strict=True):
             mbs.SetObjectParameter(body, "mass", mass)
         for weight in self._weights:
-            mbs.SetLoadParameter(weight, "loadVector", _three(system.gravity))
+            mbs.SetLoadParameter(weight, "loadVector", list(three(system.gravity)))
         for load, pull in zip(self._pulls, system.pulls[self._free], strict=True):
-            mbs.SetLoadParameter(load, "loadVector", _three(pull))
+            mbs.SetLoadParameter(load, "loadVector", list(three(pull)))
         for drag in self._drags:
             mbs.SetObjectParameter(drag, "damping", [system.drag] * 3)
             mbs.SetObjectParameter(drag, "activeConnector", system.drag > 0)
@@ -221,10 +222,6 @@ def _settings(exudyn: ModuleType, solver: Solver, dt: float) -> Any:
     time.endTime, time.numberOfSteps = dt, 1
     time.explicit.computeEndOfStepAccelerations = False  # nothing reads them
     return settings
-
-
-def _three(vector: Array) -> list[float]:
-    return np.pad(vector, (0, 3 - len(vector))).tolist()
 
 
 ENGINES = (

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from engines.engine import LINEAR_SPRINGS, Precision, changed, refuse_beyond
+from engines.vectors import three
 from reference.errors import Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -96,7 +97,7 @@ class JoltSimulation:
                 "dt": dt,
                 "substeps": engine.substeps,
                 "springs": system.springs[self._moved].tolist(),
-                **{name: [_three(row) for row in values] for name, values in rows.items()},
+                **{name: [three(row) for row in values] for name, values in rows.items()},
                 **self._numbers(),
             }
         )
@@ -128,7 +129,7 @@ class JoltSimulation:
             "inverse": inverse.tolist(),
             "compliance": (one / system.stiffness[self._moved].astype(np.float32)).tolist(),
             "rest": system.rest_lengths[self._moved].tolist(),
-            "gravity": _three(system.gravity),
+            "gravity": three(system.gravity),
         }
 
     def _ask(self, **told: object) -> Any:
@@ -159,10 +160,6 @@ def _node() -> subprocess.Popen[str]:
 def _end(node: subprocess.Popen[str]) -> None:
     node.kill()
     node.wait()
-
-
-def _three(vector: Array) -> list[float]:
-    return np.pad(vector, (0, 3 - len(vector))).tolist()
 
 
 ENGINES = (JoltSoftBody(), JoltSoftBody("jolt_soft_body_once", substeps=1))

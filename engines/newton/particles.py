@@ -10,6 +10,7 @@ from typing import Any, Literal
 import numpy as np
 
 from engines.engine import LINEAR_SPRINGS, Precision, changed, refuse_beyond
+from engines.vectors import three
 from reference.errors import Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -86,11 +87,11 @@ class NewtonSimulation:
         warp.config.quiet = True
         newton: Any = importlib.import_module("newton")
         self._engine, self._system, self._dt = engine, system, dt
-        builder = newton.ModelBuilder(up_axis=newton.Axis.Y, gravity=_three(system.gravity))
+        builder = newton.ModelBuilder(up_axis=newton.Axis.Y, gravity=three(system.gravity))
         radius = RADIUS_PART * float(system.rest_lengths.min(initial=1.0))
         masses = np.where(system.fixed, 0.0, system.masses).tolist()
         for x, v, mass in zip(system.positions, system.velocities, masses, strict=True):
-            builder.add_particle(pos=_three(x), vel=_three(v), mass=mass, radius=radius)
+            builder.add_particle(pos=three(x), vel=three(v), mass=mass, radius=radius)
         for (a, b), k, c in zip(system.springs.tolist(), system.stiffness, system.damping, strict=True):
             builder.add_spring(a, b, float(k), float(c), 0.0)
         if engine.solver == "SolverVBD":
@@ -137,11 +138,7 @@ class NewtonSimulation:
             model.spring_rest_length.assign(system.rest_lengths.astype(np.float32))
             model.spring_stiffness.assign(system.stiffness.astype(np.float32))
             model.spring_damping.assign(system.damping.astype(np.float32))
-        model.set_gravity(_three(system.gravity))
-
-
-def _three(vector: Array) -> tuple[float, ...]:
-    return tuple(np.pad(vector, (0, 3 - len(vector))).tolist())
+        model.set_gravity(three(system.gravity))
 
 
 ENGINES = (

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from engines.engine import LINEAR_SPRINGS, Precision, changed, refuse_beyond
+from engines.vectors import three
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -104,7 +105,7 @@ class PhysxSimulation:
     def _begin(self) -> None:
         system, physx = self._system, self._physx
         config = physx.PhysxSceneConfig()
-        config.gravity, config.enable_tgs = _three(system.gravity), False
+        config.gravity, config.enable_tgs = three(system.gravity), False
         physx.set_scene_config(config)
         self._world = physx.PhysxCpuSystem()
         self._world.timestep = self._dt
@@ -131,10 +132,10 @@ class PhysxSimulation:
         """What has a place, and carries the body."""
         system, body, entity = self._system, self._bodies[i], self._sapien.Entity()
         entity.add_component(body)
-        entity.set_pose(self._sapien.Pose(_three(system.positions[i])))
+        entity.set_pose(self._sapien.Pose(three(system.positions[i])))
         entity.add_to_scene(self._scene)
         if not system.fixed[i]:
-            body.linear_velocity = _three(system.velocities[i])
+            body.linear_velocity = three(system.velocities[i])
             body.set_locked_motion_axes([False] * 3 + [True] * 3)
         return entity
 
@@ -151,10 +152,6 @@ class PhysxSimulation:
         rest = float(system.rest_lengths[j])
         joint.set_limit(rest, rest, float(system.stiffness[j]), float(system.damping[j]))
         self._entities[b].add_component(joint)
-
-
-def _three(vector: Array) -> list[float]:
-    return np.pad(vector, (0, 3 - len(vector))).tolist()
 
 
 ENGINES = (PhysxJoints(),)

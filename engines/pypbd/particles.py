@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from engines.engine import CAPABILITIES, LINEAR_SPRINGS, changed, refuse_beyond
+from engines.vectors import three
 from reference.errors import Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -109,9 +110,9 @@ class PbdSimulation:
         simulation.setModel(model)
         self._particles = particles = model.getParticles()
         for i, x in enumerate(system.positions):
-            particles.addVertex(_three(x))
+            particles.addVertex(three(x))
             particles.setMass(i, 0.0 if system.fixed[i] else float(system.masses[i]))
-            particles.setVelocity(i, _three(system.velocities[i]))
+            particles.setVelocity(i, three(system.velocities[i]))
         for j, (a, b) in enumerate(system.springs.tolist()):
             if not (system.fixed[a] and system.fixed[b]):
                 model.addDistanceConstraint_XPBD(a, b, float(system.stiffness[j]))
@@ -122,10 +123,6 @@ class PbdSimulation:
         stepper.setValueUInt(controller.MAX_ITERATIONS, self._engine.sweeps)
         pbd.TimeManager.getCurrent().setTimeStepSize(self._dt)
         self._step = partial(stepper.step, model)
-
-
-def _three(vector: Array) -> Array:
-    return np.pad(vector, (0, 3 - len(vector)))
 
 
 ENGINES = (PbdParticles(), PbdParticles("pypbd_xpbd_substeps", substeps=5, sweeps=1))

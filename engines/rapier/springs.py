@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from engines.engine import LINEAR_SPRINGS, Precision, changed, refuse_beyond
+from engines.vectors import three
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
@@ -93,7 +94,7 @@ class RapierSimulation:
 
     def _begin(self) -> None:
         rapier, system = self._rapier, self._system
-        self._world = rapier.PhysicsWorld(gravity=_three(system.gravity))
+        self._world = rapier.PhysicsWorld(gravity=three(system.gravity))
         parameters = self._world.integration_parameters
         parameters.dt, parameters.num_solver_iterations = self._dt, self._engine.substeps
         parameters.normalized_max_linear_velocity = FASTEST
@@ -106,17 +107,13 @@ class RapierSimulation:
 
     def _body(self, i: int) -> Any:
         rapier, system = self._rapier, self._system
-        place = _three(system.positions[i])
+        place = three(system.positions[i])
         if system.fixed[i]:
             return rapier.RigidBody.fixed().translation(place)
         mass = float(system.masses[i])
-        body = rapier.RigidBody.dynamic().translation(place).linvel(_three(system.velocities[i]))
+        body = rapier.RigidBody.dynamic().translation(place).linvel(three(system.velocities[i]))
         body = body.additional_mass(mass).linear_damping(system.drag / mass).can_sleep(False)
         return body.locked_axes(rapier.LockedAxes.ROTATION_LOCKED)
-
-
-def _three(vector: Array) -> tuple[float, ...]:
-    return tuple(np.pad(vector, (0, 3 - len(vector))).tolist())
 
 
 ENGINES = (RapierSprings(), RapierSprings("rapier_springs_once", substeps=1))
