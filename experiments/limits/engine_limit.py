@@ -89,7 +89,8 @@ def measure_at_random(
     own_rest = rest_of_engine(stepper.engine, system, rest)
     if isinstance(own_rest, Outcome):
         return own_rest
-    asked = (stepper.engine, *perturbed(system, own_rest), dt, precision)
+    size = SIZE[precision_of(stepper.engine)]
+    asked = (stepper.engine, *perturbed(system, own_rest, size), dt, precision)
     return stepper.isolate(limit_of_engine, *asked, time_limit=2 * stepper.time_limit)
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, Unsupported, refuse_beyond
+from engines.engine import CAPABILITIES, Precision, Unsupported, refuse_beyond
 from reference.obstacles import project_out
 from reference.springs.nonlinear_law import secant_stiffness, stretches
 from reference.state import Array
@@ -169,6 +169,19 @@ class ChangesAllAlike(KickDrift):
         super().change(parameter, first)
 
 
+class RoundsToSingle(KickDrift):
+    """Honest, in single precision."""
+
+    def step(self) -> None:
+        """Advance by dt, and round."""
+        super().step()
+        self.x[:], self.v[:] = self.x.astype(np.float32), self.v.astype(np.float32)
+
+
+class OneMassInSingle(RoundsToSingle, OneMassForAll):
+    """In single precision gives all masses the first one's mass."""
+
+
 class RefusesEverything(KickDrift):
     """Can do whatever it is asked, so it says, and refuses all of it."""
 
@@ -233,3 +246,10 @@ class Doctored:
         if self.refuses:
             refuse_beyond(self, system)
         return self.simulation(system, dt)
+
+
+@dataclass(frozen=True)
+class DoctoredSingle(Doctored):
+    """The same, which says that it computes in single precision."""
+
+    precision: Precision = "single"
