@@ -49,3 +49,20 @@ def axes_of(vectors: Array) -> Axes:
 def vectors_of(axes: Axes, like: Array) -> Array:
     """The reverse of `axes_of`, in the shape of an array."""
     return np.stack(np.broadcast_arrays(*axes, like[..., 0])[:-1], axis=-1)
+
+
+def downwards(gravity: Array, dimension: int) -> Array:
+    """A single number g [m/s^2] as a vector along the vertical axis; others as they are.
+
+    Along a line a list of one number is such a vector already, and points upwards where it is positive.
+    """
+    if gravity.size != 1 or (dimension == 1 and gravity.ndim == 1):
+        return gravity
+    vector = np.zeros(dimension)
+    vector[vertical_axis(dimension)] = -float(gravity.item())
+    return vector
+
+
+def vertical_axis(dimension: int) -> int:
+    """The axis that points upwards: the second; along a line, the one there is."""
+    return min(1, dimension - 1)

@@ -41,6 +41,17 @@ def refuse_below(name: str, array: Array, unit: str, above_zero: bool) -> None:
         refuse(name, array, array < SMALLEST, f"a number of at least {SMALLEST:g} [{unit}]")
 
 
+def truths(name: str, value: npt.ArrayLike, of_each: str) -> npt.NDArray[np.bool_]:
+    """True or false for each of something. Raises InputError for anything else."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # lists of unequal lengths
+        array = np.zeros(0)
+    if array.dtype != bool:
+        raise InputError(f"{name} = {value!r}: expected true or false for each {of_each}")
+    return array
+
+
 def check_sizes(name: str, value: npt.ArrayLike, divided_by: bool = False) -> None:
     """Refuse numbers above LARGEST, or where something is divided by them, below SMALLEST. Raises InputError."""
     array = np.asarray(value, dtype=np.float64)

@@ -11,7 +11,18 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from reference.checked_numbers import LARGEST, SMALLEST, check_sizes, finite, in_range, refuse, refuse_below, shaped
+from reference.axes import downwards, vertical_axis
+from reference.checked_numbers import (
+    LARGEST,
+    SMALLEST,
+    check_sizes,
+    finite,
+    in_range,
+    refuse,
+    refuse_below,
+    shaped,
+    truths,
+)
 from reference.checked_springs import BoolArray as BoolArray
 from reference.checked_springs import IntArray as IntArray
 from reference.checked_springs import checked_springs, refuse_together
@@ -44,10 +55,13 @@ HELD = {"hold": True, "release": False}
 #: And to springs: from then on they are gone.
 BREAK = "break"
 
-#: Those of them that are fields by another name.
+#: Those of the parameters that are fields by another name.
 FIELDS = {"mass": "masses", "rest_length": "rest_lengths"}
 
-#: Which of them cannot be zero, or less.
+#: The fields that have an entry for every spring.
+OF_SPRINGS = ("springs", "rest_lengths", "stiffness", "damping", "broken")
+
+#: Which parameters cannot be zero, or less.
 ABOVE_ZERO = ("mass",)
 NOT_BELOW_ZERO = ("rest_length", "stiffness", "damping", "drag")
 
@@ -76,6 +90,7 @@ class MassSpringSystem:
         collisions: which masses are round and collide with one another; None where none do.
         pulls: constant forces on the masses [N], shape (n, d); zero unless given. What is fixed does not feel its own.
         angular_springs: what resists bending at a mass; None where nothing does.
+        broken: which springs are gone for good, shape (s,): no parameter that is set later brings one back.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.
@@ -96,6 +111,7 @@ class MassSpringSystem:
     collisions: Collisions | None = None
     pulls: Array = field(default_factory=lambda: np.zeros(1))
     angular_springs: AngularSprings | None = None
+    broken: BoolArray = field(default_factory=lambda: np.zeros(1, dtype=bool))
 
     def __post_init__(self) -> None:
         positions = finite("positions", self.positions, "m")
@@ -114,10 +130,11 @@ class MassSpringSystem:
             "rest_lengths": in_range("rest_lengths", self.rest_lengths, (s,), "m"),
             "stiffness": in_range("stiffness", self.stiffness, (s,), "N/m"),
             "damping": in_range("damping", self.damping, (s,), "N s/m"),
-            "gravity": shaped("gravity", _downwards(gravity, d), (d,)),
+            "gravity": shaped("gravity", downwards(gravity, d), (d,)),
             "velocities": shaped("velocities", finite("velocities", self.velocities, "m/s"), (n, d)),
             "pulls": shaped("pulls", pulls, (n, d)),
-            "fixed": shaped("fixed", _truths("fixed", self.fixed), (n,)),
+            "fixed": shaped("fixed", truths("fixed", self.fixed, "mass"), (n,)),
+            "broken": shaped("broken", truths("broken", self.broken if np.any(self.broken) else False, "spring"), (s,)),
         }
         object.__setattr__(self, "drag", float(in_range("drag", self.drag, (), "N s/m")))
         for name, array in checked.items():
@@ -148,7 +165,7 @@ class MassSpringSystem:
     @property
     def vertical_axis(self) -> int:
         """The axis that points upwards: the second; along a line, the one there is."""
-        return _vertical_axis(self.dimension)
+        return vertical_axis(self.dimension)
 
     @property
     def size(self) -> float:
@@ -256,6 +273,10 @@ class MassSpringSystem:
             array[which] = 0.0
             array.flags.writeable = False
             object.__setattr__(changed, name, array)
+        gone = self.broken.copy()
+        gone[which] = True
+        gone.flags.writeable = False
+        object.__setattr__(changed, "broken", gone)
         if self.nonlinear is not None:
             object.__setattr__(changed, "nonlinear", self.nonlinear.without(which))
         return changed
@@ -274,8 +295,10 @@ class MassSpringSystem:
         )
         if array.size != 1 and array.shape != (count,):
             raise InputError(f"{name} has {array.size} numbers: expected one, or one for each of {count} {what}")
-        spread = _downwards(array, count) if name == "gravity" else array.reshape(-1)
+        spread = downwards(array, count) if name == "gravity" else array.reshape(-1)
         whole = np.array(np.broadcast_to(spread, (count,)))
+        if name in ("stiffness", "damping"):
+            whole[self.broken] = 0.0
         whole.flags.writeable = False
         return whole
 
@@ -313,7 +336,7 @@ class MassSpringSystem:
 
     def with_springs_reversed(self) -> MassSpringSystem:
         """The same system with its springs listed from the last to the first."""
-        backwards = {name: getattr(self, name)[::-1] for name in ("springs", "rest_lengths", "stiffness", "damping")}
+        backwards = {name: getattr(self, name)[::-1] for name in OF_SPRINGS}
         law = self.nonlinear
         return replace(self, **backwards, nonlinear=law and law.of(slice(None, None, -1)))
 
@@ -323,7 +346,7 @@ class MassSpringSystem:
 
     def of_spring(self, j: int) -> MassSpringSystem:
         """The same masses with one of the springs, as it is."""
-        one = {name: getattr(self, name)[j : j + 1] for name in ("springs", "rest_lengths", "stiffness", "damping")}
+        one = {name: getattr(self, name)[j : j + 1] for name in OF_SPRINGS}
         return replace(self, **one, nonlinear=self.nonlinear and self.nonlinear.of(slice(j, j + 1)))
 
     def to_dict(self) -> dict[str, Any]:
@@ -333,8 +356,9 @@ class MassSpringSystem:
         for name in ("nonlinear", "collisions", "angular_springs"):
             given = values.pop(name)
             values |= {name: given.to_dict()} if given else {}
-        if not self.pulls.any():
-            del values["pulls"]
+        for name in ("pulls", "broken"):
+            if not values[name].any():
+                del values[name]
         return {name: v.tolist() if isinstance(v, np.ndarray) else v for name, v in values.items()}
 
 
@@ -359,29 +383,3 @@ def _given(name: str, value: Any, expected: type[T]) -> T:
     if not isinstance(value, expected):
         raise InputError(f"{name} = {value!r}: expected {expected.__name__}, or None")
     return value
-
-
-def _downwards(gravity: Array, dimension: int) -> Array:
-    """A single number g [m/s^2] as a vector along the vertical axis; others as they are.
-
-    Along a line a list of one number is such a vector already, and points upwards where it is positive.
-    """
-    if gravity.size != 1 or (dimension == 1 and gravity.ndim == 1):
-        return gravity
-    vector = np.zeros(dimension)
-    vector[_vertical_axis(dimension)] = -float(gravity.item())
-    return vector
-
-
-def _vertical_axis(dimension: int) -> int:
-    return min(1, dimension - 1)
-
-
-def _truths(name: str, value: npt.ArrayLike) -> BoolArray:
-    try:
-        array = np.asarray(value)
-    except ValueError:  # lists of unequal lengths
-        array = np.zeros(0)
-    if array.dtype != bool:
-        raise InputError(f"{name} = {value!r}: expected true or false for each mass")
-    return array

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from reference.checked_numbers import LARGEST, in_range, refuse, shaped
+from reference.checked_numbers import LARGEST, in_range, refuse, shaped, truths
 from reference.errors import InputError
 from reference.state import Array
 
@@ -57,7 +57,9 @@ class NonlinearSprings:
 
     def checked(self, count: int) -> NonlinearSprings | None:
         """The same with one number for each of so many springs, read-only; None where all of them are linear."""
-        values: dict[str, Any] = {name: _truths(name, getattr(self, name), count) for name in ONE_SIDED}
+        values: dict[str, Any] = {
+            name: shaped(name, truths(name, getattr(self, name), "spring"), (count,)) for name in ONE_SIDED
+        }
         values["hardening"] = in_range("hardening", self.hardening, (count,), "N/m^3")
         for name, unit in (("largest_force", "N"), ("breaking_force", "N"), ("breaking_stretch", "m")):
             values[name] = _limits(name, getattr(self, name), count, unit)
@@ -133,13 +135,6 @@ _LINEAR = NonlinearSprings()
 
 def _given(name: str, array: Array) -> bool:
     return bool((array > 0).any() if name == "hardening" else np.isfinite(array).any())
-
-
-def _truths(name: str, value: npt.ArrayLike, count: int) -> BoolArray:
-    array = np.asarray(value)
-    if array.dtype != bool:
-        raise InputError(f"{name} = {value!r}: expected true or false for each spring")
-    return np.asarray(shaped(name, array, (count,)))
 
 
 def _limits(name: str, value: npt.ArrayLike, count: int, unit: str) -> Array:

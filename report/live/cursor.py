@@ -33,6 +33,7 @@ def with_cursor(system: MassSpringSystem, mass: int, place: Array) -> MassSpring
         rest_lengths=np.append(system.rest_lengths, length),
         stiffness=np.append(system.stiffness, stiffness),
         damping=np.append(system.damping, 0.0),
+        broken=np.append(system.broken, False),
         nonlinear=system.nonlinear and system.nonlinear.followed_by_linear(1),
     )
 

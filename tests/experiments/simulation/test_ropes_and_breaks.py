@@ -81,6 +81,17 @@ def test_the_lower_end_of_a_falling_slinky_waits_for_the_wave() -> None:
     assert lowest[1] < hung - 0.1 * length
 
 
+def test_a_stiffness_that_is_set_later_brings_back_no_spring() -> None:
+    """In the reference and in engines: spring 0 is gone, and carries nothing at the end."""
+    scene = ["chain", "--set=masses=5", "--set=breaking_force=1.5", "--change=0.15:stiffness=210", "--duration=0.3"]
+    runs = run_of(*scene, "--stepper=drift_kick", "--stepper=pymunk_springs")
+    for run in runs:
+        assert run["breaks"][0]["spring"] == 0
+        assert run["breaks"][0]["time_s"] < 0.15
+        assert run["spring_forces_n"][0] == 0.0
+        assert np.array(run["positions_m"]) == pytest.approx(np.array(runs[0]["positions_m"]), abs=1e-12)
+
+
 def test_the_summary_names_what_broke() -> None:
     """And says none where nothing did."""
     said = springlab("simulate", "chain", "--set", "masses=3", "--set", "breaking_force=0.7", "--duration", "0.3")

@@ -95,3 +95,21 @@ def test_springs_are_broken_on_purpose_and_may_then_be_of_any_length() -> None:
     ]
     same = simulate(system, find("rk4"), 1e-3, 0.5, gone)
     assert (outcome.trajectory.positions[:501] == same.positions).all()
+
+
+def test_what_is_gone_is_gone_whatever_is_set_later() -> None:
+    """A change, or a ramp, of all springs' stiffness and damping brings back none: what is below falls on freely.
+
+    The springs that are left have the new values.
+    """
+    system = find_scene("chain").system({"masses": 5, "breaking_force": 0.8})
+    dt, later = 1e-3, (Change(0.15, "stiffness", 250.0), Change(0.16, "damping", 0.1))
+    run = simulate(system, find("drift_kick"), dt, 0.3, later)
+    broke = breaks_of(system, run, dt, later)
+    assert broke[0].time < 0.15
+    assert broke[0].value == (0.0,)
+    centre = run.positions[:, 1:, 0].mean(axis=1)
+    assert np.diff(centre, 2)[160:] == pytest.approx(np.full(139, -9.81 * dt**2), rel=1e-6)
+    left = system.with_parameter(BREAK, [0]).with_parameter("stiffness", 250.0).with_parameter("damping", 0.1)
+    assert left.stiffness.tolist() == [0.0, 250.0, 250.0, 250.0, 250.0]
+    assert left.damping.tolist() == [0.0, 0.1, 0.1, 0.1, 0.1]
