@@ -216,6 +216,8 @@ def _told(exercise: Exercise, question: Question) -> dict[str, Any]:
 
 def _repairs(source: str, group: Sequence[Question], found: Mapping[str, Any]) -> list[Repair]:
     """The changes with these numbers; none where there is no such number."""
+    if not found["repairs"]:
+        return []
     tree = without_main(parsed(source))
     edits = edits_of(tree, fields_given([question.asked() for question in group]))
     made = []

@@ -49,7 +49,7 @@ RULES_IN_C = """
 
 Your file is a C file; `exercise.h` beside it says what your function is given. What is `string.masses` above is
 `string->masses` there, and what is to be returned you write into what you are given, as `exercise.h` says of your
-function. It is compiled by the system's compiler as C11 (`cc -Wall`), and what that warns of is worth reading. Your
+function: in C this stands in place of what the text says of leaving it as it is. It is compiled by the system's compiler as C11 (`cc -Wall`), and what that warns of is worth reading. Your
 function may use C's own library for computing, nothing else: no files are written, no programs started, nothing is read
 from the keyboard.
 """
@@ -216,6 +216,7 @@ class Exercise:
         return [[self.canonical(question, part) for part in step] for step in answer]
 
 
+@cache
 def _takes(solution: Callable[..., Any], name: str) -> bool:
     accepted = inspect.signature(solution).parameters
     return name in accepted or any(p.kind is p.VAR_KEYWORD for p in accepted.values())

@@ -50,6 +50,8 @@ def springs(
         pairs += [
             (a, b) for i, (a, b) in enumerate(zip(line, line[skip:], strict=False)) if i % columns >= columns - skip
         ]
+    if ends == "bend, where there is a next row":
+        pairs += [(i, i + 2) for i in range((rows - 1) * columns) if i % columns >= columns - 2]
     if ends == "closed":
         pairs += [(int(row[-1]), int(row[0])) for row in grid]
     if begun != "everywhere":
@@ -181,11 +183,12 @@ EXERCISE = Exercise(
             {"ends": "next row"},
             {"ends": "both to the next row"},
         ),
-        mistake(
+        *mistakes(
             "bend_to_the_next_row",
             "The last two masses of each row have bend springs to the first two of the next.",
             "Which masses have no next but one on the right?",
-            ends="bend to the next row",
+            {"ends": "bend to the next row"},
+            {"ends": "bend, where there is a next row"},
         ),
         mistake(
             "rows_are_rings",
