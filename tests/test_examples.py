@@ -38,6 +38,26 @@ def test_examples_give_what_they_say(name: str) -> None:
     assert found.failed == 0
 
 
+#: The pages with programs that import the public module.
+PAGES = [
+    str(file.relative_to(ROOT))
+    for file in (ROOT / "README.md", *sorted((ROOT / "report" / "docs").glob("*.md")))
+    if "import springlab" in file.read_text(encoding="utf-8")
+]
+
+
+@pytest.mark.rotating(3)
+@pytest.mark.parametrize("page", PAGES)
+def test_programs_of_the_pages_run(page: str) -> None:
+    """Each from its beginning; what a comment behind a line says it gives, it gives."""
+    programs = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
+    for program in (p for p in programs if "import springlab" in p):
+        names: dict[str, object] = {}
+        exec(compile(program, page, "exec"), names)
+        for line, said in re.findall(r"^(\S.*?)  # ('.*'|[\d.]+)$", program, re.MULTILINE):
+            assert repr(eval(line, names)) == said
+
+
 def test_an_example_that_is_wrong_is_seen() -> None:
     """Shown to fail."""
     wrong = doctest.DocTestParser().get_doctest(">>> 1 + 1\n3\n", {}, "wrong", None, None)
