@@ -101,8 +101,14 @@ def interpreter_for(arguments: Sequence[Any]) -> Path | None:
 
 
 def in_this_process(function: Callable[..., T], *arguments: Any, time_limit: float = TIME_LIMIT) -> T | Outcome:
-    """What a function returns, called here: for what cannot travel to another process. There is no limit on it."""
-    return function(*arguments)
+    """What a function returns, called here: for what cannot travel to another process. There is no limit on it.
+
+    What a user's own step does that no step may ends it as an outcome, as it does elsewhere.
+    """
+    try:
+        return function(*arguments)
+    except Fault as error:
+        return Outcome("crashed", one_line(str(error)))
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,7 @@ from engines.engine import Engine, Simulation
 from engines.line import started
 from engines.process.available import interpreter
 from engines.process.worker import NoAnswerError, NotStartedError, Worker
-from engines.process.worker_main import one_line
-from reference.errors import Fault, InputError, Unsupported
+from reference.errors import InputError, Unsupported
 from reference.outcome import Outcome
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
@@ -121,19 +120,14 @@ def begin(engine: Engine, system: MassSpringSystem, dt: float) -> Outcome | None
         _under_way.append(started(engine, system, dt))
     except (Unsupported, InputError) as error:
         return Outcome("unsupported", str(error))
-    except Fault as error:
-        return Outcome("crashed", one_line(str(error)))
     return None
 
 
-def advance(steps: int) -> tuple[Array, Array] | Outcome:
+def advance(steps: int) -> tuple[Array, Array]:
     """A number of steps of the simulation under way, and where it is then."""
     (simulation,) = _under_way
-    try:
-        for _ in range(steps):
-            simulation.step()
-    except Fault as error:
-        return Outcome("crashed", one_line(str(error)))
+    for _ in range(steps):
+        simulation.step()
     return simulation.state()
 
 

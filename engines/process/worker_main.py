@@ -17,7 +17,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
-from reference.errors import Unsupported
+from reference.errors import Fault, Unsupported
 from reference.outcome import Outcome
 
 if sys.platform == "linux":
@@ -77,6 +77,8 @@ def _do(connection: Connection, message: bytes, folder: Path) -> None:
         answer = pickle.dumps(function(*arguments))
     except Unsupported as error:
         answer = pickle.dumps(Outcome("unsupported", str(error)))
+    except Fault as error:  # it says what it is itself
+        answer = pickle.dumps(Outcome("crashed", one_line(str(error))))
     except Exception as error:
         answer = pickle.dumps(Outcome("crashed", f"{type(error).__name__}: {one_line(str(error))}"))
     finally:

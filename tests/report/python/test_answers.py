@@ -281,6 +281,8 @@ def test_a_function_that_fails_is_an_outcome_and_ends_nothing() -> None:
     run = lab.simulate("string", leaves, **QUICK)[0]
     assert (run.outcome, run.reason.split(": ")[-1]) == ("crashed", "SystemExit")
     assert ", line " in run.reason
+    (row,) = lab.stability("oscillator", leaves).document
+    assert row["outcome"] == "crashed"
     calls: list[int] = []
 
     def counts(x: Any, v: Any, dt: float, system: Any) -> Any:
