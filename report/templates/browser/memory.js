@@ -21,7 +21,7 @@ function memoryOf(system) {
   for (const name of ["masses", "divisor"]) room(name, n);
   for (const name of ["rest_lengths", "stiffness", "damping"]) room(name, s);
   room("sign", 2 * s); room("forces", s * d); room("gravity", d); room("drag", 1); room("room", ROOMS * n * d);
-  list("springs", 2 * s); list("first", n + 1); list("spring", 2 * s); list("fixed", n);
+  list("springs", 2 * s); list("first", n + 1); list("spring", 2 * s); list("fixed", n); list("broken", s);
   const F = new Float64Array(doubles), I = new Int32Array(whole), memory = {F, I, at};
   F.set(spread(system.positions, n * d), at.x); F.set(spread(system.velocities, n * d), at.v);
   F.set(spread(system.masses, n), at.masses);
@@ -65,7 +65,14 @@ function setParameter(memory, name, value) {
     F[begin + Math.min(1, at.d - 1)] = -value;
   } else if (Array.isArray(value)) F.set(value, begin);
   else F.fill(value, begin, begin + count);
+  if (name === "stiffness" || name === "damping") breakSprings(memory, []);
   derive(memory);
+}
+
+// Springs that are gone for good, and those that were before: no parameter brings one back.
+function breakSprings({F, I, at}, springs) {
+  for (const j of springs) I[at.broken + j] = 1;
+  for (let j = 0; j < at.s; j++) if (I[at.broken + j]) F[at.stiffness + j] = F[at.damping + j] = 0;
 }
 
 // Masses held where they are, or let go from rest.

@@ -30,7 +30,7 @@ function applyChanges(world) {
 function applyChange(memory, parameter, value) {
   const which = [value].flat();
   if (parameter === "hold" || parameter === "release") hold(memory, which, parameter === "hold");
-  else if (parameter === "break") for (const name of ["stiffness", "damping"]) for (const j of which) memory.F[memory.at[name] + j] = 0;
+  else if (parameter === "break") breakSprings(memory, which);
   else setParameter(memory, parameter, value);
 }
 

@@ -26,6 +26,7 @@ from experiments.runs.task import Task, digest
 from reference.changes import Change
 from reference.collisions.round_masses import Collisions
 from reference.obstacles import Circle
+from reference.springs.angular import AngularSprings
 from reference.springs.kinds import NonlinearSprings
 from tests.experiments.runs import tasks
 from tests.experiments.runs.tasks import STRING, numbered, stepped
@@ -219,7 +220,11 @@ def test_equal_tasks_have_equal_keys_in_every_process(tmp_path: Path) -> None:
 
 
 #: What a plain string has none of.
-GIVEN = {"nonlinear": NonlinearSprings(hardening=np.array([1.0])), "collisions": Collisions(np.array([1e-3]))}
+GIVEN = {
+    "nonlinear": NonlinearSprings(hardening=np.array([1.0])),
+    "collisions": Collisions(np.array([1e-3])),
+    "angular_springs": AngularSprings(np.array([[0, 1, 2]]), np.array([1.0])),
+}
 
 CHANGED = {
     **{

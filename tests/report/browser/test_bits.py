@@ -91,6 +91,7 @@ def test_changes_on_the_fly_act_on_the_same_steps() -> None:
         Change(0.025, "hold", (1.0,)),
         Change(0.03, "release", (1.0,)),
         Change(0.032, "break", (0.0,)),
+        Change(0.034, "stiffness", 90.0),  # not of what is gone
     ]
     question = {"ask": "run", "system": system_data(system), "scheme": "heun", "dt": 1e-3, "steps": STEPS}
     (answer,) = ask([{**question, "changes": changes_data(changes)}])
