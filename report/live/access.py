@@ -17,6 +17,7 @@ from urllib.parse import urlsplit
 
 from reference.errors import InputError
 from report.live.messages import LARGEST, well_formed
+from report.live.title import titled
 
 #: What everyone calls this machine, and itself only.
 OWN_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})
@@ -84,7 +85,7 @@ def guarded(policy: AccessPolicy) -> Iterator[None]:
 
     def serve_guarded(*arguments: Any, process_request: Any, **named: Any) -> Any:
         def answer(connection: Any, request: Any) -> Any:
-            return _refusal(policy, connection, request) or process_request(connection, request)
+            return _refusal(policy, connection, request) or titled(process_request(connection, request))
 
         named |= {"process_request": answer, "create_connection": Connection, "max_size": LARGEST}
         return serve(*arguments, **named)

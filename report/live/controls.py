@@ -12,7 +12,7 @@ from report.live.deferred_removal import DeferredRemoval
 from report.live.events import handler
 from report.live.host import Host
 from report.live.lab import Lab
-from report.live.markup import banner, copyable
+from report.live.markup import banner, copyable, legend
 from report.live.number_slider import NumberSlider
 from report.live.parameters import GRAVITIES, PRESETS, Slider, sliders
 from report.live.prediction import MS
@@ -52,6 +52,7 @@ class Controls:
         self._again = client.gui.add_button("Start again", visible=False)
         self._again.on_click(self._on(lambda _: self._start_again()))
         self._status = client.gui.add_html("")
+        self._legend = client.gui.add_html("")
         self._add_run()
         self._add_scene()
         self._parameters = client.gui.add_folder("Parameters")
@@ -75,8 +76,8 @@ class Controls:
         gui, host = self._gui, self._host
         with gui.add_folder("Run"):
             gui.add_button_group("", ("Play", "Pause", "Step", "Reset")).on_click(self._on(self._run))
-            self._back = gui.add_slider("back [s]", min=0.0, max=10.0, step=0.05, initial_value=0.0)
-            self._back.on_update(self._on(lambda seconds: host.lab.rewind(seconds)))
+            self._back = gui.add_slider("back [s]", min=0.0, max=10.0, step=0.01, initial_value=0.0)
+            self._back.on_update(self._on(self._rewind))
             NumberSlider(self._client, "speed [s of the scene in 1 s]", 1.0, 0.01, 10.0, host.do, self._set_speed)
             most = gui.add_slider("steps a frame, at most", min=1, max=2000, step=1, initial_value=1000)
             most.on_update(self._on(lambda steps: host.lab.set_most_steps(int(steps))))
@@ -203,6 +204,7 @@ class Controls:
             self._number_sliders["dt"].show(lab.timeline.dt / MS)
             self._number_sliders["dt"].mark([(limit, f"▲ {limit:.3g}") for limit in limits[:2]])
         self._status.content = banner(status(lab, company), "#0072b2")
+        self._legend.content = legend(lab.timeline.steppers, self._host.stage.strain_shown)
         self._show_notice(lab.notice)
         self._suggested = suggestion(lab)
         self._again.visible = self._suggested is not None
@@ -230,6 +232,11 @@ class Controls:
             lab.advance(1)
         elif what == "Reset":
             lab.reset()
+
+    def _rewind(self, seconds: float) -> None:
+        """There may have been other lanes then."""
+        self._host.lab.rewind(seconds)
+        self._show_lanes(self._host.lab)
 
     def _set_speed(self, value: float) -> None:
         self._host.lab.set_speed(value)

@@ -67,11 +67,11 @@ class History:
             self._bytes -= self._moments.popleft().bytes
 
     def back(self, seconds: float) -> Moment | None:
-        """The moment that many seconds before the last one, or the first there is; None where there is none."""
+        """The moment that many seconds of the scene before the last, or the first; None where there is none."""
         if not self._moments:
             return None
-        then = self._moments[-1].clock - seconds
-        return next((m for m in self._moments if m.clock >= then - 1e-9), self._moments[-1])
+        then = self._moments[-1].time - seconds
+        return next((m for m in reversed(self._moments) if m.time <= then + 1e-9), self._moments[0])
 
     def forget_after(self, clock: float) -> None:
         """What came after a time of the clock [s] has not happened."""

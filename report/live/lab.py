@@ -111,7 +111,7 @@ class Lab:
         self.timeline.advance(steps, budget, self.speed)
 
     def rewind(self, seconds: float) -> None:
-        """Pause, and show the moment that many seconds before the last one; what is done next is done there.
+        """Pause, and show the moment that many seconds of the scene before the last; what is done next is done there.
 
         Raises:
             InputError: unless it is a number.
@@ -119,6 +119,7 @@ class Lab:
         _check("back", seconds, 0.0, math.inf, "s")
         self.playing = False
         self.timeline.rewind(seconds)
+        self._steppers = self.timeline.steppers
         self._ask()
 
     # What people change.

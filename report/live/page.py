@@ -112,6 +112,7 @@ class Page:
         self.controls = Controls(self._client, self)
         self._plots = Plots(self._client, self.controls.room_for_plots, self.controls.removal)
         self.renew()
+        # a viewer is here once their page has drawn a picture: a tab in the background has not
         self.lab.play()
 
     def _frames(self) -> None:

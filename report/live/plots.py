@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from reference.state import Array
+from report.live.colours import LANE_COLOURS
 from report.live.deferred_removal import DeferredRemoval
 from report.live.recorder import Recorder
-from report.live.stage import LANE_COLOURS
 
 if TYPE_CHECKING:
     from viser import ClientHandle

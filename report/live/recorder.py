@@ -32,6 +32,16 @@ class Recorder:
     def __len__(self) -> int:
         return len(self._rows)
 
+    def take(self, names: Sequence[str]) -> None:
+        """Other lanes from now on: of a new one nothing is known before, and it begins as the first one did."""
+        more = len(names) - len(self.names)
+        if more:
+            keep, unknown = 2 + 3 * min(len(names), len(self.names)), (np.nan,) * 3 * max(more, 0)
+            rows = ((*row[:keep], *unknown) for row in self._rows)
+            self._rows = deque(rows, maxlen=FRAMES)
+            self._first = (*self._first[:keep], *self._first[2:5] * max(more, 0))
+        self.names = tuple(names)
+
     def record(
         self, clock: float, time: float, lanes: Sequence[Lane], reference: State | None, system: MassSpringSystem
     ) -> None:

@@ -1,4 +1,4 @@
-"""The scene in the browser: springs coloured by strain, masses in their lane's colour, obstacles."""
+"""The scene in the browser: springs and masses in their lane's colour, obstacles, and what drives the scene."""
 
 from __future__ import annotations
 
@@ -12,26 +12,24 @@ from reference.line import in_plane, obstacle_in_plane, on_line
 from reference.obstacles import Obstacle
 from reference.state import Array, State
 from reference.system import IntArray, MassSpringSystem
-from report.film.drawing import STRAIN_COLOURS, nice, strain
-from report.live.framing import Window, camera, side_by_side
+from report.film.drawing import nice, strain
+from report.live.colours import FIXED_COLOUR, LANE_COLOURS, TRUE_COLOUR, as_light, of_strain
+from report.live.driven_shapes import DrivenShapes
+from report.live.framing import Window, box, camera, side_by_side
 
 if TYPE_CHECKING:
     from viser import ClientHandle
 
     from report.live.timeline import Timeline
 
-#: Of the lanes, told apart by everyone (Okabe and Ito); and of the true motion.
-LANE_COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115), (204, 121, 167))
-TRUE_COLOUR = (150, 150, 150)
-
-#: A fixed mass.
-FIXED_COLOUR = (40, 40, 40)
-
 #: Masses of more than these are dots too small to grab: they are drawn smaller.
 FEW = 200
 
 #: What the panels on both sides take of the width [px]; on screens narrower than that they cover a part of the height.
 PANELS, NARROW, COVERED = 720, 576, 0.6
+
+#: How far what nothing holds moves before the camera goes along, as a part of its size.
+FOLLOWED = 0.05
 
 #: They leave at least this [px].
 LEAST = 200
@@ -47,6 +45,7 @@ class Stage:
 
     Attributes:
         beside: whether lanes are side by side, and not one over the other.
+        strain_shown: the strain at which a spring has the full colour of its lane.
         show_true: whether the true motion is shown, where it is known.
     """
 
@@ -59,24 +58,31 @@ class Stage:
         self._nodes: list[tuple[Any, Any]] = []
         self._others: list[Any] = []
         self._true: Any = None
-        self._most = 0.1
+        self._driven: list[DrivenShapes] = []
+        self._followed: Array | None = None
+        self._first = self._looked_at = np.zeros(3)
+        self.strain_shown = 0.1
         self._wide: bool | None = None
-        self._ramp = _ramp()
 
     def show(self, timeline: Timeline) -> None:
         """The present state."""
         system, lanes = timeline.system, timeline.lanes
-        key = (timeline.opened, system.springs.shape, system.positions.shape, system.obstacles, len(lanes), self.beside)
+        shapes = system.springs.shape, system.positions.shape
+        key = (timeline.opened, *shapes, system.obstacles, timeline.steppers, self.beside)
         with self._client.atomic():
             if self._key != key:
-                self._build(system, [lane.state for lane in lanes])
+                self._build(timeline, [lane.state for lane in lanes])
                 self._key = key
             for i, (lane, (lines, balls)) in enumerate(zip(lanes, self._nodes, strict=True)):
                 places = _places(system, lane.state)
                 lines.points = places[system.springs]
                 lines.colors = self._colours(system, lane.state, i)
                 balls.batched_positions = places
+            for lane, driven in zip(lanes, self._driven, strict=True):
+                driven.show(system, lane.state)
             self._show_true(system, timeline.reference.state)
+            if not system.fixed.any():
+                self._follow(np.mean([_places(system, lane.state).mean(axis=0) for lane in lanes], axis=0))
 
     def repaint(self, timeline: Timeline) -> None:
         """Masses may have been pinned or let go."""
@@ -92,20 +98,38 @@ class Stage:
             width -= PANELS * (width > PANELS + LEAST)
         return Window(seen.fov, width / height, 0.0 if self._wide else COVERED)
 
-    def _build(self, system: MassSpringSystem, states: Sequence[State]) -> None:
+    def _follow(self, centre: Array) -> None:
+        """What nothing holds falls out of the picture: the camera goes along, once it is some way off."""
+        if self._followed is None:
+            self._followed = self._first = centre
+        if FOLLOWED * self._size < np.linalg.norm(centre - self._followed) < 1e3 * self._size:
+            self._followed, seen = centre, self._client.camera
+            # what the viewer's page says of its camera comes late: kept of it is only from where it looks
+            from_where = np.array(seen.position) - np.array(seen.look_at)
+            with suppress(ValueError):  # as in `_build`
+                seen.look_at = self._looked_at + centre - self._first
+                seen.position = seen.look_at + from_where
+                seen.look_at = self._looked_at + centre - self._first
+
+    def _build(self, timeline: Timeline, states: Sequence[State]) -> None:
         """All that is seen, anew, and the camera before it."""
+        system, self._followed = timeline.system, None
         for node in [*(node for pair in self._nodes for node in pair), *self._others]:
             node.remove()
-        self._nodes, self._others, self._true = [], [], None
-        self._most = _strains_to_show(system)
+        self._nodes, self._others, self._true, self._driven = [], [], None, []
+        self.strain_shown, self._size = _strains_to_show(system), system.size
         window, count = self._window(), len(states)
         shifts = side_by_side(system, count, window) if self.beside else np.zeros((count, 3))
         for i, (state, shift) in enumerate(zip(states, shifts, strict=True)):
             self._build_lane(system, state, i, shift)
+            self._add_name(system, timeline.steppers[i], i, shift)
+            self._driven.append(DrivenShapes(self._client, f"/lane{i}", timeline.opened, shift))
+            self._others += self._driven[-1].nodes
         seen = self._client.camera
         with suppress(ValueError):  # from where a viewer looks at nothing, as their page has said, it is left there
             seen.up_direction = (0.0, 1.0, 0.0)
-            seen.position, seen.look_at = camera(system, shifts, window)
+            place, self._looked_at = camera(system, shifts, window)
+            seen.position, seen.look_at = place, self._looked_at
 
     def _build_lane(self, system: MassSpringSystem, state: State, i: int, shift: Array) -> None:
         """Springs, masses and obstacles of lane i, moved by a shift (3,) [m]."""
@@ -136,6 +160,16 @@ class Stage:
         drawn = (self._obstacle(f"/lane{i}/obstacle{k}", o, shift) for k, o in enumerate(obstacles))
         self._others += [node for node in drawn if node is not None]
 
+    def _add_name(self, system: MassSpringSystem, name: str, i: int, shift: Array) -> None:
+        """Above a lane side by side; of lanes over one another the legend has the names."""
+        if not self.beside:
+            return
+        low, high = box(system)
+        place = shift + np.array([(low[0] + high[0]) / 2, high[1], 0.0])
+        self._others.append(
+            self._client.scene.add_label(f"/lane{i}/name", name, position=place, anchor="bottom-center")
+        )
+
     def _listen(self, balls: Any, shift: Array, dimension: int) -> None:
         # Coroutines, so that they are told in the order in which it was done: see `events`.
         async def drag(event: Any) -> None:
@@ -161,18 +195,19 @@ class Stage:
         points = (_places(system, state) - [0, 0, 0.02 * system.size * flat])[system.springs]
         if self._true is None:
             self._true = self._client.scene.add_line_segments(
-                "/true", points=points, colors=TRUE_COLOUR, thickness=5.0 if flat else 1.5, thickness_units="screen"
+                "/true",
+                points=points,
+                colors=as_light(TRUE_COLOUR),
+                thickness=5.0 if flat else 1.5,
+                thickness_units="screen",
             )
             self._others.append(self._true)
         self._true.visible, self._true.points = True, points
 
     def _colours(self, system: MassSpringSystem, state: State, i: int) -> Any:
-        """Of the springs' ends: by strain; a lane that lies over the first has its own colour."""
-        if i and not self.beside:
-            return np.broadcast_to(np.array(LANE_COLOURS[i], dtype=np.uint8), (len(system.springs), 2, 3))
-        part = strain(system, state.positions[: len(system.masses)]) / (2 * self._most) + 0.5
-        index = (np.clip(np.nan_to_num(part), 0, 1) * (len(self._ramp) - 1)).astype(np.intp)
-        return np.repeat(self._ramp[index][:, None], 2, axis=1)
+        """Of the springs' ends: the lane's, by strain."""
+        strains = strain(system, state.positions[: len(system.masses)])
+        return np.repeat(as_light(of_strain(strains, self.strain_shown, i))[:, None], 2, axis=1)
 
     def _obstacle(self, name: str, obstacle: Obstacle, shift: Array) -> Any:
         """As what can be seen of it; None for a kind that has no shape here."""
@@ -208,16 +243,8 @@ def _strains_to_show(system: MassSpringSystem) -> float:
     return float(np.clip(nice(max(float(np.median(stretch)) / share, 1e-6)), 1e-5, 1.0))
 
 
-def _ramp() -> Any:
-    """256 colours from pushed together to pulled apart, shape (256, 3)."""
-    places = [place for place, _ in STRAIN_COLOURS]
-    colours = np.array([[int(c[i : i + 2], 16) for i in (1, 3, 5)] for _, c in STRAIN_COLOURS])
-    at = np.linspace(0, 1, 256)
-    return np.stack([np.interp(at, places, colours[:, i]) for i in range(3)], axis=1).astype(np.uint8)
-
-
 def _ball_colours(system: MassSpringSystem, i: int) -> Any:
-    return np.where(system.fixed[:, None], FIXED_COLOUR, LANE_COLOURS[i]).astype(np.uint8)
+    return as_light(np.where(system.fixed[:, None], FIXED_COLOUR, LANE_COLOURS[i]))
 
 
 def _ball(radius: float) -> tuple[Array, IntArray]:

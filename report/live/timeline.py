@@ -153,12 +153,12 @@ class Timeline:
         self._begin([lane.state for lane in self.lanes])
 
     def set_steppers(self, steppers: tuple[str, ...]) -> None:
-        """Others take over; a lane more begins where the first one is. What came before cannot be gone back to."""
+        """Others take over; a lane more begins where the first one is."""
         self.resume()
         states = [lane.state for lane in self.lanes]
         self.steppers = steppers
         self._begin([states[i] if i < len(states) else states[0] for i in range(len(steppers))])
-        self._history, self.recorder = History(), Recorder(steppers)
+        self.recorder.take(steppers)
         self._record()
 
     def grab(self, mass: int, place: Array) -> None:
@@ -200,7 +200,10 @@ class Timeline:
     # Back, and on from there.
 
     def rewind(self, seconds: float) -> None:
-        """Show the moment that many seconds before the last one; nothing is lost until it goes on from there."""
+        """Show the moment that many seconds of the scene before the last one, with the lanes there were then.
+
+        Nothing is lost until it goes on from there.
+        """
         moment = self._history.back(seconds)
         if moment is None:
             return
@@ -208,6 +211,9 @@ class Timeline:
         self.clock, self.time, self.dt = moment.clock, moment.time, moment.segment.dt
         self.system, self.stepped, self.grabbed = moment.system, moment.stepped, moment.grabbed
         self.segment, self.reference.state = moment.segment, moment.reference
+        if self.steppers != moment.segment.steppers:
+            self.steppers = moment.segment.steppers
+            self._start_lanes(moment.states)
         for lane, state in zip(self.lanes, moment.states, strict=True):
             lane.state = state
 
@@ -218,6 +224,7 @@ class Timeline:
         self.in_past = False
         self._history.forget_after(self.clock)
         self.recorder.forget_after(self.clock)
+        self.recorder.take(self.steppers)
         self._pending = self._scene_changes(since=self.time)
         self._start_lanes([lane.state for lane in self.lanes])
 

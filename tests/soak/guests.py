@@ -35,6 +35,7 @@ class Guest:
     Args:
         address: of the lab.
         origin: where its page says it was loaded from; None for a client that says nothing.
+        looks: whether its page has been drawn, as that of a tab in the background has not.
 
     Attributes:
         messages: how many have been read.
@@ -43,7 +44,7 @@ class Guest:
         notices: what was said for a while.
     """
 
-    def __init__(self, address: str, origin: str | None = OWN) -> None:
+    def __init__(self, address: str, origin: str | None = OWN, looks: bool = True) -> None:
         import viser
         from websockets.sync.client import connect
 
@@ -58,7 +59,8 @@ class Guest:
             max_size=None,
             compression=None,
         )
-        self.send(**CAMERA)
+        if looks:
+            self.send(**CAMERA)
         self._thread = threading.Thread(target=self._read, daemon=True)
         self._thread.start()
 
@@ -94,7 +96,7 @@ class Guest:
         return self.parts[label]
 
     def wait_for(self, words: str) -> None:
-        """Until the panel has shown them last."""
+        """Until a banner of the panel has shown them last."""
         self.once(lambda: words in self.shown)
 
     def wait_for_notice(self, words: str) -> None:
@@ -138,7 +140,8 @@ class Guest:
         if message["type"] == "NotificationShowMessage":
             self.notices.append(properties["body"])
         content = message.get("updates", {}).get("content") or properties.get("content")
-        self.shown = content if isinstance(content, str) else self.shown
+        if isinstance(content, str) and "role=" in content:  # a banner, and not the legend
+            self.shown = content
 
 
 if __name__ == "__main__":

@@ -55,14 +55,13 @@ def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:
 def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
     """Going on from there gives what came before again; the parameters of then are back, and the command knows."""
     lab = open_lab(labs, "string", ["heun", "pymunk_springs"])
-    seen, clocks = [], []
+    seen = []
     for i in range(60):
         if i == 30:
             lab.set_parameter("stiffness", 100.0)
         lab.advance(16)
         seen.append((lab.timeline.time, [lane.state for lane in lab.timeline.lanes]))
-        clocks.append(lab.timeline.clock)
-    lab.rewind(lab.timeline.clock - clocks[20])
+    lab.rewind(lab.timeline.time - seen[20][0])
     at = next(i for i, (time, _) in enumerate(seen) if time == lab.timeline.time)
     assert at == 20
     assert lab.timeline.system.stiffness[0] == 200.0
@@ -74,16 +73,43 @@ def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
     assert apart(lab.timeline.lanes[0].state, last["heun"]) <= ROUNDING
 
 
+def test_a_lane_that_is_added_leaves_the_past_as_it_was(labs: list[Lab]) -> None:
+    """After a blow-up, too: one goes back to before it, to the lanes there were then, and on from there with these."""
+    lab = open_lab(labs, "string", ["kick_drift"])
+    seen = []
+    for _ in range(20):
+        lab.advance(10)
+        seen.append(lab.timeline.lanes[0].state)
+    lab.set_dt(0.02)
+    while not lab.timeline.lanes[0].stopped:
+        lab.advance(10)
+    lab.set_steppers(["kick_drift", "rk4"])
+    times, numbers = lab.timeline.recorder.last(100.0, 10_000)
+    assert numbers.shape[:2] == (len(times), 2)
+    assert len(times) > 20
+    assert np.isnan(numbers[:-1, 1]).all()
+    assert np.isfinite(lab.timeline.recorder.begin[1, 0])
+    lab.rewind(lab.timeline.time - 0.1)
+    assert lab.timeline.steppers == ("kick_drift",)
+    assert apart(lab.timeline.lanes[0].state, seen[9]) == 0
+    lab.rewind(0.0)
+    assert lab.timeline.steppers == ("kick_drift", "rk4")
+    lab.rewind(lab.timeline.time - 0.1)
+    lab.advance(10)
+    assert [lane.name for lane in lab.timeline.lanes] == ["kick_drift"]
+    assert lab.timeline.recorder.names == ("kick_drift",)
+
+
 def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: list[Lab]) -> None:
     """A truck crosses: from half-way, it crosses the second half twice, to the last bit the same."""
     lab = open_lab(labs, "crossing")
     for _ in range(40):
         lab.advance(10)
-    clock = lab.timeline.clock
+    half = lab.timeline.time
     for _ in range(40):
         lab.advance(10)
     end = lab.timeline.lanes[0].state
-    lab.rewind(lab.timeline.clock - clock)
+    lab.rewind(lab.timeline.time - half)
     assert lab.timeline.time == pytest.approx(0.4)
     lab.advance(400)
     assert apart(lab.timeline.lanes[0].state, end) == 0

@@ -53,6 +53,19 @@ def guest(lab: LiveServer) -> Iterator[Guest]:
     found.leave()
 
 
+def test_nothing_moves_before_somebody_looks(lab: LiveServer, guest: Guest) -> None:
+    """A tab in the background draws no picture: its scene is not there yet, and begins once it is looked at."""
+    before = set(lab.pages)
+    waiting = Guest(lab.address, looks=False)
+    waiting.once(lambda: waiting.messages > 0)
+    assert set(lab.pages) == before
+    waiting.send(**CAMERA)
+    waiting.wait_for("t = ")
+    assert len(lab.pages) == len(before) + 1
+    waiting.leave()
+    guest.once(lambda: set(lab.pages) == before)
+
+
 @pytest.mark.parametrize(("part", "value", "said"), WRONG_VALUES, ids=lambda value: str(value)[:20])
 def test_a_wrong_value_is_a_notice_and_the_page_lives_on(
     lab: LiveServer, guest: Guest, part: str, value: Any, said: str
