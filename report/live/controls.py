@@ -52,7 +52,6 @@ class Controls:
         self._again = client.gui.add_button("Start again", visible=False)
         self._again.on_click(self._on(lambda _: self._start_again()))
         self._status = client.gui.add_html("")
-        self._legend = client.gui.add_html("")
         self._add_run()
         self._add_scene()
         self._parameters = client.gui.add_folder("Parameters")
@@ -60,6 +59,8 @@ class Controls:
         self._add_take_away()
         self._plots_panel = client.gui.add_panel()
         self._plots_tab = self._plots_panel.add_tab("Plots")
+        with self._plots_tab:
+            self._legend = client.gui.add_html("", order=-1.0)
         self._plots_panel.dock_left()
         self._plots_panel.set_width(340)
 
