@@ -125,6 +125,7 @@ def written_out(system: MassSpringSystem, state: State) -> str:
     now = system.to_dict() | {"positions": state.positions.tolist(), "velocities": state.velocities.tolist()}
     obstacles, law, angular = now.pop("obstacles"), now.pop("nonlinear", {}), now.pop("angular_springs", {})
     now |= now.pop("collisions", {})
+    broken = np.flatnonzero(now.pop("broken", [])).tolist()
     now["fixed"] = np.flatnonzero(system.fixed).tolist()
     lines = ["[system]", *(f"{key} = {json.dumps(value)}" for key, value in now.items())]
     for key, values in law.items():
@@ -134,6 +135,8 @@ def written_out(system: MassSpringSystem, state: State) -> str:
         lines += ["", "[[angular_springs]]", f"masses = {masses}", f"{stiffness = }", f"{rest_angle = }"]
     for obstacle in obstacles:
         lines += ["", "[[obstacles]]", *(f"{key} = {json.dumps(value)}" for key, value in obstacle.items())]
+    if broken:  # no parameter that changes later brings one back
+        lines += ["", "[[changes]]", "time = 0.0", 'parameter = "break"', f"value = {broken}"]
     return "\n".join([*lines, ""])
 
 

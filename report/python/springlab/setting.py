@@ -126,7 +126,8 @@ def system(positions: Any, springs: Any, *, masses: Any, stiffness: Any, **other
         stiffness: k [N/m], shape (s,).
         others: what else a table [system] of a scene file may have: rest_lengths [m], as long as the springs are where
             left out; damping [N s/m] along springs; drag [N s/m] on masses; gravity [m/s^2], a number downwards, 9.81
-            where left out; velocities [m/s], shape (n, d); fixed, the numbers of masses that never move.
+            where left out; velocities [m/s], shape (n, d); fixed, the numbers of masses that never move;
+            angular_stiffness [N m/rad], of an angular spring at every mass where two springs meet.
 
     Raises:
         InputError: naming the field, the index, the value, and what was expected.

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from reference.changes import Change
 from reference.files.scene_file import load
 from reference.scenes import find as find_scene
 from reference.state import Array
@@ -155,3 +156,16 @@ def test_a_scene_with_some_of_everything_is_read_again(tmp_path: Path) -> None:
     system = find_scene("string").system(settings)
     (tmp_path / "out.toml").write_text(written_out(system, system.start))
     assert load(tmp_path / "out.toml", {}).system.to_dict() == system.to_dict()
+
+
+def test_a_system_that_resists_bending_is_written_out_and_so_is_what_broke(tmp_path: Path) -> None:
+    """Its file makes the same system; a spring that is gone is broken at once there, for good."""
+    string = find_scene("string").system({"masses": 3, "angular_stiffness": "0.1,0.2"})
+    (tmp_path / "bent.toml").write_text(written_out(string, string.start))
+    again = load(tmp_path / "bent.toml", {})
+    assert again.system.to_dict() == string.to_dict()
+    torn = string.with_parameter("break", [1])
+    (tmp_path / "torn.toml").write_text(written_out(torn, torn.start))
+    setup = load(tmp_path / "torn.toml", {})
+    assert setup.changes == (Change(0.0, "break", (1.0,)),)
+    assert setup.systems_at([1])[0].to_dict() == torn.to_dict()
