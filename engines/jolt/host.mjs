@@ -18,6 +18,7 @@ function begin() {
   settings.mObjectLayerPairFilter = filter;
   settings.mBroadPhaseLayerInterface = broad;
   settings.mObjectVsBroadPhaseLayerFilter = new Jolt.ObjectVsBroadPhaseLayerFilterTable(broad, 1, filter, 1);
+  if (world) Jolt.destroy(world);
   world = new Jolt.JoltInterface(settings);
   physics = world.GetPhysicsSystem();
 }

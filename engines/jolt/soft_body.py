@@ -89,7 +89,7 @@ class JoltSimulation:
     def __init__(self, engine: JoltSoftBody, system: MassSpringSystem, dt: float) -> None:
         self._engine, self._system = engine, system
         self._node = _node()
-        weakref.finalize(self, _end, self._node)
+        weakref.finalize(self, _IDLE.append, self._node)
         self._moved = np.flatnonzero(~system.fixed[system.springs].all(axis=1))
         rows = {"positions": system.positions, "velocities": np.where(system.fixed[:, None], 0.0, system.velocities)}
         self._ask(
@@ -148,18 +148,21 @@ class JoltSimulation:
         return json.loads(line)
 
 
+#: Processes whose simulation is no more: they are used again, as starting one takes a third of a second.
+_IDLE: list[subprocess.Popen[str]] = []
+
+
 def _node() -> subprocess.Popen[str]:
     """Node, with the package that is beside this Python. Raises Unsupported where there is no Node."""
+    while _IDLE:
+        idle = _IDLE.pop()
+        if idle.poll() is None:
+            return idle
     try:
         command = ["node", str(HOST), str(Path(sys.prefix) / PACKAGE)]
         return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     except FileNotFoundError:
         raise Unsupported("Jolt runs under Node: expected node on the path") from None
-
-
-def _end(node: subprocess.Popen[str]) -> None:
-    node.kill()
-    node.wait()
 
 
 ENGINES = (JoltSoftBody(), JoltSoftBody("jolt_soft_body_once", substeps=1))

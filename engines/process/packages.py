@@ -39,7 +39,7 @@ APART: Mapping[str, Package] = {
     "drake": Package("1.51.1", "pydrake"),
     "pyPBD": Package("2.2.2", "pypbd"),
     "newton": Package("1.8.0", "newton", beside=("warp-lang==1.19.0",), start_up=180.0),
-    "sapien": Package("3.0.3", "sapien"),
+    "sapien": Package("3.0.3", "sapien", beside=("setuptools<81",)),  # 3.0.2 imports it
     "dartpy": Package("6.20.0", "dartpy"),
     "jolt-physics": Package("1.1.0", "jolt-physics", npm=True),
     "mujoco-warp": Package("4.0.0", "mujoco_warp", start_up=400.0),
