@@ -117,8 +117,10 @@ def test_no_mistake_can_be_taken_for_another(exercise: Exercise, key: str | None
 
 @ALL
 def test_every_mistake_has_words_and_a_hint_that_tells_no_number(exercise: Exercise) -> None:
-    """A sentence each; names are made for tables; at least ten mistakes for each exercise."""
-    assert len({m.name for m in exercise.mistakes}) >= 10
+    """A sentence each; names are made for tables, and of one name there is one hint; at least ten for each exercise."""
+    names = {m.name for m in exercise.mistakes}
+    assert len(names) >= 10
+    assert len({(m.name, m.hint) for m in exercise.mistakes}) == len(names)
     for mistake in exercise.mistakes:
         assert mistake.name.isidentifier()
         assert mistake.words[0].isupper()
