@@ -294,7 +294,17 @@ def test_a_function_that_fails_is_an_outcome_and_ends_nothing() -> None:
     assert {Path(warning.filename) for warning in caught} == {Path(__file__)}
 
 
-@pytest.mark.parametrize("given", [test_a_page_is_written_and_says_what_was_found, print, len, {"a": 1}, lab], ids=str)
+#: No step: a function without arguments, two of Python's own, a table, a module.
+NO_STEPS = {
+    "a test": test_a_page_is_written_and_says_what_was_found,
+    "print": print,
+    "len": len,
+    "dict": {},
+    "lab": lab,
+}
+
+
+@pytest.mark.parametrize("given", NO_STEPS.values(), ids=NO_STEPS)
 def test_what_is_no_step_is_refused_in_one_short_line(given: Any) -> None:
     """What has no hash is refused as well."""
     for call in (lambda it: lab.identify(it), lambda it: lab.simulate("string", it)):
