@@ -85,7 +85,7 @@ def test_what_angular_springs_carry_is_told(tmp_path: Path) -> None:
     beam = str(tmp_path / "beam.toml")
     at_rest = json.loads(springlab("modes", beam, "--json").out)
     (after,) = json.loads(
-        springlab("simulate", beam, "--json", "--stepper=backward_euler", "--dt=0.01", "--duration=8").out
+        springlab("simulate", beam, "--json", "--stepper=backward_euler", "--dt=0.05", "--duration=8").out
     )["runs"]
     for told, x in ((at_rest, at_rest["equilibrium_m"]), (after, after["positions_m"])):
         out = x[2][0] - 0.3

@@ -134,7 +134,7 @@ def test_a_bent_pair_swings_as_two_arms_against_one_another() -> None:
     thrown = replace(system, velocities=start)
 
     def check(scheme: Any) -> None:
-        run = simulate(thrown, scheme, 1e-3, 1.0)
+        run = simulate(thrown, scheme, 2e-3, 0.5)
         bend = bends(angular_of(system), run.positions)[:, 0]
         w = np.sqrt(OF_BEND)
         size = 1e-5 * (1 / (0.2 * 0.3**2) + 1 / (0.3 * 0.4**2)) / w
@@ -198,21 +198,21 @@ def test_a_cantilever_that_bends_little_does_as_its_linear_solution() -> None:
 
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_what_is_free_keeps_energy_and_both_momenta(dimension: int) -> None:
-    """A wire thrown into the air: momenta to rounding, RK4's energy to (w dt)^4 over 600 steps."""
+    """A wire thrown into the air: momenta to rounding, RK4's energy to (w dt)^4 over 300 steps."""
     wire = find_scene("string").system({"masses": 5, "gravity": 0.0})
     x = np.pad(wire.positions, ((0, 0), (0, dimension - 2)))
     v = 0.3 * np.random.default_rng(3).normal(size=x.shape)
     loose = replace(wire, positions=x, velocities=v, gravity=np.zeros(dimension), fixed=np.zeros(6, dtype=bool))
     free = with_bending(loose, 0.02)
-    run = simulate(free, find("rk4"), 5e-4, 0.3)
+    run = simulate(free, find("rk4"), 1e-3, 0.3)
     assert np.abs(bends(angular_of(free), run.positions)).max() > 0.2
     first, last = run.states()[0], run.states()[-1]
     assert momentum(free, last) == pytest.approx(momentum(free, first), abs=1e-13)
     assert angular_momentum(free, last) == pytest.approx(angular_momentum(free, first), abs=1e-8)
     energy = energies(free, run)
-    assert np.ptp(energy) < 1e-5 * energy[0]
+    assert np.ptp(energy) < 1e-4 * energy[0]
     wrong = energies(free, simulate(free, heun_without_half, 5e-4, 0.05))
-    assert np.ptp(wrong) > 1e-5 * wrong[0]  # shown to fail
+    assert np.ptp(wrong) > 1e-2 * wrong[0]  # shown to fail
 
 
 def test_one_mass_alone_is_given_the_bits_it_has_within_the_whole() -> None:

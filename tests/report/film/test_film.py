@@ -124,7 +124,7 @@ def test_what_blows_up_leaves_the_picture_and_changes_nothing_for_the_others() -
 
 def test_a_spring_that_is_broken_is_drawn_no_more() -> None:
     """From the step after it broke on, in its own panel; what it would be stretched by has no part in the colours."""
-    setup = find("chain").setup({"masses": 5, "breaking_force": 0.8})
+    setup = find("chain").setup({"masses": 5, "breaking_force": 0.8}, duration=0.25)
     breaking, soft = (catalogued()[name] for name in ("kick_drift", "euler"))
     made = film(compare(setup, [breaking, soft]), ["kick_drift", "euler"])
     times = []
