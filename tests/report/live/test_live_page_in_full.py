@@ -33,7 +33,7 @@ def at_rest(visitor: Visitor) -> Visitor:
 
 
 def test_the_past_can_be_gone_back_to(visitor: Visitor) -> None:
-    """By seconds as they were seen, while it is paused; then it goes on from there."""
+    """By seconds of the scene, while it is paused; then it goes on from there."""
     visitor.wait_until(2.0)
     visitor.pause()
     end = visitor.time
