@@ -51,8 +51,8 @@ class Effort:
     Where the mistake has a name already no pairs are tried, and single changes for this share of the time.
     """
 
-    singles: float = 2.5
-    pairs: float = 1.5
+    singles: float = 1.7
+    pairs: float = 0.7
     named: float = 1.0
 
 
