@@ -48,18 +48,13 @@ def rest_of_engine(engine: Engine, system: MassSpringSystem, rest: Equilibrium) 
     return pendulum_equilibrium(system)
 
 
-def perturbed(
-    system: MassSpringSystem, rest: Equilibrium, size: float = PERTURBATION
-) -> tuple[Array, MassSpringSystem]:
+def perturbed(system: MassSpringSystem, rest: Equilibrium) -> tuple[Array, MassSpringSystem]:
     """Where all masses are at rest [m], and the system with every free mass (or angle) moved a little, at random.
 
     What nothing holds falls steadily there.
-
-    Args:
-        size: as a part of the shortest spring.
     """
     x = rest.state.positions.copy()
-    x[rest.free] += size * rest.scale * np.random.default_rng(0).standard_normal(x[rest.free].shape)
+    x[rest.free] += PERTURBATION * rest.scale * np.random.default_rng(0).standard_normal(x[rest.free].shape)
     states = [rest.state, State(0.0, x, np.zeros_like(x))]
     at_rest, moved = rest.motion.trajectory(states).positions
     return at_rest, replace(system, positions=moved, velocities=falling_velocities(system))

@@ -22,11 +22,7 @@ from experiments.engine_versions.versions import (
     measure_versions,
     where_it_changed,
 )
-from experiments.limits.engine_limit import measure_at_random
 from reference.errors import InputError
-from reference.limit import Limit
-from reference.scenes import find as find_scene
-from reference.theory.equilibria import spring_equilibrium
 from report.figures import draw
 from report.figures.versions import MARK
 from tests.conformance import doctored
@@ -128,18 +124,6 @@ def test_what_single_precision_rounds_breaks_no_capability() -> None:
     assert [capability(rounding, name) for name in ("masses", "damping")] == ["kept"] * 2
     assert capability(EngineStepper(DoctoredSingle(doctored.OneMassInSingle)), "masses").startswith("broken: ")
     assert capability(EngineStepper(Doctored(doctored.RoundsToSingle)), "masses").startswith("broken: ")
-
-
-def test_in_single_precision_a_limit_is_measured_from_larger_perturbations() -> None:
-    """Of semi-implicit Euler with drag, 2 masses on springs; from 1e-6 of a length rounding would read as growth.
-
-    h^2 w^2 + 2 r h < 4 with r = Cd/m and w^2 = 4 k/m sin^2(3 pi/10) of two masses in a row, to a thousandth.
-    """
-    system = find_scene("string").system({"masses": 2, "drag": 0.1, "angle": 90.0})
-    stepper, square = EngineStepper(DoctoredSingle(doctored.RoundsToSingle)), 4e4 * np.sin(0.3 * np.pi) ** 2
-    found = measure_at_random(stepper, system, spring_equilibrium(system), 5e-3, 1e-3)
-    assert isinstance(found, Limit)
-    assert found.dt == pytest.approx((np.sqrt(25 + 4 * square) - 5) / square, rel=5e-3)
 
 
 @pytest.mark.usefixtures("no_limits")

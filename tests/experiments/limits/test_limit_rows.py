@@ -7,7 +7,7 @@ import pytest
 from engines.engine import Engine, demands, registry, version
 from engines.process.isolation import EngineStepper
 from engines.process.packages import APART
-from experiments.limits.engine_limit import measure_engine
+from experiments.limits.engine_limit import HIDDEN, measure_engine
 from experiments.limits.limit_rows import Row, stability_rows
 from experiments.limits.predictions import Predictions
 from reference.lecture.listings import listings
@@ -17,7 +17,7 @@ from reference.schemes import catalogue
 from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
-from tests.conformance.doctored import Doctored, KickDrift
+from tests.conformance.doctored import Doctored, DoctoredSingle, KickDrift, RoundsToSingle
 
 #: Limits are measured to 1e-4 of themselves, and growth of 8e-4 in a step is seen: together below a thousandth.
 TOLERANCE = 1e-3
@@ -116,6 +116,21 @@ def test_a_limit_that_is_not_where_it_is_expected_is_found_as_exactly() -> None:
     assert predicted.dt is not None
     assert found.dt == pytest.approx(predicted.dt / 1.01**0.5, rel=1e-4)
     assert found.dt != pytest.approx(predicted.dt, rel=1e-3)
+
+
+def test_where_rounding_hides_growth_nothing_is_measured() -> None:
+    """An engine in single precision that is not identified: there is no mode to run along, and so no limit, and why.
+
+    The same engine in double precision has one, from random perturbations.
+    """
+    system = find("string").system({"masses": 2, "angle": 90.0})
+    predictions, unknown = Predictions(system, spring_equilibrium(system)), Limit(None, "not identified")
+    found = measure_engine(EngineStepper(DoctoredSingle(RoundsToSingle)), predictions, None, unknown)
+    assert isinstance(found, Limit)
+    assert (found.dt, found.reason) == (None, HIDDEN)
+    in_double = measure_engine(EngineStepper(Doctored()), predictions, None, unknown)
+    assert isinstance(in_double, Limit)
+    assert in_double.dt is not None
 
 
 def test_a_listing_is_unsupported_with_its_reason() -> None:
