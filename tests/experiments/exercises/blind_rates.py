@@ -1,6 +1,7 @@
 """Rates on programs of people who had only texts and starters: passed, refused, and led by which way.
 
-Two samples, kept apart: `blind`, which the checker has been mended by since, and `blind2`, written after that.
+Three samples, kept apart: `blind`, which the checker has been mended by since; `blind2`, written after that by somebody
+who had seen some of the first one's list; and `blind3`, by somebody who had seen nothing but texts and starters.
 
 python -m tests.experiments.exercises.confusion --blind
 """
@@ -45,18 +46,23 @@ class Program:
 
 def _samples() -> Mapping[str, list[Program]]:
     first = tomllib.loads((HERE / "blind" / "expected.toml").read_text(encoding="utf-8"))
-    second = tomllib.loads((HERE / "blind2" / "expected.toml").read_text(encoding="utf-8"))
     return {
         "blind": [
             Program(HERE / "blind" / name, name, kind == "right", words)
             for kind, entries in first.items()
             for name, words in entries.items()
         ],
-        "blind2": [
-            Program(HERE / "blind2" / name, name, e["kind"] == "right", e["words"], tuple(e["lines"]))
-            for name, e in second.items()
-        ],
+        "blind2": _with_lines(HERE / "blind2"),
+        "blind3": _with_lines(HERE / "blind3"),
     }
+
+
+def _with_lines(folder: Path) -> list[Program]:
+    entries = tomllib.loads((folder / "expected.toml").read_text(encoding="utf-8"))
+    return [
+        Program(folder / name, name, entry["kind"] == "right", entry["words"], tuple(entry["lines"]))
+        for name, entry in entries.items()
+    ]
 
 
 #: The programs of each sample.

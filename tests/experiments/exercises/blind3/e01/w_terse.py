@@ -1,0 +1,19 @@
+"""Exercise 1: one mass on a spring, by Euler's step. Run me: python euler.py."""
+
+from types import SimpleNamespace
+
+EXERCISE = 1
+
+
+def step(y, v, dt, spring):
+    s = spring
+    a = s.stiffness / s.mass * (-y - s.rest_length) - s.gravity - s.damping * v
+    return y + v * dt, v + a * dt
+
+
+if __name__ == "__main__":
+    spring = SimpleNamespace(mass=0.05, stiffness=50.0, rest_length=0.15, damping=0.0, gravity=9.81)
+    y, v = -0.2, 0.0
+    for i in range(10):
+        print(f"t = {0.005 * i:.3f} s   y = {y:.5f} m   v = {v:.5f} m/s")
+        y, v = step(y, v, 0.005, spring)

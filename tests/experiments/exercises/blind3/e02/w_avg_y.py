@@ -1,0 +1,28 @@
+"""Exercise 2: one mass on a spring, by Heun's step. Run me: python heun.py."""
+
+from types import SimpleNamespace
+
+EXERCISE = 2
+
+
+def acc(y, v, s):
+    return (s.stiffness * (-y - s.rest_length) - s.damping * v) / s.mass - s.gravity
+
+
+def step(y, v, dt, spring):
+    """From height y [m] and velocity v [m/s], those after dt [s]."""
+    k1y = v
+    k1v = acc(y, v, spring)
+    yg = y + dt * k1y
+    vg = v + dt * k1v
+    k2y = v
+    k2v = acc(yg, vg, spring)
+    return y + dt * (k1y + k2y) / 2, v + dt * (k1v + k2v) / 2
+
+
+if __name__ == "__main__":
+    spring = SimpleNamespace(mass=0.05, stiffness=50.0, rest_length=0.15, damping=0.0, gravity=9.81)
+    y, v = -0.2, 0.0
+    for i in range(10):
+        print(f"t = {0.005 * i:.3f} s   y = {y:.5f} m   v = {v:.5f} m/s")
+        y, v = step(y, v, 0.005, spring)

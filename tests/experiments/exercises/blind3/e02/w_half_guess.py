@@ -1,0 +1,30 @@
+"""Exercise 2: one mass on a spring, by Heun's step. Run me: python heun.py."""
+
+from types import SimpleNamespace
+
+EXERCISE = 2
+
+
+def force(y, v, spring):
+    up = spring.stiffness * (-y - spring.rest_length)
+    down = spring.mass * spring.gravity
+    return up - down - spring.damping * v
+
+
+def step(y, v, dt, spring):
+    """From height y [m] and velocity v [m/s], those after dt [s]."""
+    a_here = force(y, v, spring) / spring.mass
+    y_guess = y + v * dt
+    v_guess = v + a_here * dt
+    a_guess = force(y_guess, v, spring) / spring.mass
+    v_mean = 0.5 * (v + v_guess)
+    a_mean = 0.5 * (a_here + a_guess)
+    return y + v_mean * dt, v + a_mean * dt
+
+
+if __name__ == "__main__":
+    spring = SimpleNamespace(mass=0.05, stiffness=50.0, rest_length=0.15, damping=0.0, gravity=9.81)
+    y, v = -0.2, 0.0
+    for i in range(10):
+        print(f"t = {0.005 * i:.3f} s   y = {y:.5f} m   v = {v:.5f} m/s")
+        y, v = step(y, v, 0.005, spring)

@@ -1,0 +1,29 @@
+"""Exercise 7: the barrier. Run me: python barrier.py."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+EXERCISE = 7
+
+
+def push_out(x, v, circle):
+    """Positions x [m] and velocities v [m/s], shape (n, 2), after they have met the circle."""
+    x = x.copy()
+    v = v.copy()
+    d = x - circle.centre
+    r = np.linalg.norm(d, axis=1)
+    for i in np.flatnonzero(r < circle.radius):
+        n = d[i] / r[i]
+        t = np.array([-n[1], n[0]])
+        x[i] = circle.radius * n
+        if v[i] @ n < 0:
+            v[i] = abs(v[i] @ t) * t
+    return x, v
+
+
+if __name__ == "__main__":
+    circle = SimpleNamespace(centre=np.array([0.5, 0.0]), radius=0.3)
+    x = np.array([[0.5, 0.25], [0.3, 0.0], [0.0, 0.0]])
+    v = np.array([[0.5, -1.0], [0.5, -1.0], [0.5, -1.0]])
+    print(*push_out(x, v, circle), sep="\n")

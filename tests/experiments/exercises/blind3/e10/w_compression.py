@@ -1,0 +1,56 @@
+"""Exercise 10: the bridge. Run me: python bridge.py."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+EXERCISE = 10
+
+
+def heaviest(bridge):
+    """The number of the member with the largest force, and the force [N], positive in tension."""
+    j, m = len(bridge.joints), len(bridge.members)
+    A = np.zeros((2 * j, m + 3))
+    b = np.zeros(2 * j)
+    for k, (p, q) in enumerate(bridge.members):
+        d = bridge.joints[q] - bridge.joints[p]
+        u = d / np.linalg.norm(d)
+        A[2 * p : 2 * p + 2, k] = u
+        A[2 * q : 2 * q + 2, k] = -u
+    A[2 * bridge.pinned, m] = 1
+    A[2 * bridge.pinned + 1, m + 1] = 1
+    A[2 * bridge.roller + 1, m + 2] = 1
+    b[1::2] = -bridge.masses * bridge.gravity
+    T = np.linalg.solve(A, b)[:m]
+    k = int(np.argmax(np.abs(T)))
+    return k, T[k]
+
+
+def largest_dt(bridge):
+    """The largest stable dt [s] of kick-drift."""
+    j = len(bridge.joints)
+    K = np.zeros((2 * j, 2 * j))
+    for k, (p, q) in enumerate(bridge.members):
+        d = bridge.joints[q] - bridge.joints[p]
+        u = d / np.linalg.norm(d)
+        B = np.zeros(2 * j)
+        B[2 * p : 2 * p + 2] = -u
+        B[2 * q : 2 * q + 2] = u
+        K += bridge.stiffness[k] * np.outer(B, B)
+    free = [i for i in range(2 * j) if i // 2 != bridge.pinned and i != 2 * bridge.roller + 1]
+    M = np.repeat(bridge.masses, 2)
+    w2 = np.linalg.eigvals((K / M[:, None])[np.ix_(free, free)])
+    return 2 / np.sqrt(w2.real.max())
+
+
+if __name__ == "__main__":
+    bridge = SimpleNamespace(
+        joints=np.array([[0.0, 0.0], [3.0, 0.0], [6.0, 0.0], [1.5, 3.0], [4.5, 3.0]]),
+        members=np.array([[0, 1], [1, 2], [3, 4], [0, 3], [2, 4], [1, 3], [1, 4]]),
+        stiffness=np.full(7, 2e7),
+        masses=np.full(5, 1000.0),
+        gravity=9.81,
+        pinned=0,
+        roller=2,
+    )
+    print(heaviest(bridge), largest_dt(bridge))
