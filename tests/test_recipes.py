@@ -137,6 +137,7 @@ def recipes_commands(config: pytest.Config) -> Iterator[tuple[str, str]]:
                 yield name, command
 
 
+@pytest.mark.rotating(2)
 def test_a_scheme_of_every_recipe_goes_through_every_command(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     """Nothing but a new file in reference/schemes: listed, compared, identified, its limit found, mapped and swept."""
     folder = project_with_recipes(tmp_path)

@@ -88,6 +88,7 @@ def test_a_blow_up_is_told_and_is_the_schemes_own(engine: Engine) -> None:
     check_follows(engine, case, outcome)
 
 
+@pytest.mark.rotating(2)
 def test_a_quiet_string_is_stepped_to_the_end(engine: Engine) -> None:
     """Over 2.5 s with no mass as fast as 0.04 m/s the engine does not fall asleep, but follows its scheme.
 

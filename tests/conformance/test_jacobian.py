@@ -44,6 +44,7 @@ def check_factor(measured: float, scheme: str) -> None:
     assert measured == pytest.approx(predicted, rel=TOLERANCE)
 
 
+@pytest.mark.rotating(3)
 def test_an_engines_step_has_the_growth_factor_of_its_scheme(engine: Engine) -> None:
     """At a dt up to twice beyond the limit of most, where the factor is far from 1, and another for each scheme."""
     if precision(engine) == "single":

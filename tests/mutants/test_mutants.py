@@ -110,6 +110,7 @@ def test_a_sample_is_the_same_for_a_seed_and_without_equivalents(project: Path) 
     assert {m.kind for m in sample(project, ["reference"], 1000, 0)} == {"arithmetic", "factor", "whole number"}
 
 
+@pytest.mark.rotating(3)
 def test_a_sample_has_all_kinds_alike() -> None:
     """Whole numbers are as many as all others together, and would be what is looked at."""
     kinds = Counter(mutant.kind for mutant in sample(ROOT, ["reference"], 3 * len(KINDS), 0))

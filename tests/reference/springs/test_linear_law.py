@@ -142,6 +142,7 @@ def test_another_law_in_its_one_file_is_followed_everywhere(tmp_path: Path) -> N
     assert min(moved.values()) > 1e-5, moved
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     ("part", "wrong", "seen"),
     [

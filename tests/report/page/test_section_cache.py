@@ -63,6 +63,7 @@ def test_an_experiment_is_run_once_and_the_page_is_the_same(monkeypatch: pytest.
     assert rows(tmp_path / "store.sqlite", {}) == []  # a section is no run
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("what", ["sources", "versions"])
 def test_what_changes_the_answer_runs_it_again(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, what: str) -> None:
     """Another source, another version of a package."""
