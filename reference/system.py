@@ -264,7 +264,7 @@ class MassSpringSystem:
         return np.atleast_1d(np.asarray(getattr(self, FIELDS.get(parameter, parameter)), dtype=np.float64))
 
     def _broken(self, value: Value) -> MassSpringSystem:
-        """Springs that break have neither stiffness nor damping from then on, and are linear."""
+        """Springs that break have neither stiffness nor damping from then on, and are linear; their bends go, too."""
         broken = finite(BREAK, value, "springs' numbers").reshape(-1)
         refuse(BREAK, broken, ~np.isin(broken, range(len(self.springs))), f"a spring from 0 to {len(self.springs) - 1}")
         which, changed = broken.astype(int), copy(self)
@@ -279,6 +279,9 @@ class MassSpringSystem:
         object.__setattr__(changed, "broken", gone)
         if self.nonlinear is not None:
             object.__setattr__(changed, "nonlinear", self.nonlinear.without(which))
+        if self.angular_springs is not None:
+            left = self.angular_springs.without_broken_arms(self.springs, gone)
+            object.__setattr__(changed, "angular_springs", left)
         return changed
 
     def _checked_parameter(self, name: str, value: Value) -> Array | float:

@@ -107,10 +107,10 @@ def of_springs_at_rest(modes: Modes) -> Shown:
 
 
 def of_bends(system: MassSpringSystem, bends: Array, torques: Array, when: str) -> Shown:
-    """How far every angular spring is bent, and what it gives."""
+    """How far every angular spring is bent, and what it gives; one that went with a broken spring is gone."""
     masses = [] if system.angular_springs is None else system.angular_springs.masses.tolist()
     rows = [
-        [str(j), " - ".join(map(str, three)), float(bend), float(torque)]
+        [str(j), " - ".join(map(str, three)), "gone" if isnan(bend) else float(bend), float(torque)]
         for j, (three, bend, torque) in enumerate(zip(masses, bends, torques, strict=True))
     ]
     return Shown(f"Angular springs {when}", ["spring", "masses", "bend [rad]", "torque [N m]"], rows)

@@ -52,7 +52,8 @@ class Motion:
         end: its last state, shape (n, d).
         stretch: at the end, length less rest length of every spring [m], shape (s,).
         forces: at the end, tension positive [N], shape (s,); None where rods stand for springs.
-        bends, torques: at the end, of the angular springs [rad], [N m], shape (k,).
+        bends, torques: at the end, of the angular springs [rad], [N m], shape (k,); of those that went with a broken
+            spring the bend is not a number.
         energy_at_start, energy: kinetic, elastic, gravitational and total [J], at the start and at the end.
         momentum: at the end [kg m/s], shape (d,).
         sag: how far a mass came below where it started, at most.
@@ -207,12 +208,17 @@ def _motion(setup: Setup, motion: Trajectory, rods: bool, broken: Sequence[Chang
         tension = _larger(tension, part.force, times)
         compression = _larger(compression, -part.force, times)
         stretch, forces = part.stretch[-1], part.force[-1]
+    bend, torque = bends_and_torques(last.angular_springs, end.positions)
+    if first.angular_springs is not None and last.angular_springs is not None:
+        gone = (first.angular_springs.stiffness > 0) & (last.angular_springs.stiffness == 0)
+        bend[gone], torque[gone] = np.nan, 0.0
     return Motion(
         motion,
         end,
         stretch,
         None if rods else forces,
-        *bends_and_torques(setup.system.angular_springs, end.positions),
+        bend,
+        torque,
         energy_parts(first, motion.frames([0]).states()[0]),
         energy_parts(last, end),
         momentum(last, end),

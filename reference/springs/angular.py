@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from reference.checked_numbers import finite, in_range, refuse, shaped
-from reference.checked_springs import IntArray
+from reference.checked_springs import BoolArray, IntArray
 from reference.errors import InputError
 from reference.springs.angles import angles_between, arms_of
 from reference.state import Array
@@ -28,7 +28,7 @@ UNITS = {"stiffness": "N m/rad", "rest_angles": "rad"}
 class AngularSprings:
     """What resists bending at a mass: a torque proportional to the change of the angle there. It has no damping.
 
-    One number stands for all of them.
+    One number stands for all of them. One that bent between springs has no stiffness once such a spring is broken.
 
     Attributes:
         masses: three masses a, b, c each, shape (k, 3): the angle is at b, from a to c.
@@ -84,6 +84,23 @@ class AngularSprings:
     def renumbered(self, new_of_old: IntArray) -> AngularSprings:
         """The same with mass i as mass new_of_old[i]."""
         return AngularSprings(new_of_old[self.masses], self.stiffness, self.rest_angles)
+
+    def without_broken_arms(self, springs: IntArray, broken: BoolArray) -> AngularSprings:
+        """The same with no stiffness where an arm's masses were joined by springs, and all of these are broken.
+
+        Args:
+            springs: the two masses each joins, shape (s, 2).
+            broken: which of them are gone, shape (s,).
+        """
+        pairs = np.sort(springs, axis=1).tolist()
+        parted = {tuple(pair) for pair, gone in zip(pairs, broken, strict=True) if gone}
+        parted -= {tuple(pair) for pair, gone in zip(pairs, broken, strict=True) if not gone}
+        stiffness = self.stiffness.copy()
+        for j, (a, b, c) in enumerate(self.masses.tolist()):
+            if (min(a, b), max(a, b)) in parted or (min(b, c), max(b, c)) in parted:
+                stiffness[j] = 0.0
+        stiffness.flags.writeable = False
+        return AngularSprings(self.masses, stiffness, self.rest_angles)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists."""

@@ -54,6 +54,7 @@ def energy_of_bends(springs: AngularSprings, positions: Array) -> Array:
 
 def forces_on_masses(springs: AngularSprings, positions: Array) -> Array:
     """The forces of all angular springs on the masses [N], with masses at positions (n, d): shape (n, d)."""
+    springs = _with_stiffness(springs)
     first, last = arms_of(positions, springs.masses)
     e, f, _ = sideways(first, last)
     torque = np.where(_undirected(springs, positions), np.nan, torques(springs, positions))[:, None]
@@ -76,6 +77,7 @@ def derivatives(springs: AngularSprings, positions: Array) -> Array:
 
     Where the arms are in line and rest so, tau / sin(theta) is its limit, kappa cos(theta).
     """
+    acts, springs = springs.stiffness > 0, _with_stiffness(springs)
     first, last = arms_of(positions, springs.masses)
     e, f, n = sideways(first, last)
     p, q = (np.linalg.norm(arm, axis=-1)[:, None, None] for arm in (first, last))
@@ -87,7 +89,17 @@ def derivatives(springs: AngularSprings, positions: Array) -> Array:
     pp = kappa * _outer(e, e) + tau * (_outer(u, e) + _outer(e, u)) + cosine * out_of_plane
     qq = kappa * _outer(f, f) - tau * (_outer(w, f) + _outer(f, w)) + cosine * out_of_plane
     pq = -kappa * _outer(e, f) - out_of_plane
-    return -np.block([[pp / p**2, pq / (p * q)], [pq.transpose(0, 2, 1) / (p * q), qq / q**2]])
+    blocks = np.zeros((len(acts), 2 * positions.shape[-1], 2 * positions.shape[-1]))
+    blocks[acts] = -np.block([[pp / p**2, pq / (p * q)], [pq.transpose(0, 2, 1) / (p * q), qq / q**2]])
+    return blocks
+
+
+def _with_stiffness(springs: AngularSprings) -> AngularSprings:
+    """Those that have any: the masses of one that went with a broken spring may be in one place, or in line."""
+    acts = springs.stiffness > 0
+    if acts.all() or not len(springs.masses):
+        return springs
+    return AngularSprings(springs.masses[acts], springs.stiffness[acts], springs.rest_angles[acts])
 
 
 def _undirected(springs: AngularSprings, positions: Array) -> BoolArray:

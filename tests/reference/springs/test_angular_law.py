@@ -19,7 +19,7 @@ from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from reference.springs.angular import AngularSprings
-from reference.springs.angular_law import bends, energy_of_bends, forces_on_masses, torques
+from reference.springs.angular_law import bends, derivatives, energy_of_bends, forces_on_masses, torques
 from reference.springs.bending import with_bending
 from reference.state import Array, State
 from reference.stepper import stepper_named
@@ -305,3 +305,26 @@ def test_what_only_an_angle_holds_is_of_one_part() -> None:
     system = replace(bent_pair(), **one, rest_lengths=np.array([0.3]), stiffness=np.array([4e3]))
     assert parts_of(system).held.all()
     assert not parts_of(replace(system, angular_springs=None)).held.all()
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_an_angular_spring_goes_with_the_spring_along_its_arm(dimension: int) -> None:
+    """What is cut off falls by y = -g t^2/2, to rounding in RK4; a second spring there, or none from the start, holds.
+
+    The bend is set off its rest, in space to a straight line, so that what is left of it would show at once.
+    """
+    corner = np.pad([[0.2, 0.2], [0.1, 0.0], [0.0, 0.0]], ((0, 0), (0, dimension - 2)))
+    system = three(corner.tolist(), fixed=np.array([False, True, True]))
+    falling = replace(system, gravity=np.array([0.0, -9.81, 0.0][:dimension])).with_parameter("break", [0])
+    fell = simulate(falling, find("rk4"), 1e-3, 0.1).positions[-1, 0] - corner[0]
+    assert fell == pytest.approx([0.0, -9.81 * 0.1**2 / 2, 0.0][:dimension], abs=1e-14)
+    straight = np.pad([[0.2, 0.0], [0.1, 0.0], [0.0, 0.0]], ((0, 0), (0, dimension - 2)))
+    cut = angular_of(falling)
+    for positions in (straight, np.zeros_like(straight)):
+        assert not forces_on_masses(cut, positions).any()
+        assert not derivatives(cut, positions).any()
+    one = {"rest_lengths": np.array(0.1), "stiffness": np.array(4e3), "damping": np.zeros(1)}
+    cases = (([[0, 1], [1, 0], [1, 2]], False), ([[0, 2], [1, 2]], False), ([[1, 2]], True))
+    for springs, goes in cases:
+        held = replace(system, springs=np.array(springs), **one).with_parameter("break", [0])
+        assert (angular_of(held).stiffness == 0).all() == goes, springs
