@@ -1,4 +1,4 @@
-"""The stepper of a user's own file or function. To the lab it is an engine that can do everything."""
+"""The stepper of a user's own file or function. To the lab it is an engine, which can do what its form is told of."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from engines.engine import CAPABILITIES, COLLISIONS, LAWS, changed, refuse_beyond
+from engines.engine import CAPABILITIES, changed, refuse_beyond
 from engines.own import c_file, python_file
-from engines.own.forms import EXPECTED, roles_of
+from engines.own.forms import EXPECTED, form_of, roles_of
 from engines.own.recorded import recording_of
 from engines.own.stepping import OwnStep
+from engines.own.system import BESIDES
 from engines.process.isolation import EngineStepper, in_this_process
 from reference.errors import Fault, InputError, Unsupported
 from reference.line import system_in_plane
-from reference.obstacles import project_out
 from reference.outcome import Outcome
-from reference.state import Array
+from reference.state import Array, State
 from reference.system import MassSpringSystem, Value
 
 if TYPE_CHECKING:
@@ -32,6 +32,12 @@ TIME_LIMIT, LOOK_LIMIT = 20.0, 5.0
 
 #: What may be a file's name.
 SUFFIXES = (".py", ".c")
+
+
+def capabilities_of(roles: Sequence[str]) -> frozenset[str]:
+    """What a step of these roles can do: everything, by the lab's own forces; as in an exercise, what that is told."""
+    of_exercise = form_of(roles) in ("string", "spring")
+    return frozenset(CAPABILITIES) - ({*BESIDES, "breaking"} if of_exercise else set())
 
 
 @dataclass(frozen=True)
@@ -49,9 +55,13 @@ class OwnFile:
     roles: tuple[str, ...]
     package: str = "numpy"
     settings: Mapping[str, object] = field(default_factory=dict)
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS, "pulls", "angular springs"}
     identified_as: Mapping[str, str] = field(default_factory=dict)
     semantics: str = "a file of the user's own"
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """By its form."""
+        return capabilities_of(self.roles)
 
     @property
     def name(self) -> str:
@@ -82,9 +92,13 @@ class OwnFunction:
     roles: tuple[str, ...]
     package: str = "numpy"
     settings: Mapping[str, object] = field(default_factory=dict)
-    capabilities: frozenset[str] = frozenset(CAPABILITIES) - {*LAWS, *COLLISIONS, "pulls", "angular springs"}
     identified_as: Mapping[str, str] = field(default_factory=dict)
     semantics: str = "a function of the user's own"
+
+    @property
+    def capabilities(self) -> frozenset[str]:
+        """By its form."""
+        return capabilities_of(self.roles)
 
     def load(self) -> Callable[..., Any]:
         """It."""
@@ -97,7 +111,7 @@ class OwnFunction:
 
 
 class OwnSimulation:
-    """A system stepped by a function: `engines.engine.Simulation`. Obstacles put masses out as in every scheme."""
+    """A system stepped by a function: `engines.engine.Simulation`. Steps end as those of every scheme do."""
 
     def __init__(
         self, engine: OwnFile | OwnFunction, function: Callable[..., Any], system: MassSpringSystem, dt: float
@@ -108,12 +122,13 @@ class OwnSimulation:
         self._x, self._v = system.positions.copy(), system.velocities.copy()
 
     def step(self) -> None:
-        """One."""
+        """One; then masses inside obstacles or one another are put out."""
+        from reference.simulate import projected
+
         x, v = self._step(self._x, self._v, self._count * self._dt, self._dt)
-        if self._system.obstacles:
-            x, v = project_out(self._system.obstacles, self._system.fixed[:, None], x, v)
-        self._x, self._v = x, v
         self._count += 1
+        end = projected(self._system, State(self._count * self._dt, x, v), self._count * self._dt)
+        self._x, self._v = end.positions, end.velocities
 
     def bare_step(self) -> Callable[[], object]:
         """The function's own, from where it is."""

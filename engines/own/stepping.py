@@ -10,7 +10,7 @@ import numpy as np
 
 from engines.own.forms import Form, form_of
 from engines.own.system import OwnSystem, exercise_spring, exercise_string
-from reference.errors import Fault
+from reference.errors import Fault, Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem
 
@@ -55,9 +55,14 @@ class OwnStep:
         return np.where(held, self.start, end[0]), np.where(held, 0.0, end[1])
 
     def called(self, **given: Any) -> Any:
-        """What the function returns; each argument by its role. Raises Fault where it raises."""
+        """What the function returns; each argument by its role. Raises Fault where it raises.
+
+        Raises Unsupported where it asks for what would mislead it (`system.OwnSystem`).
+        """
         try:
             return self.function(*(given[role] for role in self.roles))
+        except Unsupported as error:
+            raise Unsupported(f"{self.name}{_line(error, self.function)} {error}") from None
         except (Exception, SystemExit) as error:  # whose process this is, too, must not end
             said = f"{type(error).__name__}: {error}".removesuffix(": ")
             raise Fault(f"{self.name}{_line(error, self.function)}: {said}") from None

@@ -7,9 +7,16 @@ from typing import Any
 
 import numpy as np
 
+from engines.engine import CAPABILITIES, LAWS, demands
 from reference.errors import Unsupported
 from reference.state import Array, State
 from reference.system import MassSpringSystem
+
+#: What acts on masses besides linear springs, drag and weight. Springs that break have no stiffness from then on.
+BESIDES = (*(law for law in LAWS if law != "breaking"), "pulls", "angular springs")
+
+#: What a step with forces of its own reads of springs.
+OF_SPRINGS = ("springs", "rest_lengths", "stiffness", "damping")
 
 
 class OwnSystem:
@@ -18,12 +25,17 @@ class OwnSystem:
     Attributes:
         masses, fixed: shape (n,). springs: shape (s, 2). rest_lengths, stiffness, damping: shape (s,).
         drag: a number. gravity: shape (d,). positions: where all masses start, shape (n, d).
+
+    Springs' own numbers are not all there is to a force where the system has what is in BESIDES: who asks for them then
+    has forces of its own that would be wrong, and Unsupported is raised.
     """
 
     def __init__(self, system: MassSpringSystem) -> None:
         from reference.forces import SpringMotion
 
-        for name in ("masses", "fixed", "springs", "rest_lengths", "stiffness", "damping", "gravity", "positions"):
+        self._besides = next((CAPABILITIES[demand] for demand in demands(system) if demand in BESIDES), "")
+        numbers = () if self._besides else OF_SPRINGS
+        for name in ("masses", "fixed", "gravity", "positions", *numbers):
             setattr(self, name, getattr(system, name).copy())
         self.drag = system.drag
         self._motion, self._masses = SpringMotion(system), system.masses
@@ -36,6 +48,15 @@ class OwnSystem:
     def forces(self, x: Array, v: Array) -> Array:
         """Mass times that [N]."""
         return self._masses[:, None] * self.acceleration(x, v)
+
+    def __getattr__(self, name: str) -> Any:
+        """What is not there. Raises Unsupported for numbers of springs that do not say what forces there are."""
+        if name in OF_SPRINGS:
+            raise Unsupported(
+                f"asks for system.{name}, which does not tell the whole force where there are "
+                f"{self.__dict__.get('_besides')}: system.acceleration(x, v) does"
+            )
+        raise AttributeError(f"a system has no {name}")
 
 
 def exercise_string(system: MassSpringSystem) -> Any:

@@ -123,11 +123,14 @@ def begin(engine: Engine, system: MassSpringSystem, dt: float) -> Outcome | None
     return None
 
 
-def advance(steps: int) -> tuple[Array, Array]:
+def advance(steps: int) -> tuple[Array, Array] | Outcome:
     """A number of steps of the simulation under way, and where it is then."""
     (simulation,) = _under_way
-    for _ in range(steps):
-        simulation.step()
+    try:
+        for _ in range(steps):
+            simulation.step()
+    except Unsupported as error:
+        return Outcome("unsupported", str(error))
     return simulation.state()
 
 

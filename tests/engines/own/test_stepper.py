@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from engines.capability_cases import for_each_capability
 from engines.own import stepper as own
 from engines.own.stepper import OwnStepper, is_own, own_stepper, stepper_of
+from engines.own.system import BESIDES
 from engines.process.isolation import in_this_process
+from reference.collisions.round_masses import Collisions
 from reference.errors import InputError
 from reference.scenes import find as find_scene
+from reference.springs.breaking import breaks_of
 from reference.state import Array
 from reference.stepper import catalogued
 from tests.reference.systems import moving_string
@@ -87,6 +92,42 @@ def test_every_form_steps_as_the_scheme_it_is(name: str, tmp_path: Path) -> None
     other = catalogued()["velocity_verlet"].run(STRING, DT, STEPS).trajectory
     assert other is not None
     assert apart(run.positions, other.positions) > 1e-11
+
+
+@pytest.mark.parametrize("asked", [*BESIDES, "breaking", "collisions", "restitution"])
+def test_the_forces_of_the_lab_are_all_forces_of_a_scene(asked: str, tmp_path: Path) -> None:
+    """Slopes and accelerations of laws, angular springs and pulls, breaking and collisions: as the scheme steps.
+
+    To the rounding of some steps. Where there is more to a force than stiffness, one who reads that is refused.
+    """
+    system, thrown = (for_each_capability()[name] for name in (asked, "breaking"))
+    system = replace(system, velocities=thrown.velocities)
+    if system.collisions:
+        system = replace(system, collisions=Collisions(np.array(0.06), system.collisions.restitution))
+    for name in ("heun", "drift_kick", "euler"):
+        outcome = here(tmp_path / f"{name}.py", FORMS[name]).run(system, DT, STEPS)
+        scheme = catalogued()[name].run(system, DT, STEPS).trajectory
+        assert outcome.trajectory is not None, outcome.reason
+        assert scheme is not None
+        assert apart(outcome.trajectory.positions, scheme.positions) < 1e-12
+    without = replace(system, nonlinear=None, pulls=np.zeros(1), angular_springs=None, collisions=None)
+    plain = catalogued()["euler"].run(without, DT, STEPS).trajectory
+    assert plain is not None
+    assert apart(scheme.positions, plain.positions) > 1e-9
+    own_forces = here(tmp_path / "own.py", FORMS["kick_drift"]).run(system, DT, STEPS)
+    assert own_forces.ending == ("unsupported" if asked in BESIDES else "done")
+    assert asked not in BESIDES or "own.py, line 7 asks for system.springs" in own_forces.reason
+
+
+def test_forces_of_its_own_leave_out_springs_that_broke(tmp_path: Path) -> None:
+    """They are given a system without: k = c = 0. As kick-drift steps it, to rounding."""
+    system = for_each_capability()["breaking"]
+    mine = here(tmp_path / "mine.py", FORMS["kick_drift"]).run(system, DT, STEPS).trajectory
+    scheme = catalogued()["kick_drift"].run(system, DT, STEPS).trajectory
+    assert mine is not None
+    assert scheme is not None
+    assert apart(mine.positions, scheme.positions) < 1e-12
+    assert breaks_of(system, scheme, DT)
 
 
 def test_a_file_runs_in_a_process_of_its_own(tmp_path: Path) -> None:
