@@ -6,7 +6,7 @@ function setPlaying(wanted) {
   showState();
 }
 
-function stepOnce() { lab.playing = false; oneStep(); lookAtLanes(); showState(); }
+function stepOnce() { lab.playing = false; oneStep(); keepPast(); showState(); }
 function stepBack() { if (lab.past.length > 1) { lab.playing = false; rewind(lab.past.length - 2); showAll(); } }
 
 function togglePin(mass) {

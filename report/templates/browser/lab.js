@@ -86,14 +86,8 @@ function stepLanes(seconds) {
   }
   lab.debt = done < wanted ? 0 : lab.debt - done * lab.dt;
   lab.reached = wanted ? done / wanted : 1;
-  if (done) lookAtLanes();
+  if (done) keepPast();
   return done;
-}
-
-// After a row of steps: who has blown up, and what there is to be kept.
-function lookAtLanes() {
-  for (const {world, recording} of lab.lanes) if (!recording) world.blownUp = world.blownUp || blowUp(world);
-  keepPast();
 }
 
 function oneStep() {

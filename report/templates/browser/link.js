@@ -51,7 +51,7 @@ function openState(state) {
   const begin = performance.now();
   let taken = 0;
   for (; taken < state.steps && performance.now() - begin < 3000; taken++) { oneStep(); if (taken % 16 === 15) keepPast(); }
-  if (taken) lookAtLanes();
+  if (taken) keepPast();
   lab.dt = lab.lanes[0].world.dt;
   lab.short = taken < state.steps;
   askLimits();

@@ -50,7 +50,8 @@ function applyDrives({memory, drives, dt}, time) {
   }
 }
 
-// A number of steps, as many as there are until it blows up, which every sixteenth step is looked at.
+// A number of steps, as many as there are until it blows up. That is looked at after each: when and where it did does not
+// hang on how many steps are asked for at once.
 function advance(world, steps) {
   const {memory: {F, I, at}, system, scheme} = world, {advance: ofDimension, coefficients} = schemes[scheme];
   const run = ofDimension[at.d];
@@ -63,12 +64,12 @@ function advance(world, steps) {
       for (let i = 0; i < at.n; i++) project(F, at.x, at.v, i, !I[at.fixed + i], values);
     }
     world.steps++;
-    if (world.steps % 16 === 0) world.blownUp = blowUp(world);
+    world.blownUp = blowUp(world);
   }
   return world;
 }
 
-// When and how a run has left physics behind, or null: {what, which}. Looked at often, so in two plain loops.
+// When and how a run has left physics behind, or null: {what, which}. Looked at in every step, so in two plain loops.
 function blowUp({memory: {F, I, at}, natural, given, start}) {
   const {n, s, d, x, v, masses, springs, rest_lengths, stiffness} = at;
   let pull = 0, energy = 0, allowed = given;

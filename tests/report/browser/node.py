@@ -31,6 +31,12 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
     }
     return bits(Float64Array.from(rows));
   }
+  if (asked.ask === "blown") {
+    const world = startWorld(asked.system, asked.scheme, asked.dt);
+    const left = () => world.blownUp ? 0 : asked.steps - world.steps;
+    while (left()) advance(world, Math.min(asked.at_once, left()));
+    return {steps: world.steps, ...world.blownUp};
+  }
   const memory = memoryOf(asked.system);
   for (const [name, value] of Object.entries(asked.set || {})) setParameter(memory, name, value);
   const rest = equilibrium(memory, asked.rest, asked.contacts), linear = linearise(memory, rest.x, asked.contacts);

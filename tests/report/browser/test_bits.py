@@ -10,6 +10,8 @@ import numpy as np
 import pytest
 
 from reference.changes import Change
+from reference.lengths import spring_lengths
+from reference.outcome import first_blown_up_frame
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
@@ -75,6 +77,18 @@ def test_some_of_the_random_systems_blow_up() -> None:
     systems = [random_system(seed) for seed in SEEDS]
     ends = [of_reference(system, "rk4", dt)[-1] for system, dt in systems]
     assert any(not np.isfinite(end).all() for end in ends)
+
+
+def test_when_and_where_it_blows_up_hangs_on_no_number_of_steps_at_once() -> None:
+    """Euler on the string: the spring beyond 100 times its length, and the step, are the reference's in any batches."""
+    setup = find_scene("string").setup({}, 2e-3, 1.0)
+    run = simulate(setup.system, find("euler"), setup.dt, 1.0)
+    frame = first_blown_up_frame(setup.system, run)
+    lengths = spring_lengths(run.positions[[0, frame]], setup.system.springs)
+    which = int(np.argmax(lengths[1] > 100 * np.maximum(lengths[0], setup.system.rest_lengths)))
+    asked = {"ask": "blown", "system": system_data(setup.system), "scheme": "euler", "dt": setup.dt, "steps": 400}
+    answers = ask([{**asked, "at_once": batch} for batch in (1, 7, 16, 400)])
+    assert answers == [{"steps": frame, "what": "spring", "which": which}] * 4
 
 
 def test_changes_on_the_fly_act_on_the_same_steps() -> None:

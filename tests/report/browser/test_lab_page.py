@@ -158,7 +158,7 @@ def test_every_lane_that_blew_up_is_named(browser: Any, file: Path) -> None:
     """With how many times dt times omega it stands: Euler at any dt, kick-drift at twice its limit; rk4 goes on."""
     shown = opened(browser, file, "s=string&w=euler,rk4,kick_drift&dt=0.0105&speed=4")
     page = shown.page
-    page.evaluate("for (let k = 0; k < 3000; k++) oneStep(); lookAtLanes(); showState()")
+    page.evaluate("for (let k = 0; k < 3000; k++) oneStep(); keepPast(); showState()")
     blown = page.evaluate("lab.lanes.filter(lane => lane.world.blownUp).map(lane => lane.scheme)")
     said = page.locator("#said .banner p").all_inner_texts()
     assert blown == ["euler", "kick_drift"]
@@ -195,9 +195,9 @@ def test_every_lesson_s_task_can_be_done(browser: Any, file: Path) -> None:
 #: What does the task of each lesson.
 DEEDS = (
     "$('answer').value = '0.0628'",
-    "for (let k = 0; k < 290; k++) oneStep(); lookAtLanes();",
+    "for (let k = 0; k < 290; k++) oneStep(); keepPast();",
     "change('dt', lab.limits.kick_drift.limit * 0.995); await new Promise(go => setTimeout(go, 300)); checkLesson();"
-    "change('dt', 0.011); for (let k = 0; k < 3000; k++) oneStep(); lookAtLanes();",
+    "change('dt', 0.011); for (let k = 0; k < 3000; k++) oneStep(); keepPast();",
     "change('damping', 3.1)",
     "togglePin(0); const {I, at} = lab.lanes[0].world.memory;"
     "const held = [...Array(at.n).keys()].filter(i => I[at.fixed + i]); held.slice(1).forEach(togglePin);"
