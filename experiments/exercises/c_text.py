@@ -10,8 +10,8 @@ import numpy as np
 
 from experiments.exercises.exercise import TOLERANCE, Exercise, Mistake, Question
 
-#: Comments, and what stands in quotes: nothing that is done.
-SILENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'", re.DOTALL)
+#: Comments, also one that nobody has closed, and what stands in quotes: nothing that is done.
+SILENT = re.compile(r"//[^\n]*|/\*.*?(?:\*/|\Z)|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])*'", re.DOTALL)
 
 
 def unwritten_in_c(source: str, functions: Iterable[str]) -> list[str]:

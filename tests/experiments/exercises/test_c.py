@@ -96,6 +96,13 @@ def test_starters_compile_and_are_not_written_yet(tmp_path: Path) -> None:
         compiled(number, submission.source)
 
 
+def test_a_comment_that_nobody_closed_is_what_the_compiler_says() -> None:
+    """What stands in it is no function that has nothing in it."""
+    text = '#define EXERCISE 1\n#include "exercise.h"\n/* open\nvoid step(double *y) {\n}\n'
+    verdict = judge(find("1"), text, language="c")
+    assert (verdict.name, verdict.findings[0].line) == ("does_not_compile", 3)
+
+
 def test_a_compiler_opens_nothing_of_the_teachers(tmp_path: Path) -> None:
     """What a program includes, or takes in by the assembler, is refused as a file that may not be read."""
     secret = tmp_path / "key.txt"

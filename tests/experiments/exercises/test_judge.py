@@ -19,6 +19,7 @@ from experiments.exercises.judge import Outcome, Verdict, judge
 from experiments.exercises.naming import SINGLE
 from experiments.exercises.sandbox import Reply
 from experiments.exercises.submission import Submission
+from tests.experiments.exercises import here as here_by_bytes
 from tests.experiments.exercises.corpus import solution
 
 #: A right step of exercise 1, and one of exercise 4 that ends in "return new_x, new_v".
@@ -146,6 +147,16 @@ def test_a_call_that_answers_differently_the_second_time(here: None, memory: str
     text = memory + STEP.replace("    return", "    calls.append(1)\n    return" if "calls" in memory else "    return")
     verdict = judge(find("1"), text.replace("- s.gravity", f"- s.gravity + {term}"))
     assert (verdict.outcome, verdict.name) == ("mistake", name)
+
+
+def test_a_call_that_answers_differently_only_later(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that adds up dt and gives way after half a second; the questions come to less. A cache is no memory."""
+    monkeypatch.setattr(sandbox, "run", here_by_bytes.run)
+    tired = STEP.replace("    return", "    time.append(dt)\n    return").replace(
+        "- s.gravity", "- s.gravity * (sum(time) < 0.5)"
+    )
+    assert judge(find("1"), "time = []\n" + tired).name == "remembers_earlier_calls"
+    assert judge(find("1"), "time = []\n" + tired.replace(" * (sum(time) < 0.5)", "")).name == "right"
 
 
 def test_a_crash_at_a_hidden_question_costs_the_hidden_check_only(monkeypatch: pytest.MonkeyPatch) -> None:
