@@ -25,6 +25,9 @@ LARGEST = 2**20
 #: Encodings that begin with a byte order mark, longest mark first.
 MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
+#: A line of Python, one of the first two, that says in which encoding the file is (PEP 263).
+SAYS_ITS_ENCODING = re.compile(rb"^[ \t\f]*#.*?coding[:=]")
+
 #: What programs and notebooks are called.
 NOTEBOOK, IN_C, SUFFIXES = ".ipynb", ".c", (".py", ".ipynb", ".c")
 
@@ -116,6 +119,8 @@ def source_of(path: Path, name: str) -> str:
 def decoded(data: bytes, name: str) -> str:
     """A file's text, its lines ended by newlines: in UTF-8, in UTF-16 with its mark, or as its first lines say.
 
+    What is none of these and says nothing is taken for Latin-1: what it can mistake stands in comments and in words.
+
     Raises:
         InputError: where it is not text, or not in the encoding that it says.
     """
@@ -123,7 +128,11 @@ def decoded(data: bytes, name: str) -> str:
     try:
         source = data.decode(marked or tokenize.detect_encoding(BytesIO(data).readline)[0])
     except (UnicodeDecodeError, SyntaxError, LookupError):
-        raise InputError(f"{name}: expected text in UTF-8: save it anew, with that encoding") from None
+        if marked or any(map(SAYS_ITS_ENCODING.match, data.splitlines()[:2])):
+            raise InputError(f"{name}: expected text in UTF-8: save it anew, with that encoding") from None
+        if any(letter < 32 and letter not in b"\t\n\v\f\r\x1a" for letter in data):
+            raise InputError(f"{name}: expected text, it has control characters") from None
+        source = data.decode("latin-1")
     if "\0" in source:
         raise InputError(f"{name}: expected text, it has a zero byte")
     return source.replace("\r\n", "\n").replace("\r", "\n")

@@ -51,16 +51,26 @@ def test_whatever_stands_around_the_lines_that_say_whose_it_is(tmp_path: Path, t
     assert (found.exercise.number, found.seed) == (5, "ada")
 
 
+@pytest.mark.parametrize("text", ["# K\u00f6rper\nEXERCISE = 1\n", "#define EXERCISE 1\n\n/* K\u00f6rper */\n"])
+def test_latin_1_is_read_where_nothing_else_is_said(tmp_path: Path, text: str) -> None:
+    """As editors on Windows save it: an umlaut in a comment costs nothing, in Python as in C."""
+    file = tmp_path / ("own.py" if "define" not in text else "own.c")
+    file.write_bytes(text.encode("latin-1"))
+    found = read(file, file.name)
+    assert (found.exercise.number, found.source) == (1, text)
+
+
 @pytest.mark.parametrize(
     ("data", "told"),
     [
-        (b"EXERCISE = 1\n\xff\xfe", "UTF-8"),
+        (b"# coding: utf-8\nEXERCISE = 1\n\xff\xfe", "UTF-8"),
+        (b"EXERCISE = 1\n\xff\xfe\x01", "control"),
         (b"EXERCISE = 1\n\0", "zero"),
         (b"x = 1\n", "EXERCISE"),
         (b"EXERCISE = 8\n", "SEED"),
         (b"EXERCISE = 1\n" + b"#" * 200, "213"),
     ],
-    ids=["no text", "zero byte", "no exercise", "no seed", "too large"],
+    ids=["no text", "no letter", "zero byte", "no exercise", "no seed", "too large"],
 )
 def test_what_is_not_a_submission_is_refused_by_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, data: bytes, told: str
