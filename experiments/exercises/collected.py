@@ -7,7 +7,9 @@ or file by name.
 
 from __future__ import annotations
 
+import os
 import re
+import shutil
 import zipfile
 import zlib
 from collections.abc import Iterator, Sequence
@@ -58,7 +60,7 @@ def student_of(name: str) -> str:
 
 
 def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
-    """All programs and notebooks in a folder or a zip, and in zips within it.
+    """All programs and notebooks in a folder or a zip, in zips within it, and in zips in these.
 
     Args:
         unpacked: an empty folder to unpack zips into.
@@ -104,10 +106,14 @@ def files_in(paths: Sequence[Path], unpacked: Path) -> list[tuple[Path, str]]:
     return found
 
 
-def _of_zip(path: Path, name: str, prefix: str, into: Path) -> list[HandedIn]:
-    """What is in a zip. A student's own that cannot be read, or has no program in it, stands for itself: it is told."""
+def _of_zip(path: Path, name: str, prefix: str, into: Path, inner: bool = False) -> list[HandedIn]:
+    """What is in a zip. A student's own that cannot be read, or has no program in it, stands for itself: it is told.
+
+    Args:
+        inner: whether it was in a zip itself: zips in it are left.
+    """
     try:
-        inside = list(_out_of_zip(path, prefix, into))
+        inside = list(_out_of_zip(path, prefix, into, inner))
     except InputError:
         if not prefix:
             raise
@@ -117,8 +123,8 @@ def _of_zip(path: Path, name: str, prefix: str, into: Path) -> list[HandedIn]:
     return [HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime))]
 
 
-def _out_of_zip(path: Path, prefix: str, into: Path) -> Iterator[HandedIn]:
-    """The programs and notebooks of a zip; whatever leads out of it, or is too large, is left."""
+def _out_of_zip(path: Path, prefix: str, into: Path, inner: bool) -> Iterator[HandedIn]:
+    """The programs and notebooks of a zip, and those of zips in it; what leads out of it, or is too large, is left."""
     try:
         with zipfile.ZipFile(path) as archive:
             taken = 0
@@ -127,15 +133,24 @@ def _out_of_zip(path: Path, prefix: str, into: Path) -> Iterator[HandedIn]:
             for i, entry in enumerate(archive.infolist()):
                 inside = PurePosixPath(entry.filename.replace("\\", "/"))
                 hidden = any(part.startswith((".", "__")) for part in inside.parts) or inside.is_absolute()
-                if hidden or inside.suffix.lower() not in SUFFIXES or entry.file_size > LARGEST:
+                zipped = inside.suffix.lower() == ".zip" and not inner and not entry.is_dir()
+                program = inside.suffix.lower() in SUFFIXES and entry.file_size <= LARGEST
+                if hidden or not (zipped or program):
                     continue
                 taken += entry.file_size
                 if taken > MOST_BYTES:
-                    raise ValueError(f"its programs have more than {MOST_BYTES} bytes")
+                    raise ValueError(f"its programs and zips have more than {MOST_BYTES} bytes")
                 file = into / f"{i}{inside.suffix.lower()}"
                 file.parent.mkdir(parents=True, exist_ok=True)
-                file.write_bytes(archive.read(entry))
-                name = f"{prefix}{inside}"
-                yield HandedIn(file, name, student_of(name), datetime(*entry.date_time))
+                name, when = f"{prefix}{inside}", datetime(*entry.date_time)
+                with archive.open(entry) as packed, file.open("wb") as unpacked:
+                    shutil.copyfileobj(packed, unpacked)
+                if program:
+                    yield HandedIn(file, name, student_of(name), when)
+                    continue
+                os.utime(file, (when.timestamp(), when.timestamp()))
+                found = _of_zip(file, name, f"{prefix}{inside.with_suffix('')}/", into / str(i), inner=True)
+                taken += sum(one.path.stat().st_size for one in found if one.path != file)
+                yield from found
     except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, ValueError) as error:
         raise InputError(f"{path}: expected a zip that can be read: {error}") from None

@@ -6,6 +6,7 @@ import csv
 import doctest
 import json
 import os
+import shutil
 import zipfile
 from datetime import datetime
 from io import StringIO
@@ -212,6 +213,28 @@ def test_a_students_zip_that_cannot_be_read_is_a_row_of_the_student(a_class: Pat
     for student in ("damaged", "outside", "undated"):
         assert book[student]["finding"] == "not_a_submission"
     assert book["Bob Noyce"]["outcome"] == "right"
+
+
+def test_a_zip_in_a_zip_is_read(tmp_path: Path) -> None:
+    """The class as one zip, in it a student's own: as in the folder. Read one level deep; what cannot be is a row."""
+    moodle, files = "_assignsubmission_file_", tmp_path / "class"
+    for number, student in enumerate(("Zoe Zip", "Bad Zip", "Deep Zip", "Ada")):
+        (files / f"{student}_{number}{moodle}").mkdir(parents=True)
+    (files / f"Ada_3{moodle}" / "own.py").write_text(RIGHT)
+    (files / f"Bad Zip_1{moodle}" / "all.zip").write_bytes(b"no zip")
+    with zipfile.ZipFile(files / f"Zoe Zip_0{moodle}" / "all.zip", "w") as archive:
+        archive.writestr("mine/euler.py", RIGHT)
+    with zipfile.ZipFile(files / f"Deep Zip_2{moodle}" / "all.zip", "w") as archive:
+        archive.write(files / f"Zoe Zip_0{moodle}" / "all.zip", "inner.zip")
+    shutil.make_archive(str(tmp_path / "export"), "zip", files)
+    found = {f.name: (f.student, f.path.suffix) for f in collect(tmp_path / "export.zip", tmp_path / "zip")}
+    assert found == {
+        f"Ada_3{moodle}/own.py": ("Ada", ".py"),
+        f"Bad Zip_1{moodle}/all.zip": ("Bad Zip", ".zip"),
+        f"Deep Zip_2{moodle}/all.zip": ("Deep Zip", ".zip"),
+        f"Zoe Zip_0{moodle}/all/mine/euler.py": ("Zoe Zip", ".py"),
+    }
+    assert sorted(f.student for f in collect(files, tmp_path / "folder")) == ["Ada", "Bad Zip", "Deep Zip", "Zoe Zip"]
 
 
 def test_a_zip_of_too_much_is_not_unpacked(a_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
