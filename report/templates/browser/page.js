@@ -68,7 +68,7 @@ function setLanes(names) {
   showAll();
 }
 
-function limitsCame() { showLimits(); showBanner(); drawGrowth(); showNumbers(); }
+function limitsCame() { showLimits(); showBanner(); drawGrowth(); showNumbers(); checkLesson(); }
 
 function showLimits() {
   if (document.activeElement !== $("dt")) $("dt").value = number(1e3 * lab.dt, 6);
@@ -161,7 +161,7 @@ function checkLesson() {
 function openLesson(k) {
   lab.lesson = k;
   doneLessons.delete(k);
-  Object.assign(lessonState, {saidLimit: false, hungAt: null});
+  Object.assign(lessonState, startOfLesson());
   $("answer").value = "";
   if (k) openState(readState(LESSONS[k - 1].state));
   lab.lesson = k;

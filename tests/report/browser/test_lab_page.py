@@ -206,6 +206,28 @@ DEEDS = (
 )
 
 
+@pytest.mark.parametrize("steps", [0, 8])
+def test_the_third_lesson_takes_the_limit_before_it_is_computed_and_after_steps(
+    browser: Any, file: Path, steps: int
+) -> None:
+    """By its fields: 10.1 ms is 0.9987 of the limit, 10.3 ms over it. Without the first it is not done."""
+    shown = opened(browser, file, "lesson=3")
+    page = shown.page
+    limit = page.evaluate("lab.limits.kick_drift.limit")
+    assert abs(0.0101 / limit - 1) < 0.01 < 0.0103 / limit - 1
+    for fields, done in ((["10.3"], False), (["10.1", "10.3"], True)):
+        page.click("#lesson-start")
+        for text in fields:
+            page.evaluate(f"for (let k = 0; k < {steps}; k++) oneStep();")
+            page.fill("#dt", text)
+            page.press("#dt", "Enter")
+        page.evaluate("for (let k = 0; k < 3000; k++) oneStep(); keepPast(); showState();")
+        until(page, "lab.limits.kick_drift")
+        assert page.evaluate("lab.lanes[0].world.blownUp !== null")
+        assert page.evaluate("checkLesson(), doneLessons.has(3)") == done
+    page.close()
+
+
 def test_the_keyboard_does_what_a_pointer_does(browser: Any, file: Path) -> None:
     """Play, step, choose a mass, move it, hold it."""
     shown = opened(browser, file, "s=string&w=kick_drift")
