@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from reference.checked_numbers import finite, in_range, refuse, shaped
+from reference.checked_numbers import in_range, shaped
 from reference.checked_springs import BoolArray, IntArray
 from reference.errors import InputError
 from reference.springs.angles import angles_between, arms_of
@@ -19,6 +19,9 @@ from reference.state import Array
 
 #: Nearer to a straight line than this [rad] three masses have no plane in which they could bend.
 IN_LINE = 1e-9
+
+#: So far from half a turn [rad] a rest angle in space is taken for it: as written with six digits.
+AS_WRITTEN = 1e-5
 
 #: The fields, with their units.
 UNITS = {"stiffness": "N m/rad", "rest_angles": "rad"}
@@ -34,7 +37,8 @@ class AngularSprings:
         masses: three masses a, b, c each, shape (k, 3): the angle is at b, from a to c.
         stiffness: [N m/rad], shape (k,), each >= 0.
         rest_angles: [rad], shape (k,); in the plane counter-clockwise from a to c, from -2 pi to 2 pi, and in space
-            from 0 to pi. Not a number where it is the angle at the start.
+            from 0 to pi. Not a number where it is the angle at the start. Of masses in line in space one that is in
+            line to within 1e-5 is the angle at the start, so that 3.14159 is half a turn.
 
     Raises:
         InputError: in `checked`, naming the field, the index, the value, and what was expected.
@@ -73,9 +77,11 @@ class AngularSprings:
         rest_angles = np.where(np.isnan(given), laid_out % (2 * np.pi), given)
         if dimension == 3:
             straight = np.minimum(laid_out, np.pi - laid_out) < IN_LINE
-            bad = straight & (np.abs(rest_angles - laid_out) > IN_LINE)
-            expected = "masses that are in line to rest in line, as there is no certain plane to bend in"
-            refuse("angular_springs.rest_angles", rest_angles, bad, expected)
+            bad = straight & (np.abs(rest_angles - laid_out) > AS_WRITTEN)
+            in_line = "3.14159" if laid_out[np.argmax(bad)] > 1 else "0"
+            expected = f"masses that are in line to rest in line ({in_line}), as there is no certain plane to bend in"
+            refuse_rest_angles(rest_angles, bad, expected)
+            rest_angles = np.where(straight, laid_out, np.minimum(rest_angles, np.pi))
         whole = AngularSprings(masses, np.array(stiffness), rest_angles)
         for array in (whole.masses, whole.stiffness, whole.rest_angles):
             array.flags.writeable = False
@@ -124,7 +130,14 @@ def _checked_masses(value: npt.ArrayLike, count: int) -> IntArray:
 def _refuse_rest_angles(given: Array, dimension: int) -> None:
     """Those that are given, in their range."""
     known = np.where(np.isnan(given), 0.0, given)
-    finite("angular_springs.rest_angles", known, UNITS["rest_angles"])
+    refuse_rest_angles(known, ~np.isfinite(known), f"a finite number [{UNITS['rest_angles']}]")
     least, most, said = (0.0, np.pi, "0 to pi") if dimension == 3 else (-2 * np.pi, 2 * np.pi, "-2 pi to 2 pi")
     expected = f"a number from {said} [{UNITS['rest_angles']}]; 180 degrees are 3.14159 rad"
-    refuse("angular_springs.rest_angles", known, (known < least) | (known > most * (1 + 1e-12)), expected)
+    refuse_rest_angles(known, (known < least) | (known > most + AS_WRITTEN), expected)
+
+
+def refuse_rest_angles(rest_angles: Array, bad: BoolArray, expected: str) -> None:
+    """Refuse the first that is bad, with the number of its spring. Raises InputError."""
+    if bad.any():
+        j = int(np.argmax(bad))
+        raise InputError(f"angular_springs[{j}].rest_angle = {rest_angles[j]:.6g}: expected {expected}")

@@ -106,3 +106,11 @@ def test_angular_springs_of_every_form(tmp_path: Path) -> None:
             read(BENT + line)
     with pytest.raises(InputError, match="did you mean 'rest_angle'"):
         read(BENT + table + "restangle = 2\n")
+
+
+def test_a_rest_angle_that_is_no_number_is_refused(tmp_path: Path) -> None:
+    """With its line: left out, not NaN, is the angle at the start."""
+    table = "[[angular_springs]]\nmasses = [0, 1, 2]\nstiffness = 0.3\nrest_angle = nan\n"
+    with pytest.raises(InputError) as refused:
+        law(tmp_path, WRITTEN_OUT.replace("[0.0, 1.0, 2.0]", "[[0, 0], [1, 0], [2, 0]]") + table)
+    assert "line 10: angular_springs[0].rest_angle = nan: expected a finite number" in str(refused.value)

@@ -266,8 +266,8 @@ def test_what_cannot_step_them_refuses() -> None:
         ({"masses": [[0, 1, 0]]}, "angular_springs[0].masses = [0, 1, 0]: expected three different masses"),
         ({"masses": [[0, 1]]}, "angular_springs.masses has shape (1, 2)"),
         ({"stiffness": -1.0}, "angular_springs.stiffness = -1: expected a number >= 0 [N m/rad]"),
-        ({"rest_angles": 90.0}, "angular_springs.rest_angles = 90: expected a number from -2 pi to 2 pi [rad]"),
-        ({"rest_angles": np.inf}, "angular_springs.rest_angles = inf: expected a finite number [rad]"),
+        ({"rest_angles": 90.0}, "angular_springs[0].rest_angle = 90: expected a number from -2 pi to 2 pi [rad]"),
+        ({"rest_angles": np.inf}, "angular_springs[0].rest_angle = inf: expected a finite number [rad]"),
     ],
 )
 def test_a_wrong_number_is_named(given: dict[str, Any], said: str) -> None:
@@ -286,6 +286,14 @@ def test_what_has_no_angle_or_no_plane_is_refused() -> None:
         find_scene("chain").system({"angular_stiffness": 1.0})
     with pytest.raises(InputError, match="no certain plane"):
         three(CORNERS["space, in line"], rest_angles=np.array(2.0))
+
+
+@pytest.mark.parametrize("written", [3.14159, 3.1416])
+def test_half_a_turn_in_six_digits_is_half_a_turn(written: float) -> None:
+    """Masses in line in space rest as they are laid out: the rest angle is pi, and no force is left."""
+    system = three(CORNERS["space, in line"], rest_angles=np.array(written))
+    assert angular_of(system).rest_angles == pytest.approx([np.pi], abs=1e-12)
+    assert not np.abs(forces_on_masses(angular_of(system), system.positions)).max() > 1e-12
 
 
 def test_systems_keep_their_angular_springs_when_they_are_renumbered() -> None:
