@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import reprlib
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -68,6 +69,15 @@ def refuse(name: str, array: Array, bad: npt.NDArray[np.bool_], expected: str) -
     same_everywhere = array.ndim == 1 and np.all(bad) and len(set(array.tolist())) == 1
     place = "" if not index or same_everywhere else "[" + ", ".join(map(str, index)) + "]"
     raise InputError(f"{name}{place} = {array[index]:g}: expected {expected}")
+
+
+def refuse_twice(name: str, numbers: Sequence[float]) -> None:
+    """Refuse the first of the numbers of masses or springs that stands there already. Raises InputError."""
+    seen: set[float] = set()
+    for place, number in enumerate(numbers):
+        if number in seen:
+            raise InputError(f"{name}[{place}] = {number:g}: expected every number once")
+        seen.add(number)
 
 
 def shaped(name: str, array: npt.NDArray[Any], shape: tuple[int, ...]) -> npt.NDArray[Any]:

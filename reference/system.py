@@ -20,6 +20,7 @@ from reference.checked_numbers import (
     in_range,
     refuse,
     refuse_below,
+    refuse_twice,
     shaped,
     truths,
 )
@@ -31,7 +32,7 @@ from reference.errors import InputError, unknown_name
 from reference.obstacles import Obstacle, checked_obstacles
 from reference.pulls import PULL, UNIT, is_pull, place_of_pull
 from reference.springs.angular import AngularSprings
-from reference.springs.kinds import NonlinearSprings
+from reference.springs.kinds import KINDS, NonlinearSprings
 from reference.state import Array, State
 
 T = TypeVar("T")
@@ -54,6 +55,9 @@ HELD = {"hold": True, "release": False}
 
 #: And to springs: from then on they are gone.
 BREAK = "break"
+
+#: What scenes have besides, and what stays as it is while the system moves.
+NEVER_CHANGED = (*KINDS, "radii", "restitution", "angular_stiffness", "angular_springs", "rest_angle")
 
 #: Those of the parameters that are fields by another name.
 FIELDS = {"mass": "masses", "rest_length": "rest_lengths"}
@@ -231,6 +235,9 @@ class MassSpringSystem:
             return self._broken(value)
         if is_pull(name):
             return self._pulled(name, value)
+        if name in NEVER_CHANGED:
+            changeable = ", ".join([*PARAMETERS, *HELD, BREAK])
+            raise InputError(f"parameter {name!r}: it cannot change on the fly; what can: {changeable}, and pulls")
         if name not in PARAMETERS:
             raise unknown_name("parameter", name, [*PARAMETERS, *HELD, BREAK, f"{PULL}MASS.AXIS"])
         changed = copy(self)
@@ -266,6 +273,7 @@ class MassSpringSystem:
     def _broken(self, value: Value) -> MassSpringSystem:
         """Springs that break have neither stiffness nor damping from then on, and are linear; their bends go, too."""
         broken = finite(BREAK, value, "springs' numbers").reshape(-1)
+        refuse_twice(BREAK, broken.tolist())
         refuse(BREAK, broken, ~np.isin(broken, range(len(self.springs))), f"a spring from 0 to {len(self.springs) - 1}")
         which, changed = broken.astype(int), copy(self)
         for name in ("stiffness", "damping"):

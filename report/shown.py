@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # these import NumPy and Numba: a command's help does without
     from experiments.runs.comparison import Comparison
     from experiments.simulation.modes_of_scene import Modes
-    from experiments.simulation.simulation import Largest, Simulation
+    from experiments.simulation.simulation import Break, Largest, Simulation
     from reference.identification import Identification
     from reference.scenes import Setup
     from reference.state import Array
@@ -126,9 +126,12 @@ def _largest(found: Largest | None, what: str, unit: str) -> str | None:
     return f"{found.value:.4g} {unit}, {what} {found.which}, t = {found.time:.4g} s"
 
 
-def _breaks(breaks: Sequence[Largest]) -> str:
+def _breaks(breaks: Sequence[Break]) -> str:
     """The first few, in the order they broke."""
-    told = [f"{b.which} at t = {b.time:.4g} s, with {b.value:.4g} N" for b in breaks[:FEW_BREAKS]]
+    told = [
+        f"{b.which} at t = {b.time:.4g} s, with {b.value:.4g} N{', by a change' if b.by_change else ''}"
+        for b in breaks[:FEW_BREAKS]
+    ]
     more = [f"and {len(breaks) - FEW_BREAKS} more"] if len(breaks) > FEW_BREAKS else []
     return "; ".join([*told, *more]) or "none"
 

@@ -23,6 +23,7 @@ from reference.springs.angular_law import bends_and_torques
 from reference.springs.breaking import breaks_of, tensions
 from reference.state import Array, State, Trajectory
 from reference.stepper import SchemeStepper, Stepper
+from reference.system import BREAK
 
 #: What is said of rods that stand for springs.
 RODS = "rods stand for the springs: with which forces they pull is not known"
@@ -43,6 +44,17 @@ class Largest:
     time: float
 
 
+@dataclass(frozen=True)
+class Break(Largest):
+    """A spring that broke, with the tension it had then.
+
+    Attributes:
+        by_change: whether a change on the fly broke it, and not what it carried.
+    """
+
+    by_change: bool
+
+
 @dataclass(frozen=True, eq=False)
 class Motion:
     """What a scene did under one stepper, up to where it ended or blew up.
@@ -59,7 +71,8 @@ class Motion:
         sag: how far a mass came below where it started, at most.
         stretched, tension, compression: the largest of the whole run; None where no spring ever was.
         setup: what was run, with the springs that broke on the way among its changes.
-        breaks: which did, each with the time of the step at whose end it did, and the tension it had then [N].
+        breaks: which did, by themselves or by a change, each with the time of the step at whose end it did, and the
+            tension it had then [N].
     """
 
     trajectory: Trajectory
@@ -76,7 +89,7 @@ class Motion:
     tension: Largest | None
     compression: Largest | None
     setup: Setup
-    breaks: tuple[Largest, ...]
+    breaks: tuple[Break, ...]
 
 
 @dataclass(frozen=True)
@@ -122,7 +135,7 @@ class Run:
             "momentum_kg_m_s": _plain(motion.momentum),
             **{f"largest_{name}_m": found.value if found else 0.0 for name, found in largest.items()},
             **{f"largest_{name}_n": found.value if found else None for name, found in forces.items()},
-            "breaks": [{"spring": b.which, "time_s": b.time, "tension_n": finite(b.value)} for b in motion.breaks],
+            "breaks": [_break(broken) for broken in motion.breaks],
         }
 
 
@@ -231,14 +244,26 @@ def _motion(setup: Setup, motion: Trajectory, rods: bool, broken: Sequence[Chang
     )
 
 
-def _breaks(setup: Setup, motion: Trajectory, broken: Sequence[Change]) -> Iterator[Largest]:
-    """The springs that broke, with what they carried at the end of that step."""
-    for change in broken:
-        step = change.step(setup.dt)
+def _breaks(setup: Setup, motion: Trajectory, broken: Sequence[Change]) -> Iterator[Break]:
+    """The springs that broke, with what they carried at the end of that step; what is broken breaks no more."""
+    cuts = [change for change in setup.changes if change.parameter == BREAK]
+    gone: set[int] = set()
+    for change in sorted(cuts, key=lambda change: change.step(setup.dt)):
+        step, by_change = change.step(setup.dt), change not in broken
+        if step >= len(motion) - by_change:  # a change at the end comes too late to act
+            continue
         (system,) = setup.systems_at([step])
         forces = tensions(system, motion.positions[step], motion.velocities[step])
         for spring in np.atleast_1d(change.value).astype(int).tolist():
-            yield Largest(float(forces[spring]), spring, float(motion.times[step]))
+            if spring not in gone:
+                yield Break(float(forces[spring]), spring, float(motion.times[step]), by_change)
+            gone.add(spring)
+
+
+def _break(broken: Break) -> dict[str, Any]:
+    """As JSON has it."""
+    told = {"spring": broken.which, "time_s": broken.time, "tension_n": finite(broken.value)}
+    return {**told, "by_change": broken.by_change}
 
 
 def _larger(so_far: Largest | None, values: Array, times: Array) -> Largest | None:

@@ -46,6 +46,8 @@ class Collisions:
         radii = np.array(in_range("radii", self.radii, (len(positions),), "m"))
         restitution = in_range("restitution", self.restitution, (), "1")
         refuse("restitution", restitution, restitution > 1, "a number from 0 to 1")
+        lonely = restitution > 0 and not radii.any()
+        refuse("restitution", restitution, np.asarray(lonely), "radii above zero with it: nothing collides")
         radii.flags.writeable = False
         whole = Collisions(radii, float(restitution))
         if (radii > 0).sum() < 2:

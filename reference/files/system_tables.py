@@ -8,6 +8,7 @@ from typing import Any
 import msgspec
 import numpy as np
 
+from reference.checked_numbers import refuse_twice
 from reference.collisions.round_masses import Collisions
 from reference.errors import InputError
 from reference.files.mesh_file import read_mesh
@@ -45,6 +46,7 @@ class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
             for place, j in enumerate(named if isinstance(named, list) else []):
                 if not 0 <= j < count:
                     raise InputError(f"{name}[{place}] = {j}: expected a spring from 0 to {count - 1}")
+            refuse_twice(name, named if isinstance(named, list) else [])
             given[name] = np.isin(np.arange(count), named) if isinstance(named, list) else np.array(named)
         return NonlinearSprings(**given)
 

@@ -97,3 +97,12 @@ def test_the_summary_names_what_broke() -> None:
     said = springlab("simulate", "chain", "--set", "masses=3", "--set", "breaking_force=0.7", "--duration", "0.3")
     assert "springs that broke" in said.out
     assert " 0 at t = " in said.out
+
+
+def test_what_a_change_breaks_is_told_with_what_breaks_by_itself() -> None:
+    """Spring 0 too weak, then spring 3 cut: each once, with its step; a spring that is gone breaks no more."""
+    scene = ["chain", "--set=masses=5", "--set=breaking_force=1.5", "--change=0.2:break=0,3", "--duration=0.3"]
+    (run,) = run_of(*scene, "--stepper=drift_kick")
+    told = [(b["spring"], b["by_change"]) for b in run["breaks"]]
+    assert told == [(0, False), (3, True)]
+    assert run["breaks"][1]["time_s"] == pytest.approx(0.2, abs=1e-12)

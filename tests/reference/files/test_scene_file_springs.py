@@ -63,6 +63,8 @@ def test_of_a_mesh_and_of_a_named_scene(tmp_path: Path) -> None:
         ("tension_only = 1", "line 7: system.tension_only: expected"),
         ("breaking_force = -1", "line 7: breaking_force = -1: expected a number > 0 [N]"),
         ("largest_force = [1, 2, 3]", "line 7: largest_force has shape (3,)"),
+        ("tension_only = [0, 1, 0]", "line 7: tension_only[2] = 0: expected every number once"),
+        ("restitution = 0.5", "line 7: restitution = 0.5: expected radii above zero with it"),
         ("hardenin = 1", "line 7: system: unknown key 'hardenin'"),
     ],
 )
@@ -114,3 +116,17 @@ def test_a_rest_angle_that_is_no_number_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError) as refused:
         law(tmp_path, WRITTEN_OUT.replace("[0.0, 1.0, 2.0]", "[[0, 0], [1, 0], [2, 0]]") + table)
     assert "line 10: angular_springs[0].rest_angle = nan: expected a finite number" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("parameter", "value", "said"),
+    [
+        ("break", "[0, 0]", "break[1] = 0: expected every number once"),
+        ("angular_stiffness", "0.1", "parameter 'angular_stiffness': it cannot change on the fly"),
+    ],
+)
+def test_a_change_that_cannot_be_is_told_why(tmp_path: Path, parameter: str, value: str, said: str) -> None:
+    """And no other name is suggested for one that scenes have."""
+    with pytest.raises(InputError) as refused:
+        law(tmp_path, WRITTEN_OUT + f'[[changes]]\ntime = 0.1\nparameter = "{parameter}"\nvalue = {value}\n')
+    assert said in str(refused.value)
