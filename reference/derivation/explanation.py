@@ -16,7 +16,7 @@ from reference.derivation.oscillators import DT as OSCILLATOR_DT
 from reference.derivation.over_dts import OverDts, over_dts
 from reference.derivation.pasts import Pasts, pasts
 from reference.derivation.recording import LENGTHS
-from reference.derivation.seen import NOTHING, Seen, forces_of, slopes_of, tried
+from reference.derivation.seen import NOTHING, Seen, beside_steps, forces_of, slopes_of, tried
 from reference.derivation.step_matrix import StepMatrix, step_matrix
 from reference.derivation.tableau import Tableau
 from reference.derivation.updates import Updates
@@ -213,7 +213,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         return Explanation(stepper.name, nothing, past, reasons=(reason,))
     tell("its slopes and forces")
     of_slopes: list[str] = []
-    seen = slopes_of(stepper, of_slopes)
+    seen = beside_steps(slopes_of(stepper, of_slopes), runs, of_slopes)
     of_one_step = past is not None and past.one_step and precision == "double"
     if seen == NOTHING and of_one_step and matrix is not None and matrix.only_at is None:
         seen = forces_of(runs, matrix, of_slopes)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
-from itertools import combinations, product
+from itertools import combinations
 
 import numpy as np
 
@@ -27,14 +27,23 @@ from reference.system import MassSpringSystem
 #: Points nearer to one another than this part of their size are one stage, as far as its equation is solved.
 ONE_STAGE = 1e-6
 
-#: A difference that no Jacobian is made of.
-ROUNDING = 1e-12
+#: A difference that no Jacobian is made of; in so many unknowns at most do points differ that one is made of.
+ROUNDING, VARIED = 1e-12, 2
+
+#: So many points before one, for each unknown, are looked at for the one it is varied from: stages squared.
+BEFORE = 10
 
 #: Of the points asked, so many of the last can be stages; and so many stages are tried.
 LAST, MOST_STAGES = 8, 3
 
 #: What may be left of the equations, as a part of a step's change; and how far a coefficient may be off.
 LEFT, OFF = 1e-8, 1e-8
+
+#: Coefficients that are smaller and no fractions are what is left of a solver's iterations, not a method's.
+GHOST = 1e-5
+
+#: To what part the conditions on such a tableau are known.
+KNOWN_TO = 1e-7
 
 
 def tableau_by_points(
@@ -46,24 +55,33 @@ def tableau_by_points(
         start: y0, all unknowns in a row; end: y1.
         points: all P that it asked at, in order; slopes: f there.
     """
-    distinct = _distinct(points)
-    # iterates that have all but converged look like a Jacobian's differences: where the others fail, these are tried
-    ways = [i for i in distinct if not _differenced(points, i)][-LAST:], distinct[-LAST:]
-    for stages, kept in product(range(1, MOST_STAGES + 1), ways):
-        for chosen in reversed(list(combinations(kept, stages))):
-            matrix = h * np.stack([slopes[i] for i in chosen], axis=1)
-            rows = [_coefficients(matrix, target - start) for target in (end, *(points[i] for i in chosen))]
-            if all(row is not None for row in rows):
-                b, *a = [tuple(map(_number, row)) for row in rows if row is not None]
-                c: list[Number] = [sum(row, start=Fraction(0)) for row in a]
-                return Tableau(tuple(a), b, tuple(c))
+    groups = _groups(points)
+    # iterates that have all but converged look like a Jacobian's differences: the better of the two ways is taken
+    unvaried = [next((i for i in reversed(group) if not _differenced(points, i)), None) for group in groups]
+    ways = [i for i in unvaried if i is not None][-LAST:], [group[-1] for group in groups][-LAST:]
+    for stages in range(1, MOST_STAGES + 1):
+        found: list[tuple[float, Tableau]] = []
+        for kept in ways:
+            for chosen in reversed(list(combinations(kept, stages))):
+                matrix = h * np.stack([slopes[i] for i in chosen], axis=1)
+                changes = np.stack([end, *(points[i] for i in chosen)], axis=1) - start[:, None]
+                coefficients: Array = np.asarray(np.linalg.lstsq(matrix, changes, rcond=None)[0])
+                left = float(np.abs(matrix @ coefficients - changes).max() / np.abs(matrix).max())
+                tableau = _tableau(coefficients.T) if left <= LEFT else None
+                if tableau is not None:
+                    found.append((left, tableau))
+        if found:
+            return min(found, key=lambda item: item[0])[1]
     return None
 
 
-def _coefficients(matrix: Array, change: Array) -> Array | None:
-    found = np.linalg.lstsq(matrix, change, rcond=None)[0]
-    size = float(np.abs(matrix).max())
-    return np.asarray(found) if np.abs(matrix @ found - change).max() <= LEFT * size else None
+def _tableau(rows: Array) -> Tableau | None:
+    """Of b and the rows of a; None where a coefficient is a solver's noise."""
+    b, *a = [tuple(map(_number, row)) for row in rows]
+    if any(c and abs(float(c)) < GHOST for row in (b, *a) for c in row):
+        return None
+    c: list[Number] = [sum(row, start=Fraction(0)) for row in a]
+    return Tableau(tuple(a), b, tuple(c), KNOWN_TO)
 
 
 def _number(c: float) -> Number:
@@ -72,23 +90,29 @@ def _number(c: float) -> Number:
 
 
 def _differenced(points: Sequence[Array], i: int) -> bool:
-    """Whether a point is another's but for one unknown: a Jacobian was made of differences there.
+    """Whether a point is another's but for few unknowns: a Jacobian was made of differences there.
 
-    Iterates that have all but converged may differ in one unknown, too, by rounding.
+    Iterates that have all but converged may differ in few unknowns, too, by rounding.
     """
-    before = points[max(0, i - 2 * len(points[i])) : i]
-    apart = (np.abs(points[i] - other) for other in before)
-    return any(np.count_nonzero(off) == 1 and off.max() > ROUNDING for off in apart)
+    before = points[max(0, i - BEFORE * len(points[i])) : i]
+    if not before:
+        return False
+    apart = np.count_nonzero(np.abs(np.stack(before) - points[i]) > ROUNDING, axis=1)
+    return bool(((apart > 0) & (apart <= VARIED)).any())
 
 
-def _distinct(points: Sequence[Array]) -> list[int]:
-    """The last of every group of points that are one stage, in order."""
-    kept: list[int] = []
+def _groups(points: Sequence[Array]) -> list[list[int]]:
+    """The points, in order, those together that are one stage; groups in the order of their last."""
+    groups: list[list[int]] = []
     size = max(float(np.abs(p).max()) for p in points) if points else 1.0
     for i in range(len(points) - 1, -1, -1):
-        if all(np.abs(points[i] - points[j]).max() > ONE_STAGE * size for j in kept):
-            kept.append(i)
-    return kept[::-1]
+        near = (group for group in groups if np.abs(points[i] - points[group[0]]).max() <= ONE_STAGE * size)
+        group = next(near, None)
+        if group is None:
+            groups.append([i])
+        else:
+            group.append(i)
+    return [group[::-1] for group in groups[::-1]]
 
 
 @cache

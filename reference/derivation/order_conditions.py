@@ -35,17 +35,28 @@ WRITTEN: dict[Tree, str] = {
 }
 
 
-def order_of(a: Sequence[Sequence[Number]], b: Sequence[Number]) -> tuple[int, str]:
-    """The order, and which condition of the next fails: "sum b_i c_i is 5/12, not 1/2"; empty beyond HIGHEST."""
+def order_of(a: Sequence[Sequence[Number]], b: Sequence[Number], within: float = SAME) -> tuple[int, str]:
+    """The order, and which condition of the next fails: "sum b_i c_i is 5/12, not 1/2"; empty beyond HIGHEST.
+
+    Args:
+        a, b: the tableau's. within: the part that a condition may be missed by, where its numbers are known so well.
+    """
     for order in range(1, HIGHEST + 1):
         for tree in trees(order):
             weights = _weights(tree, a)
             found: Number = sum((w * u for w, u in zip(b, weights, strict=True)), start=Fraction(0))
-            if abs(float(found) * gamma(tree) - 1) > SAME:
+            if abs(float(found) * gamma(tree) - 1) > within:
                 name = WRITTEN.get(tree, "a sum")
-                expected = number(Fraction(1, gamma(tree)))
-                return order - 1, f"of order {order}, {name} is {number(found)}, not {expected}"
+                return order - 1, f"of order {order}, {name} is {_beside(found, Fraction(1, gamma(tree)))}"
     return HIGHEST, ""
+
+
+def _beside(found: Number, expected: Fraction) -> str:
+    """As "5/12, not 1/2"; two that are the same in seven figures are told by what is between them."""
+    if number(found) != number(float(expected)):
+        return f"{number(found)}, not {expected}"
+    off = float(found) - float(expected)
+    return f"{expected} {'+' if off > 0 else '-'} {abs(off):.2g}, not {expected}"
 
 
 @cache

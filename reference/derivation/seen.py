@@ -5,20 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
+import numpy as np
+
 from reference.derivation.force_jumps import Taken, forces_taken
 from reference.derivation.implicit import implicit_multistep, implicit_tableau, tableau_by_points
 from reference.derivation.multistep import Multistep, multistep_of
 from reference.derivation.of_schemes import updates_of_scheme
-from reference.derivation.oscillators import Runs
+from reference.derivation.oscillators import FEW, Runs, matrices_at, samples
 from reference.derivation.recording import Recording, Solved
 from reference.derivation.stages import tableau_by_jumps
 from reference.derivation.step_matrix import StepMatrix
-from reference.derivation.tableau import Tableau, tableau_of
+from reference.derivation.tableau import SAME, Tableau, tableau_of
 from reference.derivation.updates import Updates, updates_of
 from reference.errors import Unsupported
 from reference.stepper import SchemeStepper, Stepper
 
 T = TypeVar("T")
+
+#: How near steps have to be to those that a tableau makes, in their step matrices' entries.
+AS_STEPS = 1e-5
 
 
 class Seen(NamedTuple):
@@ -84,6 +89,22 @@ def _of_solved(solved: Solved, reasons: list[str]) -> Seen:
     if found is None:
         reasons.append("no tableau: it iterates, and its stages were not found among the points that it asks at")
     return Seen(tableau=found)
+
+
+def beside_steps(seen: Seen, runs: Runs, reasons: list[str]) -> Seen:
+    """Without a tableau that was found among points, where steps of oscillators are not as it has them."""
+    tableau = seen.tableau
+    if tableau is None or tableau.within == SAME:
+        return seen
+    at = samples(False, False, FEW)
+    measured = tried(lambda: matrices_at(runs, at), reasons, "its tableau was not held against its steps: ")
+    if measured is None or np.abs(tableau.step_matrices(at.a) - measured).max() < AS_STEPS:
+        return seen
+    reasons.append(
+        "no tableau: it iterates, and the points that it asks at fit one by which its steps of an oscillator would be "
+        "others than they are, so these are not its stages"
+    )
+    return seen._replace(tableau=None)
 
 
 def forces_of(runs: Runs, matrix: StepMatrix, reasons: list[str]) -> Seen:

@@ -6,9 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+import numpy as np
+
 from reference.derivation.formula import Number, exact_text, number
 from reference.derivation.order_conditions import order_of
 from reference.derivation.updates import Coefficient, Form, Symbol, Updates
+from reference.state import Array
 
 #: Two numbers that are no fractions are the same within this.
 SAME = 1e-12
@@ -27,11 +30,13 @@ class Tableau:
         a: shape (s, s).
         b: shape (s,).
         c: at what parts of h the method takes its slopes, as it says itself; row sums where it does not.
+        within: how far two numbers of it, or the two sides of a condition, may be apart and are the same.
     """
 
     a: tuple[tuple[Number, ...], ...]
     b: tuple[Number, ...]
     c: tuple[Number, ...]
+    within: float = SAME
 
     @property
     def stages(self) -> int:
@@ -46,27 +51,40 @@ class Tableau:
     @property
     def order(self) -> int:
         """Up to which order all conditions hold."""
-        return order_of(self.a, self.b)[0]
+        return order_of(self.a, self.b, self.within)[0]
 
     @property
     def fails(self) -> str:
         """The first condition that does not."""
-        return order_of(self.a, self.b)[1]
+        return order_of(self.a, self.b, self.within)[1]
 
     @property
     def symplectic(self) -> bool:
         """Whether b_i a_ij + b_j a_ji = b_i b_j (Sanz-Serna 1988)."""
         a, b, s = self.a, self.b, range(self.stages)
-        return all(not _apart(b[i] * a[i][j] + b[j] * a[j][i], b[i] * b[j]) for i in s for j in s)
+        return all(not _apart(b[i] * a[i][j] + b[j] * a[j][i], b[i] * b[j], self.within) for i in s for j in s)
 
     @property
     def times_at_odds(self) -> str:
         """Where the times it takes slopes at are not the sums of its rows; empty where they are."""
         for i, (c, row) in enumerate(zip(self.c, self.a, strict=True)):
             on: Number = sum(row, start=ZERO)
-            if _apart(c, on):
+            if _apart(c, on, self.within):
                 return f"slope {i + 1} is taken {number(on)} of a step on, and is told the time {number(c)} of it on"
         return ""
+
+    def step_matrices(self, a: Array) -> Array:
+        """Its step matrices of oscillators without damping, a = h^2 k/m of shape (n,): shape (n, 2, 2).
+
+        R(Z) = 1 + (b^T x Z) (1 - A x Z)^-1 (e x 1), of Z = ((0, 1), (-a, 0)) for (x, h v) (Hairer and Wanner 1996,
+        IV.3).
+        """
+        by_a, by_b = np.array(self.a, float), np.array(self.b, float)[None]
+        ones = np.kron(np.ones((self.stages, 1)), np.eye(2))
+        zs = [np.array([[0.0, 1.0], [-each, 0.0]]) for each in a]
+        return np.stack(
+            [np.eye(2) + np.kron(by_b, z) @ np.linalg.solve(np.eye(len(ones)) - np.kron(by_a, z), ones) for z in zs]
+        )
 
     def text(self) -> dict[str, list[str] | list[list[str]]]:
         """Its numbers as they are written."""
@@ -87,7 +105,7 @@ class Tableau:
         pairs += [(f"b{i + 1}", self.b[i], other.b[i]) for i in s]
         if self.times_at_odds:  # else c follows from a
             pairs += [(f"c{i + 1}", self.c[i], other.c[i]) for i in s]
-        return [(name, mine, its) for name, mine, its in pairs if _apart(mine, its)]
+        return [(name, mine, its) for name, mine, its in pairs if _apart(mine, its, self.within)]
 
     def without_unused(self) -> Tableau:
         """The same without slopes that nothing is made of."""
@@ -99,6 +117,7 @@ class Tableau:
             tuple(tuple(self.a[i][j] for j in used) for i in used),
             tuple(self.b[i] for i in used),
             tuple(self.c[i] for i in used),
+            self.within,
         ).without_unused()
 
 
@@ -134,8 +153,8 @@ def _row(x: Form, v: Form, stages: int) -> tuple[Number, ...] | None:
     return rows[0] if all(not _apart(p, q) for p, q in zip(*rows, strict=True)) else None
 
 
-def _apart(one: Number, other: Number) -> bool:
-    return abs(float(one) - float(other)) > SAME
+def _apart(one: Number, other: Number, within: float = SAME) -> bool:
+    return abs(float(one) - float(other)) > within
 
 
 def _number(form: Form, symbol: Symbol) -> Number:

@@ -71,6 +71,12 @@ def test_the_condition_that_fails_is_told_in_numbers() -> None:
     assert order_of([[0, 0], [HALF, 0]], [0, 1])[0] == 2
 
 
+def test_a_condition_that_is_missed_by_little_is_told_by_how_much() -> None:
+    """Euler's weight off by 1e-9, which seven figures do not show; and where numbers are known to 1e-7 it is 1."""
+    assert order_of([[0]], [1 - 1e-9]) == (0, "of order 1, sum b_i is 1 - 1e-09, not 1")
+    assert order_of([[0]], [1 - 1e-9], 1e-7)[0] == 1
+
+
 def test_partitioned_schemes_are_told_as_formulas() -> None:
     """Kick-drift moves with the new velocity: h^2 a."""
     assert in_words(updates_of_scheme(find("kick_drift"))) == [
