@@ -11,6 +11,7 @@ import numpy as np
 from experiments.runs.comparison import finite
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
+from reference.identification import identify, scheme_of
 from reference.scenes import Setup
 from reference.springs.angular_law import bends_and_torques
 from reference.springs.breaking import tensions
@@ -19,12 +20,16 @@ from reference.stepper import SchemeStepper, Stepper
 from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.modes import NaturalModes, natural_modes
 from reference.theory.oscillators import step_matrices
+from reference.theory.rates import rates
 
 #: Up to so many coordinates all modes are computed unless a number is asked for; of larger systems so many.
 ALL_UP_TO, LOWEST = 600, 20
 
 #: Damping that acts between modes by no more than this part of itself is rounding.
 UNCOUPLED = 1e-9
+
+#: A stepper is identified in so many steps, each such a part of how long the fastest motion lasts.
+IDENTIFYING_STEPS, IDENTIFYING_DT = 200, 0.1
 
 #: A measured swing starts so far from rest, as a part of the system's size, and lasts so many steps at most.
 START, STEPS = 1e-5, 2_000
@@ -96,9 +101,11 @@ class StepperSwing:
 
     Attributes:
         mode: its number, from 0.
-        predicted: from the scheme's step of an oscillator with this frequency and damping; None of an engine.
+        predicted: from the step of the scheme, of an engine of the one it is identified as here, of an oscillator with
+            this frequency and damping; None where there is none.
         measured: from a run, started in the mode's shape; None where there is none.
         reason: why, where one is missing.
+        identified_as: the scheme an engine or own file is predicted as; None of a scheme, and where there is none.
     """
 
     stepper: str
@@ -106,6 +113,7 @@ class StepperSwing:
     predicted: Swing | None
     measured: Swing | None
     reason: str = ""
+    identified_as: str | None = None
 
 
 def modes_of(setup: Setup, lowest: int | None = None) -> Modes:
@@ -130,22 +138,49 @@ def swings(modes: Modes, steppers: Sequence[Stepper], progress: Progress) -> lis
     with current().threads() as pool:
         for stepper in steppers:
             progress(stepper.name)
-            predicted = _predicted(stepper, modes) if isinstance(stepper, SchemeStepper) else None
+            scheme, unknown = _scheme_of(stepper, modes)
+            predicted = _predicted(scheme, modes) if scheme is not None else unknown
+            name = None if scheme is None or scheme is stepper else scheme.name
             which = range(len(modes.natural.frequencies))
             measured = list(pool.map(lambda i, stepper=stepper: _measured(stepper, modes, i), which))
-            for i, (swing, reason) in enumerate(measured):
-                found.append(StepperSwing(stepper.name, i, predicted[i] if predicted else None, swing, reason))
+            for i, (swing, why_not) in enumerate(measured):
+                known = None if isinstance(predicted, str) else predicted[i]
+                reason = _reason(predicted if isinstance(predicted, str) else "", why_not)
+                found.append(StepperSwing(stepper.name, i, known, swing, reason, name))
     return found
 
 
-def _predicted(stepper: SchemeStepper, modes: Modes) -> list[Swing] | None:
-    """By the eigenvalues l of the scheme's step: its swing is arg l / dt, and ln |l| tells how it decays."""
+def _reason(predicted: str, measured: str) -> str:
+    """Why there is no prediction, and no measurement; what is the reason of both is said once."""
+    if measured and predicted.endswith(measured):
+        return predicted
+    told = {"not predicted": predicted, "not measured": measured}
+    return "; ".join(f"{what}: {why}" for what, why in told.items() if why)
+
+
+def _scheme_of(stepper: Stepper, modes: Modes) -> tuple[SchemeStepper | None, str]:
+    """A scheme is itself; an engine, an own file what it is identified as in short steps; or why it is none."""
+    if isinstance(stepper, SchemeStepper):
+        return stepper, ""
+    dt = IDENTIFYING_DT / (rates(modes.rest).fastest or 1.0)
+    found = identify(stepper, modes.setup.system, dt, IDENTIFYING_STEPS)
+    return scheme_of(stepper, found), f"not identified; {found.reason}"
+
+
+def _predicted(stepper: SchemeStepper, modes: Modes) -> list[Swing] | str:
+    """By the eigenvalues l of the scheme's step: its swing is arg l / dt, and ln |l| tells how it decays.
+
+    Where the matrix of one oscillator's step does not tell that, why.
+    """
     if modes.natural.coupled > UNCOUPLED:
-        return None  # what is measured is then no mode's alone
+        return "damping acts between modes, and what is measured is no mode's alone"
     scheme, dt = stepper.scheme, modes.setup.dt
-    whole = scheme.linear and scheme.one_step and not scheme.iterated and scheme.needs != "accelerations of one mass"
-    if stepper.on_rods or not whole:
-        return None
+    if stepper.on_rods:
+        return "it has rods in place of springs"
+    if not scheme.linear or not scheme.one_step or scheme.iterated:
+        return f"a step of {scheme.name} is no matrix"
+    if scheme.needs == "accelerations of one mass":
+        return f"{scheme.name} steps mass after mass, and so modes not by themselves"
     natural = modes.natural
     squares = (2 * np.pi * natural.frequencies) ** 2
     matrices = step_matrices(scheme, dt, np.ones_like(squares), squares, natural.rates)

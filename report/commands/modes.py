@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from report.commands.options import json_option, out_option, setup_options, steppers_option
-from report.commands.terminal import progress, show_table
+from report.commands.terminal import progress, show_lines, show_table
 
 if TYPE_CHECKING:
     from experiments.simulation.modes_of_scene import Modes, StepperSwing, Swing
@@ -58,7 +58,8 @@ def modes_command(
 def _document(swing: StepperSwing) -> dict[str, Any]:
     both = {"predicted": swing.predicted, "measured": swing.measured}
     told = {name: each.document if each is not None else None for name, each in both.items()}
-    return {"stepper": swing.stepper, "mode": swing.mode, **told, "reason": swing.reason}
+    named = {"stepper": swing.stepper, "identified_as": swing.identified_as, "mode": swing.mode}
+    return {**named, **told, "reason": swing.reason}
 
 
 def _show(modes: Modes, made: list[StepperSwing]) -> None:
@@ -99,6 +100,8 @@ def _show_swings(modes: Modes, made: list[StepperSwing]) -> None:
         if swing.mode < SHOWN
     ]
     show_table(f"What steppers make of the modes at dt = {modes.setup.dt:g} s", columns, rows)
+    named = {swing.stepper: swing.identified_as for swing in made if swing.identified_as and swing.predicted}
+    show_lines([f"{name} is predicted as {scheme}, as which it is identified here." for name, scheme in named.items()])
 
 
 def _pair(predicted: Swing | None, measured: Swing | None, what: str) -> list[float | None]:

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from engines.own.stepper import stepper_of
 from experiments.runs.steppers import find_steppers
 from experiments.simulation.modes_of_scene import modes_of, swings
 from reference.files.setup import setup_for
@@ -156,6 +157,32 @@ def test_a_swing_is_predicted_as_it_is_measured(name: str) -> None:
     assert other.measured.frequency != pytest.approx(swing.measured.frequency, rel=1e-4)
 
 
+def test_an_engine_is_predicted_as_what_it_is_identified_as() -> None:
+    """Pymunk as drift-kick, by whose step it swings as measured; one that is no scheme has the reason, and a run.
+
+    The tolerance of a run from rest: rounding, 1e-11 of the swing, over some tens of steps.
+    """
+
+    def damped_twice(a, x, v, dt):  # type: ignore[no-untyped-def]
+        v = 0.97 * (v + dt * a(x, v))
+        return x + dt * v, v
+
+    modes = modes_of(setup_for("string", dt=2e-3, settings={"masses": "1"}))
+    named, unnamed = find_steppers(["pymunk_springs"])[0], stepper_of(damped_twice)
+    for swing in swings(modes, [named], lambda _: None):
+        assert swing.identified_as == "drift_kick"
+        assert swing.reason == ""
+        assert swing.predicted is not None
+        assert swing.measured is not None
+        assert swing.measured.frequency == pytest.approx(swing.predicted.frequency, rel=1e-6)
+        assert swing.measured.frequency != pytest.approx(modes.natural.frequencies[swing.mode], rel=1e-6)
+    for swing in swings(modes, [unnamed], lambda _: None):
+        assert swing.predicted is None
+        assert swing.identified_as is None
+        assert swing.measured is not None
+        assert "not identified" in swing.reason
+
+
 def test_kick_drift_swings_too_fast_by_the_square_of_its_step() -> None:
     """sin(wd h / 2) = w h / 2, Hairer, Lubich and Wanner, *Geometric Numerical Integration* (2006), I.1.4."""
     modes = modes_of(setup_for("oscillator", dt=5e-3))
@@ -179,4 +206,6 @@ def test_pictures_and_a_film_of_modes(tmp_path: Path) -> None:
 def test_where_damping_couples_modes_nothing_is_predicted_beside_a_run() -> None:
     """One damped spring among others: a run has no mode alone, and what one oscillator would do is another quantity."""
     modes = modes_of(setup_for("chain", settings={"masses": "3", "damping": "0.5,0,0"}))
-    assert {swing.predicted for swing in swings(modes, find_steppers(["heun"]), lambda _: None)} == {None}
+    made = swings(modes, find_steppers(["heun"]), lambda _: None)
+    assert {swing.predicted for swing in made} == {None}
+    assert all("not predicted: " in swing.reason for swing in made)
