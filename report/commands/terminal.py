@@ -64,10 +64,11 @@ def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]
     notes: list[str] = []
     if len(_parts(columns, cells, console.width, folded=True)) > 1:
         cells, notes = with_notes(cells)
+    if title:  # a table's own would be folded at the table's width
+        console.print(printable(title), style="italic", markup=False)
     numbers = [any(isinstance(row[i], float) for row in rows) for i in range(len(columns))]
     for part in _parts(columns, cells, console.width, folded=not notes):
-        console.print(_table(title, columns, cells, numbers, _widths(columns, cells, part, console.width)))
-        title = ""
+        console.print(_table(columns, cells, numbers, _widths(columns, cells, part, console.width)))
     for note in notes:
         console.print(note, markup=False)
 
@@ -125,7 +126,6 @@ def _widths(columns: Sequence[str], cells: Sequence[Sequence[str]], part: Sequen
 
 
 def _table(
-    title: str,
     columns: Sequence[str],
     cells: Sequence[Sequence[str]],
     numbers: Sequence[bool],
@@ -136,7 +136,7 @@ def _table(
     from rich.markup import escape
     from rich.table import Table as RichTable
 
-    table = RichTable(title=escape(printable(title)) or None, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
+    table = RichTable(box=box.SIMPLE_HEAD, pad_edge=False)
     for i, width in widths.items():
         table.add_column(escape(columns[i]), justify="right" if numbers[i] else "left", width=width)
     for row in cells:
