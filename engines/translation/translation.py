@@ -17,8 +17,23 @@ from reference.errors import InputError, unknown_name
 from reference.registry import Registry
 from reference.system import MassSpringSystem
 
+#: Of k/m [1/s^2], what no spring has: squares and products of such numbers are still finite.
+LARGEST = 1e150
+
 #: What is typed: numbers by the engine's own words for them.
 Settings = Mapping[str, float]
+
+
+class NoSpringError(InputError):
+    """Numbers that are no spring.
+
+    Attributes:
+        field: the one that is wrong.
+    """
+
+    def __init__(self, field: str, said: str) -> None:
+        super().__init__(said)
+        self.field = field
 
 
 @dataclass(frozen=True)
@@ -42,7 +57,11 @@ class Spring:
             value = getattr(self, name)
             if value is not None and not (isfinite(value) and (value > low if low >= 0 else value >= 0)):
                 field = "mass-b" if name == "other" else name
-                raise InputError(f"{field} = {value:g}: expected a finite number {'>' if low >= 0 else '>='} 0")
+                sign = ">" if low >= 0 else ">="
+                raise NoSpringError(field, f"{field} = {value:g}: expected a finite number {sign} 0")
+        if not 0 < self.stiffness * (1 / self.mass + (1 / self.other if self.other else 0.0)) < LARGEST:
+            numbers = f"stiffness = {self.stiffness:g}, mass = {self.mass:g}"
+            raise NoSpringError("stiffness", f"{numbers}: expected k/m between 0 and {LARGEST:g} 1/s^2")
 
     @property
     def effective_mass(self) -> float:

@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any
 
 import numpy as np
 
 from engines.process.available import available_version, how_to_install
-from engines.translation.translation import Settings, Spring, Stepping, Translation, translations
+from engines.translation.translation import NoSpringError, Settings, Spring, Stepping, Translation, translations
 from experiments.translation.measured import measured_spring, steps_to_watch
 from experiments.translation.oscillation import largest_stable_dt, spring_of_step, step_matrix, system_of
 from reference.errors import InputError, SolverError, Unsupported
 
 #: What is called the same.
 SAME = 0.01
+
+#: Of critical damping, what is rounding.
+ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -84,10 +88,20 @@ def backward(
     """
     translation.check(stepping)
     whole = translation.typed(typed)
+    for field, value in typed.items():
+        if not isfinite(value):
+            raise InputError(f"{translation.name}: {field} = {value:g}: expected a finite number")
+    words = ", ".join(f"{field} = {value:g}" for field, value in typed.items())
     try:
         spring = translation.meaning(whole, masses, stepping)
     except Unsupported as error:
         raise InputError(f"{translation.name}: {error}") from None
+    except NoSpringError as error:
+        if error.field in typed:
+            raise
+        raise InputError(f"{translation.name}: {words}: this would be {error}") from None
+    except OverflowError:
+        raise InputError(f"{translation.name}: {words}: expected a spring whose numbers are finite") from None
     except ZeroDivisionError:
         zero = ", ".join(f"{field} = 0" for field, value in typed.items() if value == 0)
         raise InputError(f"{translation.name}: {zero}: expected a number that is not zero") from None
@@ -159,8 +173,10 @@ def warnings(
     said = []
     stiffness, damping = effective
     if abs(stiffness / spring.stiffness - 1) > SAME:
-        said.append(f"really {stiffness / spring.stiffness - 1:+.1%} as stiff")
+        said.append(f"really {stiffness / spring.stiffness:.1%} as stiff")
     critical = 2 * spring.effective_mass * spring.omega
     if abs(damping - spring.damping) > SAME * max(spring.damping, SAME * critical):
-        said.append(f"really {damping - spring.damping:+.3g} N s/m of damping, {damping / critical:.3g} of critical")
+        really = 0.0 if abs(damping) < ROUNDING * critical else damping
+        part = f"{really / critical:.3g} of critical"
+        said.append(f"really {really:.3g} N s/m of damping ({part}), not {spring.damping:.3g}")
     return said

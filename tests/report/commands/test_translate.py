@@ -43,6 +43,15 @@ def test_tables_fit_a_terminal(monkeypatch: pytest.MonkeyPatch, width: int) -> N
     assert any(line.split() == ["mujoco", "200.17", "0", "0.02"] for line in lines)
 
 
+def test_what_a_spring_really_has_is_told_not_what_is_missing() -> None:
+    """Of the predicted row's own numbers: erp 0.2 and cfm 0.001 of 2 kg mean c = 800 N s/m, and damp with 268."""
+    said = springlab("translate", "--from", "bullet", "erp=0.2", "cfm=0.001", "--mass", "2", "--predict", "--json")
+    (row,) = json.loads(said.out)
+    assert f"really {row['effective_damping']:.3g} N s/m of damping" in row["reason"]
+    assert f"really {row['effective_stiffness'] / row['stiffness']:.1%} as stiff" in row["reason"]
+    assert row["effective_damping"] == pytest.approx(268, abs=0.5)
+
+
 def test_a_step_that_blows_up_is_said_to() -> None:
     """H w = 3: semi-implicit Euler is stable up to 2, and the row has no other promise than that."""
     said = springlab("translate", "--stiffness", "900", "--dt", "0.1", "--engine", "mujoco", "--predict", "--json")
@@ -99,6 +108,10 @@ def test_a_scene_is_translated_as_a_whole() -> None:
         (["translate", "--from", "box2d", "damping_ratio=1"], "expected hertz=NUMBER"),
         (["translate", "--from", "box2d", "hertz=four"], "expected SETTING=NUMBER"),
         (["translate", "--from", "bullet", "erp=0.2", "cfm=0"], "cfm > 0"),
+        (["translate", "--from", "box2d", "hertz=0", "damping_ratio=0.7"], "box2d: hertz = 0, damping_ratio = 0.7: "),
+        (["translate", "--from", "box2d", "hertz=1e200"], "box2d: hertz = 1e+200: "),
+        (["translate", "--from", "jolt", "compliance=inf"], "jolt: compliance = inf: expected a finite number"),
+        (["translate", "--stiffness", "1e300", "--mass", "1e-300"], "stiffness = 1e+300, mass = 1e-300: "),
     ],
 )
 def test_bad_words_are_one_line(words: list[str], said: str) -> None:
