@@ -16,9 +16,10 @@ function togglePin(mass) {
 }
 
 function setDt(ms) {
-  const value = Number(String(ms).replace(",", ".")) / 1e3;
-  if (Number.isFinite(value) && value > 1e-9 && value <= 10) change("dt", value);
+  const value = numberIn(ms) / 1e3, fine = value >= SHORTEST_DT && value <= LONGEST_DT;
+  if (fine) change("dt", value);
   showAll();
+  if (!fine) refuse($("dt"), say("dt"), number(1e3 * lab.dt, 6), say("expected_from", {least: 1e3 * SHORTEST_DT, most: 1e3 * LONGEST_DT}));
 }
 
 function listen() {

@@ -12,6 +12,13 @@ const PARAMETERS = {
   damping: at => [at.damping, at.s], drag: at => [at.drag, 1], gravity: at => [at.gravity, at.d],
 };
 
+// What a parameter may be on this page: no more than this, and not below zero but for gravity, which may be upwards.
+const LARGEST = 1e12, mayBe = (name, value) => Number.isFinite(value) && Math.abs(value) <= LARGEST
+  && (name === "gravity" || value > 0 || (value === 0 && name !== "mass"));
+
+// What a dt may be [s].
+const SHORTEST_DT = 1e-9, LONGEST_DT = 10;
+
 function memoryOf(system) {
   const {n, s, d} = system, at = {n, s, d};
   let doubles = 0, whole = 0;

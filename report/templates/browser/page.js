@@ -27,7 +27,16 @@ function translate() {
   showAll();
 }
 
-function showAll() { showScene(); showLanes(); showLimits(); showParameters(); showLesson(); showEquations(); showState(); }
+// What is typed, with a comma or a point; nothing is no number.
+const numberIn = text => String(text).trim() === "" ? NaN : Number(String(text).replace(",", "."));
+
+// A field that keeps what it had: what was typed, and what was expected, in one line.
+function refuse(field, name, kept, expected) {
+  $("refused").textContent = say("refused", {name, value: field.value.slice(0, 40), expected});
+  field.value = kept;
+}
+
+function showAll() { $("refused").textContent = ""; showScene(); showLanes(); showLimits(); showParameters(); showLesson(); showEquations(); showState(); }
 
 function showScene() {
   const sizes = [...new Set([...MAGNIFIED, lab.magnified])].sort((a, b) => a - b);
@@ -108,21 +117,29 @@ function limitSaid(lane) {
 const sliderOf = (value, [low, high]) => low > 0 ? Math.round(1000 * (Math.log(Math.max(value, low) / low) / Math.log(high / low))) : Math.round(1000 * (value - low) / (high - low));
 const ofSlider = (place, [low, high]) => +(low > 0 ? low * (high / low) ** (place / 1000) : low + (high - low) * place / 1000).toPrecision(4);
 
+// A parameter as one number, gravity downwards, and whether that is all there is to it.
+function oneNumber(name) {
+  const {F, at} = lab.lanes[0].world.memory, [begin, count] = PARAMETERS[name](at), values = F.subarray(begin, begin + count);
+  if (name === "gravity") return {same: -values[Math.min(1, at.d - 1)], all: true};
+  return {same: values[0], all: values.every(value => value === values[0])};
+}
+
+const shownOf = name => { const {same, all} = oneNumber(name); return all ? number(same, 6) : ""; };
+const expectedOf = name => name === "mass" ? say("expected_over", {most: LARGEST}) : say("expected_from", {least: name === "gravity" ? -LARGEST : 0, most: LARGEST});
+
 function showParameters() {
-  const {F, at} = lab.lanes[0].world.memory;
   const box = $("parameters");
   for (const name of Object.keys(PARAMETERS)) {
-    const [begin, count] = PARAMETERS[name](at), values = F.subarray(begin, begin + count);
-    const same = name === "gravity" ? -values[Math.min(1, at.d - 1)] : values[0], all = name === "gravity" || values.every(value => value === values[0]);
+    const {same, all} = oneNumber(name);
     let row = document.getElementById(`row-${name}`);
     if (!row) {
       const zero = !["mass", "rest_length"].includes(name), range = RANGES[name];
       const slider = element("input", {type: "range", min: zero && range[0] > 0 ? -1 : 0, max: 1000, id: `slider-${name}`, oninput: () => { set(+slider.value < 0 ? 0 : ofSlider(+slider.value, range)); }});
       const typed = element("input", {id: `typed-${name}`, className: "typed", inputMode: "decimal", autocomplete: "off", onchange: () => {
-        const value = Number(typed.value.replace(",", "."));
-        if (typed.value.trim() !== "" && Number.isFinite(value) && Math.abs(value) <= 1e12 && (name === "gravity" || value > 0 || (zero && value === 0))) set(value); else showParameters();
+        const value = numberIn(typed.value);
+        if (mayBe(name, value)) set(value); else refuse(typed, say(name), shownOf(name), expectedOf(name));
       }});
-      const set = value => { change(name, value); showParameters(); showState(); };
+      const set = value => { change(name, value); $("refused").textContent = ""; showParameters(); showState(); };
       row = element("div", {className: "parameter", id: `row-${name}`}, element("label", {htmlFor: `typed-${name}`, id: `label-${name}`}), slider, typed);
       box.append(row);
     }
@@ -133,7 +150,7 @@ function showParameters() {
     slider.setAttribute("aria-label", say(name));
     slider.value = all ? (same === 0 && RANGES[name][0] > 0 ? -1 : sliderOf(same, RANGES[name])) : 500;
     slider.setAttribute("aria-valuetext", all ? number(same) : say("as_scene"));
-    if (document.activeElement !== typed) { typed.value = all ? number(same, 6) : ""; typed.placeholder = all ? "" : "…"; typed.title = all ? "" : say("as_scene"); }
+    if (document.activeElement !== typed) { typed.value = shownOf(name); typed.placeholder = all ? "" : "…"; typed.title = all ? "" : say("as_scene"); }
   }
 }
 

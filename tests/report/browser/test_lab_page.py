@@ -228,6 +228,26 @@ def test_the_third_lesson_takes_the_limit_before_it_is_computed_and_after_steps(
     page.close()
 
 
+def test_junk_in_a_field_is_refused_and_the_field_keeps_what_it_had(browser: Any, file: Path) -> None:
+    """With its name, what was typed, and what was expected; what is right afterwards ends the refusal."""
+    shown = opened(browser, file, "s=string&w=kick_drift")
+    page = shown.page
+    texts = {"dt": ["-3", "0", "1e9", "abc", ""], "typed-mass": ["-1", "0", "x"], "typed-stiffness": ["-5", "1e13"]}
+    for field, junk in texts.items():
+        kept = page.input_value(f"#{field}")
+        for text in junk:
+            page.fill(f"#{field}", text)
+            page.press(f"#{field}", "Enter")
+            assert page.input_value(f"#{field}") == kept
+            assert f" = {text}: " in page.inner_text("#refused")
+        assert page.evaluate("lab.changes.length") == 0
+    page.fill("#typed-stiffness", "0")
+    page.press("#typed-stiffness", "Enter")
+    assert page.evaluate("[lab.changes[0].value, $('refused').textContent]") == [0, ""]
+    assert shown.complaints == []
+    page.close()
+
+
 def test_the_keyboard_does_what_a_pointer_does(browser: Any, file: Path) -> None:
     """Play, step, choose a mass, move it, hold it."""
     shown = opened(browser, file, "s=string&w=kick_drift")
