@@ -179,7 +179,7 @@ def ask_firsts_again(module: ModuleType, questions: list[dict[str, Any]], answer
         late = ask(module, {**questions[i], "steps": 0})
         if "error" in late:
             answers[i]["error"] = late["error"]
-        elif pack(late["again"]) != pack(answers[i]["values"][0]):
+        elif pack([late["again"]]) != pack(answers[i]["values"][:1]):
             answers[i]["again"] = late["again"]
 
 
