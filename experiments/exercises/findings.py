@@ -263,10 +263,11 @@ def not_repeatable(same: bool) -> Finding:
     return Finding("random_or_time", words, "A step depends on nothing but what it is given.")
 
 
-def single_precision() -> Finding:
-    """Of numbers that are the right ones to single precision only."""
-    words = "Computed in single precision (float32): the numbers are the right ones to that, not to rounding."
-    return Finding("single_precision", words, "Which of your arrays is of the type float32?")
+def about_seven_digits() -> Finding:
+    """Of numbers that are the right ones as closely as single precision has them, whatever the cause."""
+    words = "The numbers are the right ones to about 7 digits only, not to rounding: it passes."
+    hint = "Possible causes: single precision (float32), rounding, a small number added against division by zero."
+    return Finding("about_7_digits", words, hint)
 
 
 def clean(words: str) -> str:
