@@ -43,6 +43,9 @@ OPTIONS = (
     "-Wfloat-conversion",
 )
 
+#: What makes a local variable that nobody has written into a number that cannot pass: not every compiler has it.
+FILLED = "-ftrivial-auto-var-init=pattern"
+
 #: Where a submission, and the exercise's own C files, are while they are compiled.
 OWN, FILES = "submission.c", Path(__file__).parent / "c"
 
@@ -103,7 +106,7 @@ def compiled(exercise: int, source: str, exposed: bool = False) -> Compiled:
         NotGradedError: where it is not.
     """
     program, tool = compiler(), shutil.which("objdump")
-    begin = [program, *OPTIONS, f"-I{FILES}"]
+    begin = [program, *OPTIONS, *([FILLED] if _takes(program, FILLED) else []), f"-I{FILES}"]
     commands = [
         [*begin, "-c", OWN, "-o", "own.o"],
         [*begin, f"-DEXERCISE={exercise}", str(FILES / "guard.c"), "own.o", "-Wl,-z,defs", "-o", "library.so", "-lm"],
@@ -117,6 +120,16 @@ def compiled(exercise: int, source: str, exposed: bool = False) -> Compiled:
                 raise DoesNotCompileError(*_first_error(errors, code))
         lines = _lines(said[2][1]) if len(said) > 2 else []
         return Compiled((folder / "library.so").read_bytes(), tuple(lines), tuple(_warnings(said[0][2])))
+
+
+@lru_cache
+def _takes(program: str, option: str) -> bool:
+    """Whether a compiler has an option, by an empty program."""
+    command = [program, "-Werror", option, "-fsyntax-only", "-x", "c", os.devnull]
+    try:
+        return subprocess.run(command, capture_output=True, timeout=LIMIT).returncode == 0
+    except (OSError, subprocess.TimeoutExpired):
+        return False
 
 
 @contextmanager

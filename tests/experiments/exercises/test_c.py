@@ -16,7 +16,7 @@ from experiments.exercises.handout import hand_out
 from experiments.exercises.judge import judge
 from experiments.exercises.sandbox import Limits
 from experiments.exercises.sandbox_errors import NotGradedError
-from experiments.exercises.submission import read
+from experiments.exercises.submission import Submission, read
 from reference.errors import InputError
 
 pytestmark = pytest.mark.skipif(c_compiler.compiler_found() is None, reason="there is no C compiler")
@@ -101,6 +101,22 @@ def test_a_comment_that_nobody_closed_is_what_the_compiler_says() -> None:
     text = '#define EXERCISE 1\n#include "exercise.h"\n/* open\nvoid step(double *y) {\n}\n'
     verdict = judge(find("1"), text, language="c")
     assert (verdict.name, verdict.findings[0].line) == ("does_not_compile", 3)
+
+
+def test_what_nobody_has_written_into_is_not_zero() -> None:
+    """A sum that begins with no number: compilers take 0 for it where they may. The line is told."""
+    text = (
+        '#define EXERCISE 1\n#include "exercise.h"\n'
+        "void step(double *y, double *v, double dt, const struct spring *s)\n{\n    double a;\n"
+        "    a = a + (s->stiffness * (-*y - s->rest_length) - s->damping * *v) / s->mass - s->gravity;\n"
+        "    *y += *v * dt;\n    *v += a * dt;\n}\n"
+    )
+    assert judge(find("1"), text.replace("double a;", "double a = 0.0;"), language="c").right
+    if not c_compiler._takes(c_compiler.compiler(), c_compiler.FILLED):
+        pytest.skip("this compiler does not fill local variables")
+    given = grade(Submission("own.c", text, find("1"), language="c"))
+    assert not any(given.public.passed)
+    assert [f.name for f in given.closer.findings if "line 6" in f.words] == ["compiler_warns"]
 
 
 def test_a_compiler_opens_nothing_of_the_teachers(tmp_path: Path) -> None:
