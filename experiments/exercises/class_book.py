@@ -113,6 +113,27 @@ def book(
     return rows
 
 
+def odd_marks(rows: Iterable[Mapping[str, str]]) -> list[str]:
+    """Marks by hand that are no numbers from 0 to 100, a line each: they count as they are.
+
+    >>> odd_marks([{"student": "eve", "exercise": "1", "by_hand": mark} for mark in ("", "87,5", "good")])
+    ["by_hand of eve, exercise 1: 'good': expected a number from 0 to 100; it counts as it is"]
+    """
+    odd = [row for row in rows if row["by_hand"] and not _is_mark(row["by_hand"])]
+    return [
+        f"by_hand of {row['student']}{', exercise ' * bool(row['exercise'])}{row['exercise']}: {row['by_hand']!r}: "
+        "expected a number from 0 to 100; it counts as it is"
+        for row in odd
+    ]
+
+
+def _is_mark(text: str) -> bool:
+    try:
+        return 0 <= float(text.replace(",", ".")) <= 100
+    except ValueError:
+        return False
+
+
 def _drop_what_is_of_no_exercise(groups: dict[tuple[str, str], list[tuple[HandedIn, Mapping[str, str]]]]) -> None:
     """Files that are of no exercise have a row only if their student has no other."""
     for student, exercise in list(groups):

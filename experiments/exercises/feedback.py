@@ -37,19 +37,22 @@ def sentences(row: Mapping[str, str]) -> list[str]:
 
 
 def write_feedback(rows: Sequence[Mapping[str, str]], folder: Path) -> list[Path]:
-    """Two files for each row that has an exercise, text and HTML, in a folder of the student's."""
+    """Two files for each row that has a file, text and HTML, in a folder of the student's."""
     written = []
     for row in rows:
-        if not row["exercise"]:
+        if not row["file"]:
             continue
         own = folder / re.sub(r"[^\w .-]", "_", row["student"]).strip(". ")[:100]
         own.mkdir(parents=True, exist_ok=True)
-        exercise = find(row["exercise"])
-        title = f"{row['student']}: exercise {exercise.number}, {exercise.title}"
+        title, stem = f"{row['student']}: a file that is no submission", "not_a_submission"
+        if row["exercise"]:
+            exercise = find(row["exercise"])
+            title = f"{row['student']}: exercise {exercise.number}, {exercise.title}"
+            stem = f"{exercise.number:02}_{exercise.name}"
         text = "\n".join([title, "", *sentences(row)]) + "\n"
         body = "\n".join(f"<p>{escape(sentence)}</p>" for sentence in sentences(row))
         for ending, content in (("txt", text), ("html", _PAGE.format(title=escape(title), body=body))):
-            file = own / f"{exercise.number:02}_{exercise.name}.{ending}"
+            file = own / f"{stem}.{ending}"
             write_anew(file, content.encode("utf-8"))
             written.append(file)
     return written

@@ -50,7 +50,7 @@ def _book(
     started_without_key: bool,
 ) -> None:
     """Grade HANDED_IN, a folder or a zip of a learning platform, and keep one row for each student."""
-    from experiments.exercises.class_book import book, students_in, write_book
+    from experiments.exercises.class_book import book, odd_marks, students_in, write_book
     from experiments.exercises.collected import collect
     from experiments.exercises.exercise import find
     from experiments.exercises.feedback import write_feedback
@@ -81,6 +81,8 @@ def _book(
     ]
     show_table("", shown, [[plain(row[name]) for name in shown] for row in rows])
     click.echo(f"written: {out}")
+    for words in odd_marks(rows):
+        click.echo(f"springlab: {out}: {plain(words)}", err=True)
     for written in _for_platform(rows, platform, out) if platform else ():
         click.echo(f"written: {written}")
     if feedback is not None:

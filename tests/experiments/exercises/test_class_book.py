@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from experiments.exercises import collected, notebook, sandbox
+from experiments.exercises import class_book, collected, notebook, sandbox
 from experiments.exercises.class_book import COLUMNS, book, students_in, write_book
 from experiments.exercises.collected import collect, files_in
 from experiments.exercises.feedback import write_feedback
@@ -255,7 +255,15 @@ def test_what_cannot_be_opened_is_refused(tmp_path: Path) -> None:
             collect(tmp_path / name, tmp_path / "u")
 
 
-@pytest.mark.parametrize("module", [collected, notebook], ids=lambda m: m.__name__.split(".")[-1])
+def test_who_handed_in_no_submission_is_told_so(tmp_path: Path) -> None:
+    """Two files with the reason; who handed in nothing has none."""
+    empty = dict.fromkeys(COLUMNS, "")
+    row = {**empty, "student": "eve", "mark": "0.0", "outcome": "error", "words": "own.py is none.", "file": "own.py"}
+    text, _ = write_feedback([row, {**empty, "student": "max", "outcome": "missing"}], tmp_path)
+    assert (text.parent.name, row["words"] in text.read_text()) == ("eve", True)
+
+
+@pytest.mark.parametrize("module", [class_book, collected, notebook], ids=lambda m: m.__name__.split(".")[-1])
 def test_the_worked_examples_are_true(module: Any) -> None:
     """What the docstrings show is what comes out."""
     assert doctest.testmod(module).failed == 0
