@@ -155,11 +155,12 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
 
 
 def _order(explanation: Explanation) -> Iterator[str]:
+    order = explanation.order_of_one_mass
     if explanation.tableau is not None and explanation.tableau.fails:
-        yield f"Order {explanation.order}, by the conditions on its tableau: {explanation.tableau.fails}"
+        yield f"Order {order}, by the conditions on its tableau: {explanation.tableau.fails}"
     elif explanation.seen.multistep is not None:
-        yield f"Order {explanation.order}, by its coefficients"
-    elif explanation.order is not None:
+        yield f"Order {order}, by its coefficients"
+    elif order is not None:
         follows = explanation.follows
         known = []
         matrix = explanation.matrix
@@ -168,7 +169,12 @@ def _order(explanation: Explanation) -> Iterator[str]:
             known.append(f"{follows.undamped_order} on the oscillator, {follows.order} with damping and drag{left_out}")
         if explanation.nonlinear_order is not None:
             known.append(f"{explanation.nonlinear_order} measured on a spring that turns, without damping")
-        yield f"Order {explanation.order} without damping: {'; '.join(known)}"
+        yield f"Order {order} without damping: {'; '.join(known)}"
+    if explanation.lower_among_masses:
+        yield (
+            f"Order {explanation.order} among several masses, measured on two that move one another, without damping: "
+            "what is derived above, of one mass, does not show that"
+        )
 
 
 def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:
@@ -211,12 +217,13 @@ def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
     from reference.derivation.updates import in_words
 
     multistep = explanation.seen.multistep
+    of_one = ", as one mass shows it" if explanation.lower_among_masses else ""
     found = [
         ("Derived: a step of the damped oscillator", matrix_lines(explanation)),
         ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
         ("Derived: where forces of springs are taken, without damping", force_lines(explanation)),
         ("Derived: the multistep method", [str(multistep)] if multistep else []),
-        ("Derived: the Butcher tableau", tableau_lines(explanation)),
+        (f"Derived: the Butcher tableau{of_one}", tableau_lines(explanation)),
         ("What follows", [f"- {line}." for line in property_lines(explanation)]),
         ("What cannot be told, and why", [f"- {reason}." for reason in _beside_the_name(explanation)]),
         ("What it should not do", [f"- {remark}." for remark in explanation.remarks]),

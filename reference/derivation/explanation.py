@@ -10,7 +10,7 @@ import numpy as np
 
 from reference.derivation.consequences import FAR, Consequences, Windows, consequences
 from reference.derivation.near import SAME_TABLEAU, nearest_known
-from reference.derivation.nonlinear_order import nonlinear_order
+from reference.derivation.nonlinear_order import nonlinear_order, order_of_two_masses
 from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_of
 from reference.derivation.oscillators import DT as OSCILLATOR_DT
 from reference.derivation.over_dts import OverDts, over_dts
@@ -54,6 +54,9 @@ CONTRADICTION = (
     "or from call to call"
 )
 
+#: Of one whose order is lower where masses move one another.
+OF_ONE_MASS = "the order is that of two masses that move one another; what is derived of one mass has a higher one"
+
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
@@ -70,6 +73,7 @@ class Explanation:
         nearest: where it has no name, the nearest scheme and in what it differs, in words.
         held: at which other dt it has its name, where it has one that is not its own.
         reasons: why something cannot be told, each a sentence without its stop.
+        order_among_masses: the order seen on two masses that move one another, where slopes are not seen.
     """
 
     stepper: str
@@ -82,6 +86,7 @@ class Explanation:
     nearest: str = ""
     held: OverDts | None = None
     reasons: tuple[str, ...] = ()
+    order_among_masses: int | None = None
 
     @property
     def updates(self) -> Updates | None:
@@ -116,6 +121,17 @@ class Explanation:
 
     @property
     def order(self) -> int | None:
+        """The order of one mass, or the lower one that is seen on two."""
+        return self.order_among_masses if self.lower_among_masses else self.order_of_one_mass
+
+    @property
+    def lower_among_masses(self) -> bool:
+        """Whether one mass does not show all: its order is higher than that of two that move one another."""
+        one, two = self.order_of_one_mass, self.order_among_masses
+        return one is not None and two is not None and two < one
+
+    @property
+    def order_of_one_mass(self) -> int | None:
         """By its tableau or coefficients; else the lower of those on the oscillator and on a spring that turns.
 
         Both without damping, which may cost orders: `follows` has the order with damping, too.
@@ -146,7 +162,8 @@ class Explanation:
     @property
     def reason(self) -> str:
         """What cannot be told and why, and what it does that it should not, in a line."""
-        return "; ".join((*self.remarks, *self.reasons))
+        of_one = (OF_ONE_MASS,) if self.lower_among_masses else ()
+        return "; ".join((*self.remarks, *self.reasons, *of_one))
 
     @property
     def document(self) -> dict[str, Any]:
@@ -221,6 +238,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     reasons += of_slopes if IN_SINGLE not in reasons else []
     tell("its order")
     order = None if precision == "single" else nonlinear_order(runs, False, False)
+    among = order_of_two_masses(runs) if of_one_step and seen.updates is None else None
     tell("its name")
     identification = identified_on_a_string(stepper, damped, dragged)
     nearest, held = "", None
@@ -251,6 +269,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         nearest,
         held,
         tuple(reasons),
+        among,
     )
 
 

@@ -24,7 +24,15 @@ def nonlinear_order(runs: Runs, damped: bool, dragged: bool) -> int | None:
 
     None where the stepper cannot do it, is no better with shorter steps, or is too good for its order to be seen.
     """
-    system = _swinging(damped, dragged)
+    return _order_on(_swinging(damped, dragged), runs)
+
+
+def order_of_two_masses(runs: Runs) -> int | None:
+    """The same of two masses, without damping: one alone does not show whether one is moved before the other."""
+    return _order_on(_two_swinging(), runs)
+
+
+def _order_on(system: MassSpringSystem, runs: Runs) -> int | None:
     halved = [(DT / 2**i, STEPS * 2**i) for i in range(HALVINGS + 1)]
     try:
         outcomes = runs([Run(system, dt, steps) for dt, steps in halved])
@@ -57,4 +65,18 @@ def _swinging(damped: bool, dragged: bool) -> MassSpringSystem:
         drag=0.5 if dragged else 0.0,
         gravity=np.zeros(2),
         fixed=np.array([True, False]),
+    )
+
+
+def _two_swinging() -> MassSpringSystem:
+    """Another mass below that one, moving the other way."""
+    return MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.1, -1.2], [0.4, -2.1]]),
+        velocities=np.array([[0.0, 0.0], [1.0, 0.3], [-0.5, 0.4]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array([1.0, 1.0, 1.5]),
+        rest_lengths=np.array([1.0, 1.0]),
+        stiffness=np.array([16.0, 12.0]),
+        gravity=np.zeros(2),
+        fixed=np.array([True, False, False]),
     )

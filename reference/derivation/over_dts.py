@@ -27,6 +27,12 @@ OTHERS = ("euler", "kick_drift", "drift_kick", "heun")
 #: Two steps are the same within so many roundings, and told apart by so many times that.
 ROUNDINGS, APART = 1e4, 10.0
 
+#: In a step as short as that [s] schemes differ so little that rounding may hide which one it is.
+SHORT = 1e-4
+
+#: What is said there of one that has no name.
+UNNAMED = "was not identified, as rounding probably hides which scheme it is"
+
 #: How fast masses move at most [m/s], along each axis.
 SPEED = 0.5
 
@@ -52,7 +58,7 @@ class OverDts:
         if not self.other:
             return f"It is {self.scheme} at dt = {_listed(self.same)} s, too" if self.same else ""
         there = (
-            f"{dt:g} s, where it {f'is {name}' if name else 'was not identified'}"
+            f"{dt:g} s, where it {f'is {name}' if name else UNNAMED if dt < SHORT else 'was not identified'}"
             for dt, name in zip(self.other, self.named_there, strict=True)
         )
         same = f" and at {_listed(self.same)} s" if self.same else ""

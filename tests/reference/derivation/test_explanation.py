@@ -10,9 +10,9 @@ import pytest
 from engines.engine import registry
 from engines.process.isolation import EngineStepper
 from engines.process.packages import APART
-from reference.derivation.explanation import explain
+from reference.derivation.explanation import OF_ONE_MASS, explain
 from reference.derivation.near import nearest_known
-from reference.derivation.nonlinear_order import nonlinear_order
+from reference.derivation.nonlinear_order import nonlinear_order, order_of_two_masses
 from reference.derivation.of_schemes import tableau_of_scheme
 from reference.derivation.oscillators import runs_of
 from reference.derivation.pasts import pasts
@@ -20,7 +20,7 @@ from reference.derivation.step_matrix import step_matrix
 from reference.errors import Unsupported
 from reference.motion import Motion
 from reference.outcome import Outcome, outcome_of
-from reference.schemes.catalogue import Scheme, schemes
+from reference.schemes.catalogue import Scheme, find, schemes
 from reference.state import State
 from reference.stepper import SchemeStepper, catalogued, stepper_named
 from reference.system import MassSpringSystem
@@ -118,3 +118,19 @@ def test_a_stranger_is_held_against_the_nearest() -> None:
     """Heun with slopes weighted 2/3 and 1/3 has no name, and the numbers that differ are told."""
     tableau = tableau_of_scheme(Scheme(lopsided, 2))
     assert nearest_known(tableau, None, None) == "b1 is 2/3 where heun has 1/2, b2 is 1/3 where heun has 1/2"
+
+
+@pytest.mark.parametrize(("name", "order"), [("heun_aliased", 1), ("heun_link_by_link", 1), ("velocity_verlet", 2)])
+def test_two_masses_show_the_order_that_the_catalogue_has(name: str, order: int) -> None:
+    """One mass shows Heun's order of both in-place ones; a whole number is taken within 0.3 at steps of 1/64 s."""
+    stepper = SchemeStepper(find(name))
+    assert order_of_two_masses(runs_of(stepper)) == order == find(name).order
+    assert nonlinear_order(runs_of(stepper), False, False) == 2
+
+
+def test_an_order_that_only_one_mass_has_is_not_the_order() -> None:
+    """Of heun_aliased its tableau, seen on one mass, has order 2; what is told is 1."""
+    found = explain(SchemeStepper(find("heun_aliased")))
+    assert found.tableau is not None
+    assert (found.tableau.order, found.order_of_one_mass, found.order, found.lower_among_masses) == (2, 2, 1, True)
+    assert OF_ONE_MASS in found.reason

@@ -8,7 +8,7 @@ import pytest
 
 from engines.own.stepper import stepper_of
 from reference.derivation.explanation import DT, Explanation, explain
-from reference.derivation.over_dts import DTS
+from reference.derivation.over_dts import DTS, SHORT, UNNAMED
 from report.derived import name_line
 
 
@@ -36,5 +36,7 @@ def test_other_rules_at_other_dt_are_told(smallest: float, largest: float, other
     assert set(found.held.same) == set(DTS) - set(other)
     assert ("not at every dt" in name_line(found)) == bool(other)
     assert (str(found.held) in found.reason) == bool(other)
+    unnamed = [dt for dt, name in zip(found.held.other, found.held.named_there, strict=True) if name is None]
+    assert str(found.held).count(UNNAMED) == sum(dt < SHORT for dt in unnamed)
     if 2e-4 in other:
         assert found.held.named_there[other.index(2e-4)] == "euler"
