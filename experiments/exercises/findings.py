@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, permutations
@@ -263,11 +264,16 @@ def not_repeatable(same: bool) -> Finding:
     return Finding("random_or_time", words, "A step depends on nothing but what it is given.")
 
 
-def about_seven_digits() -> Finding:
-    """Of numbers that are the right ones as closely as single precision has them, whatever the cause."""
-    words = "The numbers are the right ones to about 7 digits only, not to rounding: it passes."
+def fewer_digits(error: float) -> Finding:
+    """Of numbers that are the right ones as closely as single precision has them, whatever the cause.
+
+    Args:
+        error: how far they are away, as a fraction of the largest.
+    """
+    digits = math.floor(-math.log10(error))
+    words = f"The numbers are the right ones to about {digits} digits only, not to rounding: it passes."
     hint = "Possible causes: single precision (float32), rounding, a small number added against division by zero."
-    return Finding("about_7_digits", words, hint)
+    return Finding("fewer_digits", words, hint)
 
 
 def clean(words: str) -> str:

@@ -37,7 +37,7 @@ class Verdict:
 
     Attributes:
         findings: what it is or what is wrong, the plainest first; of what is right only that it is so
-            to about 7 digits.
+            to fewer digits than rounding leaves.
         passed: for each question, whether its answer is right.
         error: how far its numbers are from those that it is named for, as a fraction of the largest; None without a
             name.
@@ -274,7 +274,7 @@ def _verdict_on_numbers(
         return Verdict("not in the catalogue", beside, passed, **found)
     mistakes, error = explained.mistakes, explained.distance
     if not mistakes and not beside:
-        beyond = (findings.about_seven_digits(),) if error > catalogue.exercise.tolerance else ()
+        beyond = (findings.fewer_digits(error),) if error > catalogue.exercise.tolerance else ()
         return Verdict("right", beyond, (True,) * len(passed), error, error)
     if not mistakes:
         passed = (False,) * len(passed)

@@ -18,7 +18,7 @@ STUDENTS = Path(__file__).parent / "students"
 STYLES = ("loops", "arrays", "classes")
 
 #: What right programs are called; and those that compute in single precision, by their style.
-RIGHT, SINGLE = "right", "about_7_digits"
+RIGHT, SINGLE = "right", "fewer_digits"
 
 
 @dataclass(frozen=True)
