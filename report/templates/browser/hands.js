@@ -19,7 +19,7 @@ function setDt(ms) {
   const value = numberIn(ms) / 1e3, fine = value >= SHORTEST_DT && value <= LONGEST_DT;
   if (fine) change("dt", value);
   showAll();
-  if (!fine) refuse($("dt"), say("dt"), number(1e3 * lab.dt, 6), say("expected_from", {least: 1e3 * SHORTEST_DT, most: 1e3 * LONGEST_DT}));
+  if (!fine) refuse($("dt"), say("dt"), number(1e3 * lab.dt, 6), say("expected_from", {least: number(1e3 * SHORTEST_DT), most: 1e3 * LONGEST_DT}));
 }
 
 function listen() {
@@ -47,7 +47,7 @@ function listen() {
   $("table").onclick = () => download("springlab.csv", asFile(tableText(), "text/csv"));
   $("places").onclick = () => download("springlab-positions.csv", asFile(placesText(), "text/csv"));
   $("picture").onclick = () => { draw(); download("springlab.png", canvas.toDataURL("image/png")); };
-  addEventListener("hashchange", () => openHash());
+  addEventListener("hashchange", () => { if (!$(location.hash.slice(1))) openHash(); });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", translate);
   listenToStage();
 }

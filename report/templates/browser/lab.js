@@ -4,12 +4,15 @@
 // the past may hold [doubles].
 const STEPPING = [2, 10], IN_TIME = 20, PAST = 4e6;
 
+// How many lanes there are at most.
+const MOST_LANES = 4;
+
 // What happens to masses or springs by their numbers.
 const LISTS = ["hold", "release", "break"];
 
 const lab = {
   scene: null, lanes: [], dt: 1e-3, changes: [], playing: false, speed: 1, beside: false,
-  past: [], series: [], touched: false, grabbed: null, reached: 1, debt: 0, limits: {}, lesson: 0, budget: 8, magnified: 1,
+  past: [], series: [], touched: false, grabbed: null, reached: 1, debt: 0, limits: {}, lesson: 0, budget: 8, magnified: 1, refused: [],
 };
 
 const sceneNamed = name => DATA.scenes.find(scene => scene.name === name);
@@ -19,6 +22,7 @@ const laneTime = () => lab.lanes.length ? timeOf(lab.lanes[0].world) : 0;
 function openScene(name, {lanes, dt, changes = [], magnified} = {}) {
   const scene = sceneNamed(name) || DATA.scenes[0];
   lab.scene = scene;
+  lab.refused = [];
   lab.dt = dt || scene.dt;
   lab.changes = changes;
   lab.magnified = magnified || scene.magnified;
@@ -27,7 +31,7 @@ function openScene(name, {lanes, dt, changes = [], magnified} = {}) {
 }
 
 function startLanes(names) {
-  const chosen = names.filter(name => schemes[name] || recordingNamed(name)).slice(0, 4);
+  const chosen = names.filter(name => schemes[name] || recordingNamed(name)).slice(0, MOST_LANES);
   lab.lanes = (chosen.length ? chosen : ["kick_drift"]).map(startLane);
   Object.assign(lab, {past: [], series: [], touched: false, debt: 0, grabbed: null, firstDt: lab.dt});
   keepPast();

@@ -20,33 +20,55 @@ const startDt = () => {
   return later ? lab.firstDt : lab.dt;
 };
 
-// What a link says; what is no such thing is left out.
+// What a link says. What is no such thing is left out, and told in `refused`: each part as the link has it.
 function readState(text) {
-  const words = Object.fromEntries(text.split("&").filter(Boolean).map(word => {
+  const refused = [], words = {}, shorten = part => part.length > 40 ? part.slice(0, 40) + "…" : part;
+  const refuse = part => { refused.push(shorten(part)); };
+  for (const word of text.split("&").filter(Boolean)) {
     const [key, ...value] = word.split("=");
-    try { return [key, decodeURIComponent(value.join("="))]; } catch { return [key, ""]; }
-  }));
-  const number = (word, least, most) => { const value = Number(word); return word !== undefined && value >= least && value <= most ? value : undefined; };
-  const changes = (words.at || "").split(",").flatMap(word => {
-    const [time, parameter, text] = word.split(":"), values = (text || "").split("+").map(Number), at = number(time, 0, 1e6);
-    const known = parameter in PARAMETERS || [...LISTS, "dt"].includes(parameter);
-    if (at === undefined || !known || !text || !values.every(Number.isFinite)) return [];
-    if (parameter === "dt" && !(values[0] > 1e-9 && values[0] <= 10)) return [];
-    return [{time: at, parameter, value: LISTS.includes(parameter) ? values.map(Math.round) : values.length > 1 ? values : values[0]}];
+    try { words[key] = decodeURIComponent(value.join("=")); } catch { refuse(word); }
+    if (!LINKED.includes(key)) refuse(word);
+  }
+  const among = (key, has) => { if (words[key] === undefined || has(words[key])) return words[key]; refuse(`${key}=${words[key]}`); };
+  const number = (key, least, most) => {
+    const value = words[key] === undefined ? undefined : numberIn(words[key]);
+    if (value === undefined || (value >= least && value <= most)) return value;
+    refuse(`${key}=${words[key]} (${say("expected_from", {least, most})})`);
+  };
+  const scene = among("s", sceneNamed), recorded = ((sceneNamed(scene) || DATA.scenes[0]).recordings || []).map(one => `recorded:${one.name}`);
+  const lanes = (words.w || "").split(",").filter(Boolean), known = lanes.filter(name => schemes[name] || recorded.includes(name));
+  for (const name of [...lanes.filter(name => !known.includes(name)), ...known.slice(MOST_LANES)]) refuse(`w=${name}`);
+  const changes = (words.at || "").split(",").filter(Boolean).flatMap(word => {
+    const change = readChange(word, (sceneNamed(scene) || DATA.scenes[0]).system);
+    if (!change) refuse(`at=${word}`);
+    return change || [];
   });
   return {
-    scene: sceneNamed(words.s) ? words.s : undefined, lanes: words.w ? words.w.split(",") : undefined, dt: number(words.dt, 1e-9, 10), changes,
-    steps: Math.round(number(words.n, 0, 2e6) || 0), speed: number(words.speed, 1e-6, 8), beside: words.beside === "1", magnified: number(words.magnified, 1, 1000),
-    lesson: Math.round(number(words.lesson, 0, 6) || 0), lang: words.lang,
+    scene, lanes: known.length ? known.slice(0, MOST_LANES) : undefined, dt: number("dt", SHORTEST_DT, LONGEST_DT), changes,
+    steps: Math.round(number("n", 0, 2e6) || 0), speed: number("speed", 1e-6, 8), beside: words.beside === "1", magnified: number("magnified", 1, 1000),
+    lesson: Math.round(number("lesson", 0, LESSONS.length) || 0), lang: among("lang", name => Object.hasOwn(WORDS, name)), refused,
   };
+}
+
+// The parts that a link has.
+const LINKED = ["v", "s", "w", "dt", "at", "n", "speed", "beside", "magnified", "lesson", "lang"];
+
+// TIME:PARAMETER:VALUE of a link, or null where it is no such thing: one number for all, one for each, or a list of numbers.
+function readChange(word, {n, s, d}) {
+  const [at, parameter, text] = word.split(":"), time = numberIn(at), values = (text || "").split("+").map(numberIn);
+  const known = Object.hasOwn(PARAMETERS, parameter), [, count] = known ? PARAMETERS[parameter]({n, s, d}) : [0, 0];
+  const most = parameter === "break" ? s : n, one = values.length === 1;
+  if (!(time >= 0 && time <= 1e6)) return null;
+  if (LISTS.includes(parameter)) return values.every(i => Number.isInteger(i) && i >= 0 && i < most) ? {time, parameter, value: values} : null;
+  const fine = parameter === "dt" ? one && values[0] >= SHORTEST_DT && values[0] <= LONGEST_DT
+    : known && (one || values.length === count) && values.every(value => mayBe(parameter, value));
+  return fine ? {time, parameter, value: one ? values[0] : values} : null;
 }
 
 // The state of a link, at once: steps are taken before anything is shown, up to a second's worth.
 function openState(state) {
   lab.speed = state.speed || 1; lab.beside = state.beside; lab.playing = false;
-  const {n, s} = (sceneNamed(state.scene) || DATA.scenes[0]).system;
-  const inside = ({parameter, value}) => !LISTS.includes(parameter) || value.every(i => i >= 0 && i < (parameter === "break" ? s : n));
-  openScene(state.scene, {lanes: state.lanes || ["kick_drift"], dt: state.dt, changes: state.changes.filter(inside), magnified: state.magnified});
+  openScene(state.scene, {lanes: state.lanes || ["kick_drift"], dt: state.dt, changes: state.changes, magnified: state.magnified});
   lab.firstDt = lab.dt;
   const begin = performance.now();
   let taken = 0;

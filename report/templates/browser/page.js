@@ -43,6 +43,7 @@ function showScene() {
   $("magnified").replaceChildren(...sizes.map(value => element("option", {value, selected: value === lab.magnified}, `${value} ×`)));
   $("scene").replaceChildren(...DATA.scenes.map(scene => element("option", {value: scene.name, selected: scene === lab.scene}, scene.title || scene.name)));
   const slides = lab.scene.slides ? ` (${say("slides", {slides: lab.scene.slides})})` : "";
+  $("not-taken").textContent = lab.refused.length ? say("not_taken", {parts: lab.refused.join(", ")}) : "";
   $("summary").textContent = lab.scene.summary + slides;
 }
 
@@ -275,12 +276,19 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 
+// A link that names no scene opens its lesson, or what the page begins with; one to a place of the page is no state.
 function openHash() {
-  const text = location.hash.slice(1), state = readState(text);
-  if (state.lang in WORDS) language = state.lang;
-  if (!text.includes("s=") && state.lesson && isHere(state.lesson)) return openLesson(state.lesson);
-  lab.lesson = isHere(state.lesson) ? state.lesson : 0;
-  openState(text.includes("s=") ? state : readState(DATA.first));
+  const text = location.hash.slice(1), state = readState($(text) ? "" : text), here = isHere(state.lesson);
+  const named = /(^|&)s=/.test(text), refused = state.refused.slice(), parts = named || $(text) ? [] : text.split("&");
+  for (const part of parts) if (part && !/^(v|lang|lesson)=/.test(part) && !refused.some(one => one.startsWith(part))) refused.push(part.slice(0, 40));
+  if (state.lang) language = state.lang;
+  if (!here) refused.push(`lesson=${state.lesson}`);
+  if (!named && state.lesson && here) openLesson(state.lesson);
+  else {
+    lab.lesson = here ? state.lesson : 0;
+    openState(named ? state : readState(DATA.first));
+  }
+  lab.refused = refused;
   translate();
 }
 

@@ -248,6 +248,29 @@ def test_junk_in_a_field_is_refused_and_the_field_keeps_what_it_had(browser: Any
     page.close()
 
 
+def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file: Path) -> None:
+    """Each part as it stands there; all others are taken, and of a good link nothing is told."""
+    shown = opened(browser, file, "s=string")
+    page = shown.page
+    wrong = ("s=nothing", "w=foo", "dt=-1", "at=0:foo:1", "at=0:mass:-1", "at=0:mass:1+2", "at=0:hold:99", "lesson=99")
+    for part in (*wrong, "n=xyz", "lang=xx", "foo=1"):
+        link = part if part.startswith(("s=", "lesson=")) else f"s=string&{part}"
+        page.evaluate("link => { location.hash = link; openHash(); }", link)
+        assert page.evaluate("lab.refused.map(one => one.split(' ')[0])") == [part]
+        assert part in page.inner_text("#not-taken")
+    page.evaluate("location.hash = 'w=euler'; openHash();")
+    assert page.evaluate("lab.refused") == ["w=euler"]  # of no scene
+    for link in (
+        "s=string&w=rk4&at=0:mass:0.5,0.01:hold:3&n=2&speed=2&lang=en",
+        "lesson=3",
+        "controls",
+        "v=1&s=string",
+    ):
+        page.evaluate("link => { location.hash = link; openHash(); }", link)
+        assert page.evaluate("[lab.refused, $('not-taken').textContent]") == [[], ""], link
+    page.close()
+
+
 def test_the_keyboard_does_what_a_pointer_does(browser: Any, file: Path) -> None:
     """Play, step, choose a mass, move it, hold it."""
     shown = opened(browser, file, "s=string&w=kick_drift")
