@@ -3,7 +3,7 @@
 function stateText() {
   const words = [["v", 1], ["s", lab.scene.name], ["w", lab.lanes.map(lane => lane.scheme).join(",")], ["dt", String(startDt())]];
   const changes = lab.changes.filter(change => !(change.time === 0 && change.parameter === "dt"));
-  if (changes.length) words.push(["at", changes.map(({time, parameter, value}) => `${time}:${parameter}:${[value].flat().join("+")}`).join(",")]);
+  if (changes.length) words.push(["at", changes.map(({time, parameter, value}) => `${timeText(time)}:${parameter}:${[value].flat().join("+")}`).join(",")]);
   const {steps} = lab.lanes[0].world;
   if (steps) words.push(["n", steps]);
   if (lab.speed !== 1) words.push(["speed", lab.speed]);
@@ -19,6 +19,13 @@ const startDt = () => {
   const later = lab.changes.find(change => change.parameter === "dt" && change.time > 0);
   return later ? lab.firstDt : lab.dt;
 };
+
+// A time by the fewest digits that still begin the same step: `applyChanges` takes what is off by less than 1e-9 of a step.
+function timeText(time) {
+  const shortest = Math.min(startDt(), ...lab.changes.filter(change => change.parameter === "dt").map(change => change.value));
+  for (let digits = 6; digits < 17; digits++) if (Math.abs(+time.toPrecision(digits) - time) <= 1e-10 * shortest) return String(+time.toPrecision(digits));
+  return String(time);
+}
 
 // What a link says. What is no such thing is left out, and told in `refused`: each part as the link has it.
 function readState(text) {
@@ -85,10 +92,10 @@ const linkText = () => location.href.split("#")[0] + "#" + stateText();
 function commandText() {
   const names = [...new Set(lab.lanes.map(lane => lane.recording ? lane.recording.stepper : lane.scheme))];
   const words = ["springlab", "compare", quoted(lab.scene.command), ...names.map(name => `--stepper=${quoted(name)}`), `--dt=${startDt()}`];
-  words.push(`--duration=${+Math.max(laneTime(), lab.dt).toPrecision(12)}`);
+  if (laneTime() > 0) words.push(`--duration=${+laneTime().toPrecision(12)}`);  // at the start the scene's own
   for (const [key, value] of Object.entries(lab.scene.settings)) words.push(`--set=${key}=${value}`);
   for (const {time, parameter, value} of lab.changes) {
-    if (parameter !== "dt") words.push(`--change=${time}:${parameter}=${[value].flat().join(",")}`);
+    if (parameter !== "dt") words.push(`--change=${timeText(time)}:${parameter}=${[value].flat().join(",")}`);
   }
   return words.join(" ");
 }

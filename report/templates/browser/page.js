@@ -38,11 +38,13 @@ function refuse(field, name, kept, expected) {
 
 function showAll() { $("refused").textContent = ""; showScene(); showLanes(); showLimits(); showParameters(); showLesson(); showEquations(); showState(); }
 
+const slidesSaid = slides => say(/^\d+$/.test(slides) ? "slide" : "slides", {slides});
+
 function showScene() {
   const sizes = [...new Set([...MAGNIFIED, lab.magnified])].sort((a, b) => a - b);
   $("magnified").replaceChildren(...sizes.map(value => element("option", {value, selected: value === lab.magnified}, `${value} ×`)));
   $("scene").replaceChildren(...DATA.scenes.map(scene => element("option", {value: scene.name, selected: scene === lab.scene}, scene.title || scene.name)));
-  const slides = lab.scene.slides ? ` (${say("slides", {slides: lab.scene.slides})})` : "";
+  const slides = lab.scene.slides ? ` (${slidesSaid(lab.scene.slides)})` : "";
   $("not-taken").textContent = lab.refused.length ? say("not_taken", {parts: lab.refused.join(", ")}) : "";
   $("summary").textContent = lab.scene.summary + slides;
 }
@@ -159,7 +161,7 @@ function showLesson() {
   const box = $("lesson-box"), lesson = LESSONS[lab.lesson - 1];
   box.hidden = !lesson;
   if (!lesson) return;
-  $("lesson-title").textContent = `${lab.lesson}. ${say(`lesson_${lab.lesson}_title`)} (${say("slides", {slides: lesson.slides})})`;
+  $("lesson-title").textContent = `${lab.lesson}. ${say(`lesson_${lab.lesson}_title`)} (${slidesSaid(lesson.slides)})`;
   $("lesson-text").textContent = say(`lesson_${lab.lesson}_text`);
   $("lesson-task").textContent = say(`lesson_${lab.lesson}_task`);
   $("lesson-answer").hidden = !lesson.answer;

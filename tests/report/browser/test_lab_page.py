@@ -271,6 +271,17 @@ def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file:
     page.close()
 
 
+def test_links_and_commands_have_short_times_and_no_duration_of_nothing(browser: Any, file: Path) -> None:
+    """A time that steps add up to with an error of rounding; at no steps there is no duration."""
+    shown = opened(browser, file, "s=string&w=kick_drift&dt=0.002")
+    page = shown.page
+    assert "--duration" not in page.evaluate("commandText()")
+    page.evaluate("lab.changes = [{time: 0.40399999999999997, parameter: 'mass', value: 0.5}]; oneStep();")
+    assert "at=0.404:mass:0.5" in page.evaluate("stateText()")
+    assert page.evaluate("commandText()").endswith("--duration=0.002 --change=0.404:mass=0.5")
+    page.close()
+
+
 def test_the_keyboard_does_what_a_pointer_does(browser: Any, file: Path) -> None:
     """Play, step, choose a mass, move it, hold it."""
     shown = opened(browser, file, "s=string&w=kick_drift")
