@@ -183,7 +183,8 @@ def _dead(folder: Path, home: Path) -> Iterator[Path]:
         if unfinished:
             usable = name != home.name
         else:
-            usable = _python(found).exists() and any(found.glob("lib/python*/site-packages/engines"))
+            labs = found.glob("lib/python*/site-packages/engines")  # from Python 3.13 on links to nothing, too
+            usable = _python(found).exists() and any(lab.exists() for lab in labs)
         if not usable:
             yield found
 
