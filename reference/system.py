@@ -126,7 +126,8 @@ class MassSpringSystem:
         s = len(springs)
         gravity = finite("gravity", self.gravity, "m/s^2")
         # no pull at all fits any number of masses, so that `replace` may give a system others
-        pulls = finite("pulls", self.pulls, UNIT) if np.any(self.pulls) else np.zeros(1)
+        pulls = finite("pulls", self.pulls, UNIT)
+        pulls = pulls if pulls.any() else np.zeros(1)
         checked = {
             "positions": positions,
             "springs": springs,

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from reference.errors import InputError
@@ -191,6 +191,7 @@ def test_bad_input_is_refused_in_one_line(fields: dict[str, Any], message: str) 
 
 
 @property_test
+@example("pulls", [[], [0.0]])
 @given(
     name=st.sampled_from([f.name for f in dataclasses.fields(MassSpringSystem)]),
     value=st.one_of(
