@@ -14,8 +14,8 @@ from itertools import product
 
 import numpy as np
 
-from reference.derivation.formula import ONE, VARIABLES, WEIGHTS, Formula, Monomial, Number, evaluated, weight
-from reference.derivation.small_fractions import recognised, simplest_within
+from reference.derivation.formula import ONE, VARIABLES, WEIGHTS, Formula, Monomial, evaluated, weight
+from reference.derivation.small_fractions import fraction_or_itself
 from reference.state import Array
 
 #: What is left of a fit may be so many times the noise.
@@ -73,7 +73,7 @@ def _fitted(
     if np.abs(left).max() > NOISES * noise:
         return None
     spread = DEVIATIONS * noise * np.sqrt(((vt.T / s) ** 2).sum(axis=1)) / size
-    numbers = [_number(float(c), float(t)) for c, t in zip(solution / size, spread, strict=True)]
+    numbers = [fraction_or_itself(float(c), float(t)) for c, t in zip(solution / size, spread, strict=True)]
     formula = Formula(
         {m: c for m, c in zip(above, numbers, strict=False) if c},
         {ONE: Fraction(1)} | {m: c for m, c in zip(below, numbers[len(above) :], strict=True) if c},
@@ -83,14 +83,6 @@ def _fitted(
     below_size = np.abs(1 + samples.of(below) @ (solution / size)[len(above) :]) if below else np.ones(1)
     off = np.abs(formula.at(samples.a, samples.b, samples.d) - values)
     return formula if bool((off <= 2 * NOISES * noise / np.minimum(below_size, 1.0)).all()) else None
-
-
-def _number(c: float, tol: float) -> Number:
-    """A coefficient as a fraction, zero included; as it is, where none is recognised."""
-    if simplest_within(c, tol) == 0:
-        return Fraction(0)
-    found = recognised(c, tol)
-    return c if found is None else found
 
 
 @cache

@@ -15,13 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 
 from reference.derivation.formula import Number, number
 from reference.derivation.oscillators import DT, Run, Runs, end_of
-from reference.derivation.small_fractions import recognised
+from reference.derivation.small_fractions import fraction_or_itself
 from reference.errors import Unsupported
 from reference.state import Array
 from reference.system import MassSpringSystem
@@ -79,15 +78,11 @@ def forces_taken(runs: Runs) -> tuple[Taken, ...]:
         raise Unsupported(f"a force is taken where none was looked for, beyond c = {NEAREST:g} to {FARTHEST:g}")
     start = np.array([[0.0, sum_b - jumps[:, 1].sum(), sum_beta - jumps[:, 2].sum()]])
     rows = zip(np.concatenate([start, jumps]).tolist(), [0.0, *by_earlier.tolist()], strict=True)
-    found = [Taken(_number(c), _number(b), _number(beta), q) for (c, b, beta), q in rows]
+    found = [
+        Taken(fraction_or_itself(c, OFF), fraction_or_itself(b, OFF), fraction_or_itself(beta, OFF), q)
+        for (c, b, beta), q in rows
+    ]
     return tuple(taken for taken in found if taken.in_velocity or taken.in_position)
-
-
-def _number(value: float) -> Number:
-    if abs(value) < OFF:
-        return Fraction(0)
-    found = recognised(value, OFF)
-    return value if found is None else found
 
 
 def _at_zero(values: Array) -> Array:

@@ -17,7 +17,7 @@ import numpy as np
 from reference.derivation.formula import Number
 from reference.derivation.multistep import Multistep, multistep_of
 from reference.derivation.recording import ROW
-from reference.derivation.small_fractions import recognised
+from reference.derivation.small_fractions import fraction_or_itself
 from reference.derivation.tableau import Tableau
 from reference.forces import SpringMotion
 from reference.schemes.catalogue import Scheme
@@ -77,16 +77,11 @@ def tableau_by_points(
 
 def _tableau(rows: Array) -> Tableau | None:
     """Of b and the rows of a; None where a coefficient is a solver's noise."""
-    b, *a = [tuple(map(_number, row)) for row in rows]
+    b, *a = [tuple(fraction_or_itself(c, OFF) for c in row) for row in rows]
     if any(c and abs(float(c)) < GHOST for row in (b, *a) for c in row):
         return None
     c: list[Number] = [sum(row, start=Fraction(0)) for row in a]
     return Tableau(tuple(a), b, tuple(c), KNOWN_TO)
-
-
-def _number(c: float) -> Number:
-    found = recognised(c, OFF)
-    return c if found is None else found
 
 
 def _differenced(points: Sequence[Array], i: int) -> bool:

@@ -14,7 +14,7 @@ from fractions import Fraction
 import numpy as np
 
 from reference.derivation.formula import Number, exact_text, product
-from reference.derivation.small_fractions import recognised
+from reference.derivation.small_fractions import fraction_or_itself
 from reference.state import Array
 
 #: So many earlier states are looked back at, at most.
@@ -98,13 +98,6 @@ def _of(k: int, h: float, states: Sequence[Array], slopes: Sequence[Array]) -> M
     solution, _, rank, _ = np.linalg.lstsq(matrix, change, rcond=1e-13)
     if rank < matrix.shape[1] or np.abs(matrix @ solution - change).max() > LEFT * np.abs(change).max():
         return None
-    earlier = [_number(c) for c in solution[: k - 1].tolist()]
+    earlier = [fraction_or_itself(c, OFF) for c in solution[: k - 1].tolist()]
     alpha = (1 - sum(earlier, start=Fraction(0)), *earlier)
-    return Multistep(alpha, tuple(map(_number, solution[k - 1 :].tolist())))
-
-
-def _number(c: float) -> Number:
-    if abs(c) < OFF:
-        return Fraction(0)
-    found = recognised(c, OFF)
-    return c if found is None else found
+    return Multistep(alpha, tuple(fraction_or_itself(c, OFF) for c in solution[k - 1 :].tolist()))

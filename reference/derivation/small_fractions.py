@@ -34,6 +34,16 @@ def recognised(x: float, tol: float) -> Fraction | None:
     return found if tol * found.denominator**2 < BY_CHANCE else None
 
 
+def fraction_or_itself(x: float, tol: float) -> Fraction | float:
+    """That fraction, which is 0 within tol of it; a number that none is recognised in as it is.
+
+    >>> fraction_or_itself(0.5, 1e-14), fraction_or_itself(2**0.5, 1e-14)
+    (Fraction(1, 2), 1.4142135623730951)
+    """
+    found = Fraction(0) if abs(x) <= tol else recognised(x, tol)
+    return x if found is None else found
+
+
 def _between(low: Fraction, high: Fraction) -> Fraction:
     """The simplest fraction in [low, high], both positive: as far as their continued fractions agree."""
     whole = floor(low)

@@ -8,14 +8,12 @@ and against the step matrix: a method that is none, as a leapfrog, fails there.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from itertools import permutations, product
 
 import numpy as np
 
 from reference.derivation.force_jumps import ASIDE, LENGTH, Taken
-from reference.derivation.formula import Number
-from reference.derivation.small_fractions import recognised
+from reference.derivation.small_fractions import fraction_or_itself
 from reference.derivation.step_matrix import StepMatrix
 from reference.derivation.tableau import Tableau
 from reference.state import Array
@@ -89,26 +87,12 @@ def _agrees(order: Sequence[Taken], a: Array) -> bool:
 
 
 def _tableau(order: Sequence[Taken], a: Array) -> Tableau:
-    rows = tuple(tuple(map(_number, row)) for row in a.tolist())
+    rows = tuple(tuple(fraction_or_itself(n, OFF) for n in row) for row in a.tolist())
     return Tableau(rows, tuple(t.in_velocity for t in order), tuple(t.at for t in order))
 
 
-def _number(value: float) -> Number:
-    if abs(value) < OFF:
-        return Fraction(0)
-    found = recognised(value, OFF)
-    return value if found is None else found
-
-
 def _same_matrix(tableau: Tableau, matrix: StepMatrix) -> bool:
-    """Whether it makes the same of oscillators: I + Z b (1 - Z A)^-1, with Z = [[0, 1], [-a, -b - d]]."""
-    s, eye = tableau.stages, np.eye(2)
-    coefficients = np.array([[float(n) for n in row] for row in tableau.a])
-    weights = np.array([[float(n) for n in tableau.b]])
-    for a, b, d in product((0.3, 1.1), (0.0, 0.2 * matrix.damped), (0.0, 0.1 * matrix.dragged)):
-        z = np.array([[0.0, 1.0], [-a, -b - d]])
-        slopes = np.linalg.solve(np.eye(2 * s) - np.kron(coefficients, z), np.kron(np.ones((s, 1)), z))
-        made = eye + np.kron(weights, eye) @ slopes
-        if np.abs(made - matrix.at(*(np.array([value]) for value in (a, b, d)))[0]).max() > SAME:
-            return False
-    return True
+    """Whether it makes the same of oscillators, with the kinds of damping that the matrix is known for."""
+    cases = product((0.3, 1.1), (0.0, 0.2 * matrix.damped), (0.0, 0.1 * matrix.dragged))
+    a, b, d = np.array(list(cases)).T
+    return bool(np.abs(tableau.step_matrices(a, b + d) - matrix.at(a, b, d)).max() <= SAME)

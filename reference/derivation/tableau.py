@@ -73,15 +73,20 @@ class Tableau:
                 return f"slope {i + 1} is taken {number(on)} of a step on, and is told the time {number(c)} of it on"
         return ""
 
-    def step_matrices(self, a: Array) -> Array:
-        """Its step matrices of oscillators without damping, a = h^2 k/m of shape (n,): shape (n, 2, 2).
+    def step_matrices(self, a: Array, damped: Array | None = None) -> Array:
+        """Its step matrices of oscillators, shape (n, 2, 2).
 
-        R(Z) = 1 + (b^T x Z) (1 - A x Z)^-1 (e x 1), of Z = ((0, 1), (-a, 0)) for (x, h v) (Hairer and Wanner 1996,
-        IV.3).
+        R(Z) = 1 + (b^T x Z) (1 - A x Z)^-1 (e x 1), of Z = ((0, 1), (-a, -damped)) for (x, h v) (Hairer and Wanner
+        1996, IV.3).
+
+        Args:
+            a: h^2 k/m, shape (n,).
+            damped: h (c + Cd)/m, shape (n,); zero where left out.
         """
         by_a, by_b = np.array(self.a, float), np.array(self.b, float)[None]
         ones = np.kron(np.ones((self.stages, 1)), np.eye(2))
-        zs = [np.array([[0.0, 1.0], [-each, 0.0]]) for each in a]
+        damping = np.zeros_like(a) if damped is None else damped
+        zs = [np.array([[0.0, 1.0], [-each, -its]]) for each, its in zip(a, damping, strict=True)]
         return np.stack(
             [np.eye(2) + np.kron(by_b, z) @ np.linalg.solve(np.eye(len(ones)) - np.kron(by_a, z), ones) for z in zs]
         )
