@@ -48,8 +48,9 @@ PAGES = [
 
 @pytest.mark.rotating(3)
 @pytest.mark.parametrize("page", PAGES)
-def test_programs_of_the_pages_run(page: str) -> None:
-    """Each from its beginning; what a comment behind a line says it gives, it gives."""
+def test_programs_of_the_pages_run(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each from its beginning, in a folder for what it writes; what a comment behind a line says it gives, it gives."""
+    monkeypatch.chdir(tmp_path)
     programs = re.findall(r"```python\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
     for program in (p for p in programs if "import springlab" in p):
         names: dict[str, object] = {}

@@ -226,6 +226,22 @@ def test_nothing_that_is_made_is_kept() -> None:
         assert file.suffix not in (".pyc", ".nbi", ".nbc", ".so", ".db"), name
 
 
+def test_at_the_top_stands_what_belongs_there() -> None:
+    """The folders that are fixed, the papers, and what tools look for there; nothing that a run has left."""
+    rooms = {"reference", "engines", "experiments", "tests", "report"}
+    papers = {"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "CITATION.cff", "LICENSE"}
+    tools = {
+        "Makefile",
+        "pyproject.toml",
+        "requirements.lock",
+        ".ci",
+        ".github",
+        ".gitignore",
+        ".pre-commit-config.yaml",
+    }
+    assert {file.relative_to(ROOT).parts[0] for file in kept_files()} <= rooms | papers | tools
+
+
 def test_the_papers_are_there() -> None:
     """And the licence is BSD-3-Clause, in its own words."""
     for name in (
