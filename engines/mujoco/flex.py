@@ -13,7 +13,8 @@ import numpy as np
 from engines.engine import CAPABILITIES, COLLISIONS, LAWS, Unsupported, changed, refuse_beyond
 from engines.mujoco.common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco.obstacles import add_obstacles, off
-from engines.mujoco.sliding_masses import SlidingMasses, three
+from engines.mujoco.sliding_masses import SlidingMasses
+from engines.vectors import three
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem, Value
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from engines.mujoco.common import OFF
-from engines.mujoco.sliding_masses import three
+from engines.vectors import three
 from reference.obstacles import Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.state import Array
 from reference.system import MassSpringSystem
@@ -97,7 +97,7 @@ def _shape(mujoco: ModuleType, obstacle: Obstacle, system: MassSpringSystem, bea
         size = [*(half - bead for half in obstacle.half_sizes), max(obstacle.half_sizes)][:3]
         return {"type": mujoco.mjtGeom.mjGEOM_BOX, "size": size, "pos": three(np.array(obstacle.centre))}
     assert isinstance(obstacle, Plane)
-    normal = three(np.array(obstacle.normal))
+    normal = np.array(three(np.array(obstacle.normal)))
     return {
         "type": mujoco.mjtGeom.mjGEOM_PLANE,
         "size": [0, 0, 1],  # without end

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from engines.vectors import three
 from reference.pulls import is_pull
 from reference.springs.angular_law import forces_on_masses
 from reference.state import Array
@@ -93,8 +94,3 @@ class SlidingMasses(ABC):
 
     def _coordinates(self, rows: Array) -> Array:
         return np.diff(rows, axis=0, prepend=0.0) if self._nested else rows
-
-
-def three(vector: Array) -> Array:
-    """A vector with zeros for the axes it does not have, shape (3,)."""
-    return np.pad(vector, (0, 3 - len(vector)))

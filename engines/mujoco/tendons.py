@@ -12,7 +12,8 @@ import numpy as np
 from engines.engine import CAPABILITIES, Unsupported, changed, refuse_beyond
 from engines.mujoco.common import OFF, check_inertia, mujoco_module, update_constants, without
 from engines.mujoco.obstacles import add_balls, add_obstacles, off
-from engines.mujoco.sliding_masses import SlidingMasses, three
+from engines.mujoco.sliding_masses import SlidingMasses
+from engines.vectors import three
 from reference.system import MassSpringSystem, Value
 
 Integrator = Literal["Euler", "RK4", "implicit"]

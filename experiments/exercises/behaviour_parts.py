@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.answer_catalogue import AnswerCatalogue
-from experiments.exercises.findings import Finding
+from experiments.exercises.findings import Finding, listed
 from experiments.exercises.parsing import parsed
 
 #: Numbers are the same up to this part of the largest, or to the exercise's own tolerance.
@@ -36,7 +36,7 @@ def seen(catalogue: AnswerCatalogue, answers: Sequence[Mapping[str, Any]], sourc
         return []
     parts = {question.function: question.parts for question in catalogue.questions}
     lines = _lines(source, bad, parts)
-    words = f"Right in your first answers {_is(good)} {_listed(good, parts)}; {_listed(bad, parts)} {_is(bad)} not"
+    words = f"Right in your first answers {_is(good)} {_named(good, parts)}; {_named(bad, parts)} {_is(bad)} not"
     place = f", and {'get their values' if len(bad) > 1 else 'gets its value'} in {_at(lines)}" if lines else ""
     return [Finding("right_and_wrong_parts", f"{words}{place}.", "How is that computed?", lines=tuple(lines))]
 
@@ -138,10 +138,10 @@ def _written(target: Any) -> set[str]:
     return {target.id} if isinstance(target, ast.Name) else set()
 
 
-def _listed(keys: Sequence[tuple[str, str]], parts: Mapping[str, Sequence[str]]) -> str:
+def _named(keys: Sequence[tuple[str, str]], parts: Mapping[str, Sequence[str]]) -> str:
     """What is meant: a part by its name, with its function where there are several; the function where it is all."""
     told = [p if len(parts) == 1 else f"{f}()" if len(parts[f]) == 1 else f"{p} of {f}()" for f, p in keys]
-    return " and ".join([", ".join(told[:-1]), told[-1]] if len(told) > 1 else told)
+    return listed(told)
 
 
 def _is(keys: Sequence[object]) -> str:
@@ -149,5 +149,4 @@ def _is(keys: Sequence[object]) -> str:
 
 
 def _at(lines: Sequence[int]) -> str:
-    *most, last = map(str, lines)
-    return f"lines {', '.join(most)} and {last}" if most else f"line {last}"
+    return f"line{'s' if len(lines) > 1 else ''} {listed([str(line) for line in lines])}"

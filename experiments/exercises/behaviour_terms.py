@@ -16,7 +16,7 @@ import numpy as np
 
 from experiments.exercises.answer_catalogue import AnswerCatalogue
 from experiments.exercises.exercise import Answer, Exercise, Question
-from experiments.exercises.findings import Finding
+from experiments.exercises.findings import Finding, listed
 
 #: A row of an answer is right up to this part of its largest number.
 SAME = 1e-9
@@ -152,12 +152,8 @@ def _of_terms(rows: Sequence[_Row]) -> list[Finding]:
     good, bad = ([term for term, ok in right.items() if ok is wanted] for wanted in (True, False))
     if not good or not bad:
         return []
-    words = f"Asked for one term at a time, yours has {_listed(good)} right, and {_listed(bad)} wrong."
+    words = f"Asked for one term at a time, yours has {listed(good)} right, and {listed(bad)} wrong."
     return [Finding("right_and_wrong_terms", words, f"Where in your text is {bad[0]}?")]
-
-
-def _listed(terms: Sequence[str]) -> str:
-    return " and ".join([", ".join(terms[:-1]), terms[-1]] if len(terms) > 1 else terms)
 
 
 def _of_slopes(rows: Sequence[_Row]) -> list[Finding]:

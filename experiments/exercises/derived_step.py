@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.exercise import Exercise, Question
-from experiments.exercises.findings import Finding
+from experiments.exercises.findings import Finding, listed
 from reference.derivation.fit import Samples, formula_of
 from reference.derivation.formula import Formula
 from reference.derivation.oscillators import ASIDE, DT, FEW, ROUNDINGS, samples
@@ -102,7 +102,7 @@ def seen(exercise: Exercise, asked: Sequence[Question], answers: Sequence[Mappin
     halved = [f.at(at.a[:CHECKED], at.b[:CHECKED], at.d[:CHECKED]) for f in formulas]
     if np.abs(own[FEW:].reshape(CHECKED, -1) - np.stack(halved, axis=1)).max() > 100 * noise:
         return []  # dt stands in it otherwise than as h
-    return [Finding("derived_step", f"{_written(formulas)} Not as it should be: {_listed(wrong)}.", HINT)]
+    return [Finding("derived_step", f"{_written(formulas)} Not as it should be: {listed(wrong)}.", HINT)]
 
 
 #: What to look at.
@@ -120,10 +120,6 @@ def _written(formulas: Sequence[Formula]) -> str:
         f"new x = {of_x} + {of_v}, new h v = {by_x} + {by_v}, "
         "with h = dt, a = h^2 k/m, b = h c/m (c is damping or drag)."
     )
-
-
-def _listed(names: Sequence[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
 
 
 def _places() -> list[tuple[int, int]]:

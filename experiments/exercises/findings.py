@@ -276,6 +276,15 @@ def fewer_digits(error: float) -> Finding:
     return Finding("fewer_digits", words, hint)
 
 
+def listed(names: Sequence[str]) -> str:
+    """Names in a sentence.
+
+    >>> listed(["the weight", "the drag", "the spring"])
+    'the weight, the drag and the spring'
+    """
+    return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
+
+
 def clean(words: str) -> str:
     """Words that a submission brought, on one line, of printable characters, at most 200."""
     return "".join(c if c.isprintable() else " " for c in " ".join(words.split()))[:200]
