@@ -17,8 +17,8 @@ STUDENTS = Path(__file__).parent / "students"
 #: Each mistake is made in each of these.
 STYLES = ("loops", "arrays", "classes")
 
-#: What right programs are called; and those that compute in single precision, by their style.
-RIGHT, SINGLE = "right", "fewer_digits"
+#: What right programs are called; and by their style, those that are right to fewer digits.
+RIGHT, OTHERWISE = "right", {"single_precision": "fewer_digits"}
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def _of_one(folder: Path) -> Iterator[Program]:
     number = int(folder.name[1:3])
     right = {file.stem: file.read_text(encoding="utf-8") for file in sorted(folder.glob("*.py"))}
     for style, text in right.items():
-        yield Program(number, style, SINGLE if style == SINGLE else RIGHT, "", text)
+        yield Program(number, style, OTHERWISE.get(style, RIGHT), "", text)
     for mistake in tomllib.loads((folder / "mistakes.toml").read_text(encoding="utf-8"))["mistake"]:
         for style in STYLES:
             if style in mistake:

@@ -19,11 +19,11 @@ from tests.experiments.exercises.corpus import solution, wrong
 #: What they are warned of (np.matrix, for one) ends nothing in the sandbox, and here neither.
 pytestmark = pytest.mark.filterwarnings("ignore")
 
-#: Of both samples, by file.
+#: Of all samples, by file.
 PROGRAMS = sorted((program for sample in SAMPLES.values() for program in sample), key=lambda p: (p.name, p.file))
 
 #: Whose grade depends on no number: what they return is right to rounding, how they do it is not.
-BY_OTHER_MEANS = ("modifies_its_input", "midpoint")
+BY_OTHER_MEANS = ("modifies_its_input", "midpoint", "ralston")
 
 
 @pytest.fixture(autouse=True)
