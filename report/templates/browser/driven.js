@@ -3,10 +3,11 @@
 
 function drawDriven({world}, k) {
   const [, , width, height] = view.boxes[k];
+  const line = width < 480 ? lab.lanes.length : 0;  // in a narrow picture below the names of the lanes
   paper.save();
   for (const drive of world.drives) {
     if (drive.parameter === "mass") drawTruck(world, drive, k);
-    if (drive.parameter === "gravity") drawGround(world, drive, width / 2 - 12, 16 - height / 2);
+    if (drive.parameter === "gravity") drawGround(world, drive, width / 2 - 12, 16 + 20 * line - height / 2);
   }
   paper.restore();
 }
