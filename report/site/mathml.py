@@ -15,7 +15,7 @@ def of_equations(equations: Equations) -> str:
     """Each stage's acceleration and the new state, one below the other."""
     lines = []
     for i, (x, v) in enumerate(equations.stages):
-        lines.append(f"{_indexed('a', i)}<mo>=</mo><mi>a</mi>{_pair(_sum(x), _sum(v))}")
+        lines.append(f"{_indexed('a', i)}<mo>=</mo>{_letter('a')}{_pair(_sum(x), _sum(v))}")
     lines += [f"{_new(name)}<mo>=</mo>{_sum(what)}" for name, what in zip("xv", equations.end, strict=True)]
     rows = "".join(f'<mtr><mtd style="text-align:left">{line}</mtd></mtr>' for line in lines)
     return f'<math display="block"><mtable displaystyle="true">{rows}</mtable></math>'
@@ -36,13 +36,13 @@ def _sum(what: Sum) -> str:
 
 
 def _terms(name: str, coefficient: Polynomial) -> list[tuple[Fraction, str]]:
-    symbol = _indexed(name[0], int(name[1:])) if name[1:] else f"<mi>{name}</mi>"
+    symbol = _indexed(name[0], int(name[1:])) if name[1:] else _letter(name)
     return [(factor, _factor(abs(factor), power) + symbol) for power, factor in sorted(coefficient.items())]
 
 
 def _factor(factor: Fraction, power: int) -> str:
     """A fraction times a power of h; nothing for 1."""
-    h = "" if power == 0 else f"<mi>h{RAISED[power]}</mi>"
+    h = "" if power == 0 else _letter(f"h{RAISED[power]}")
     over = f"<mn>{factor.numerator}</mn>" if factor.numerator != 1 or not h else ""
     if factor.denominator != 1:
         return f"<mfrac><mrow>{over}{h}</mrow><mn>{factor.denominator}</mn></mfrac>"
@@ -50,8 +50,13 @@ def _factor(factor: Fraction, power: int) -> str:
 
 
 def _indexed(name: str, index: int) -> str:
-    return f"<mi>{name}{''.join(LOWERED[int(digit)] for digit in str(index))}</mi>"
+    return _letter(name + "".join(LOWERED[int(digit)] for digit in str(index)))
 
 
 def _new(name: str) -> str:
-    return f"<mi>{name}\N{PRIME}</mi>"
+    return _letter(f"{name}\N{PRIME}")
+
+
+def _letter(text: str) -> str:
+    """In italics, with what stands below or above it: by themselves browsers set single letters so, and no others."""
+    return f'<mi mathvariant="normal" style="font-style:italic">{text}</mi>'
