@@ -225,7 +225,7 @@ def test_the_experiment_of_the_recipe_answers_its_question(follow: Any) -> None:
 def test_the_exercise_of_the_recipe_names_its_mistakes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In one folder: it is listed, a right solution passes, a mistake is named, and so are two at once."""
     from experiments.exercises import exercise
-    from experiments.exercises.judge import judge
+    from experiments.exercises.verdict.judge import judge
 
     code = code_of("exercise")
     folder = tmp_path / "e11_momentum"

@@ -14,18 +14,20 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises import behaviour, behaviour_parts, behaviour_terms, derived_step, findings, sandbox
-from experiments.exercises.answer_catalogue import AnswerCatalogue, catalogue_of
-from experiments.exercises.c_compiler import DoesNotCompileError, MissingFunctionError, compiled
-from experiments.exercises.c_text import whole_divisions
+from experiments.exercises.behaviour import derived_step, parts, special_cases, terms
+from experiments.exercises.c.compiler import DoesNotCompileError, MissingFunctionError, compiled
+from experiments.exercises.c.text import whole_divisions
 from experiments.exercises.exercise import Exercise, Question
-from experiments.exercises.findings import Finding
-from experiments.exercises.judge import Verdict
-from experiments.exercises.parsing import PARSING, parsed
-from experiments.exercises.sandbox_errors import NotGradedError
-from experiments.exercises.source_edits import Edit, edits_of, without_main
-from experiments.exercises.source_search import fields_given
-from experiments.exercises.submission import Language
+from experiments.exercises.handed_in.parsing import PARSING, parsed
+from experiments.exercises.handed_in.submission import Language
+from experiments.exercises.process import sandbox
+from experiments.exercises.process.sandbox_errors import NotGradedError
+from experiments.exercises.repair.source_edits import Edit, edits_of, without_main
+from experiments.exercises.repair.source_search import fields_given
+from experiments.exercises.verdict import findings
+from experiments.exercises.verdict.answer_catalogue import AnswerCatalogue, catalogue_of
+from experiments.exercises.verdict.findings import Finding
+from experiments.exercises.verdict.judge import Verdict
 
 #: The key of the second check that a changed program has to pass.
 SECOND = "a closer look"
@@ -171,8 +173,8 @@ class _Looks:
         self._catalogue, self._runs = catalogue, runs
         self._line = next((f.line for f in verdict.findings if f.line is not None), None)
         self._named = verdict.outcome in ("mistake", "mistakes")
-        self._cases = behaviour.cases(catalogue) if runs else []
-        self._terms = behaviour_terms.cases(catalogue) if runs else []
+        self._cases = special_cases.cases(catalogue) if runs else []
+        self._terms = terms.cases(catalogue) if runs else []
         self._swinging = derived_step.questions(exercise, catalogue.questions) if runs else []
 
     def asked(self) -> list[dict[str, Any]]:
@@ -183,15 +185,15 @@ class _Looks:
     def seen(self, answers: Sequence[Mapping[str, Any]], source: str | None) -> list[Finding]:
         """What the answers show; the source where its lines can be read."""
         if not self._runs:
-            return behaviour_parts.of_an_error(source, self._line) if source is not None else []
+            return parts.of_an_error(source, self._line) if source is not None else []
         rest = list(answers)
-        own, cases, terms, swinging = (
+        own, cases, of_terms, swinging = (
             [rest.pop(0) for _ in part]
             for part in (self._catalogue.questions, self._cases, self._terms, self._swinging)
         )
-        found = behaviour.seen(self._catalogue, self._cases, [*own, *cases]) if self._cases else []
-        found += behaviour_terms.seen(self._catalogue, self._terms, terms, self._named)
-        found += behaviour_parts.seen(self._catalogue, own, source)
+        found = special_cases.seen(self._catalogue, self._cases, [*own, *cases]) if self._cases else []
+        found += terms.seen(self._catalogue, self._terms, of_terms, self._named)
+        found += parts.seen(self._catalogue, own, source)
         return found + derived_step.seen(self._catalogue.exercise, self._swinging, swinging)
 
 

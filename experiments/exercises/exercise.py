@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises import child
+from experiments.exercises.process import child
 from reference.errors import InputError, unknown_name
 from reference.state import Array
 

@@ -13,13 +13,13 @@ from time import perf_counter
 
 from experiments.exercises.closer_look import CloserLook, Effort, look_closer
 from experiments.exercises.exercise import Exercise
-from experiments.exercises.findings import clean
-from experiments.exercises.judge import Verdict, judge, not_asked
-from experiments.exercises.sandbox import Limits
-from experiments.exercises.sandbox_errors import NotGradedError
-from experiments.exercises.submission import Submission, read
-from experiments.exercises.table_file import read_table, written
-from experiments.exercises.writing import write_anew
+from experiments.exercises.handed_in.submission import Submission, read
+from experiments.exercises.process.sandbox import Limits
+from experiments.exercises.process.sandbox_errors import NotGradedError
+from experiments.exercises.teaching.table_file import read_table, written
+from experiments.exercises.teaching.writing import write_anew
+from experiments.exercises.verdict.findings import clean
+from experiments.exercises.verdict.judge import Verdict, judge, not_asked
 from reference.errors import InputError
 from reference.files.csv_cell import cell
 from reference.printable import printable

@@ -24,8 +24,8 @@ from report.plain import plain
 if TYPE_CHECKING:
     from experiments.exercises.exercise import Exercise
     from experiments.exercises.grading import Grade
-    from experiments.exercises.sandbox import Limits
-    from experiments.exercises.submission import Submission
+    from experiments.exercises.handed_in.submission import Submission
+    from experiments.exercises.process.sandbox import Limits
 
 #: A key is no longer than that [bytes].
 LONGEST_KEY = 2**16
@@ -117,7 +117,7 @@ def start_command(
     from rich.markdown import Markdown
 
     from experiments.exercises.exercise import find
-    from experiments.exercises.handout import hand_out
+    from experiments.exercises.teaching.handout import hand_out
 
     found = find(exercise)
     written = hand_out(found, folder or Path(found.name), seed, key, language)
@@ -154,10 +154,10 @@ def check_command(
 
     Exit code 1 where something is not right, 3 where something could not be graded.
     """
-    from experiments.exercises.collected import files_in
     from experiments.exercises.exercise import find
-    from experiments.exercises.sandbox import Limits
-    from experiments.exercises.submission import read
+    from experiments.exercises.handed_in.collected import files_in
+    from experiments.exercises.handed_in.submission import read
+    from experiments.exercises.process.sandbox import Limits
 
     limits, keyed = Limits(exposed=exposed), not started_without_key
 
@@ -173,7 +173,7 @@ def check_command(
 def _check_one(path: Path, submission: Submission, key: str | None, limits: Limits, plot: bool, as_json: bool) -> int:
     """Grade one submission, and say what it is; the exit code."""
     from experiments.exercises.grading import grade
-    from experiments.exercises.sandbox_errors import NotGradedError
+    from experiments.exercises.process.sandbox_errors import NotGradedError
     from reference.errors import InputError
 
     if submission.says_keyed and key is None:
@@ -213,8 +213,8 @@ def _print_grade(submission: Submission, given: Grade, key: str | None) -> None:
 
 def _show_grade(path: Path, submission: Submission, given: Grade, plot: bool) -> None:
     """In sentences; where numbers differ, drawn in the terminal and, if asked for, in a file beside the submission."""
-    from experiments.exercises.plot import as_png, in_terminal
-    from experiments.exercises.words import paragraphs
+    from experiments.exercises.teaching.plot import as_png, in_terminal
+    from experiments.exercises.teaching.words import paragraphs
 
     click.echo("\n".join(map(_wrapped, paragraphs(submission, given))))
     lines = given.verdict.lines
@@ -279,7 +279,7 @@ def _require_layers(limits: Limits) -> None:
     Raises:
         InputError: with what could be done.
     """
-    from experiments.exercises import sandbox
+    from experiments.exercises.process import sandbox
     from reference.errors import InputError
 
     missing = sandbox.missing()
@@ -302,7 +302,7 @@ def _require_layers(limits: Limits) -> None:
 def gradescope_command(exercise: str, out: Path, key: str | None, exposed: bool, started_without_key: bool) -> None:
     """Write the zip that Gradescope runs EXERCISE by. Without a key, it gets one of its own."""
     from experiments.exercises.exercise import find
-    from experiments.exercises.gradescope import write_zip
+    from experiments.exercises.teaching.gradescope import write_zip
 
     found = find(exercise)
     write_zip(found, key or secrets.token_hex(16), out, exposed, not started_without_key)

@@ -50,13 +50,13 @@ def _book(
     started_without_key: bool,
 ) -> None:
     """Grade HANDED_IN, a folder or a zip of a learning platform, and keep one row for each student."""
-    from experiments.exercises.class_book import book, odd_marks, students_in, write_book
-    from experiments.exercises.collected import collect
     from experiments.exercises.exercise import find
-    from experiments.exercises.feedback import write_feedback
     from experiments.exercises.grading import grade_class
-    from experiments.exercises.sandbox import Limits
-    from experiments.exercises.table_file import read_table
+    from experiments.exercises.handed_in.collected import collect
+    from experiments.exercises.process.sandbox import Limits
+    from experiments.exercises.teaching.class_book import book, odd_marks, students_in, write_book
+    from experiments.exercises.teaching.feedback import write_feedback
+    from experiments.exercises.teaching.table_file import read_table
 
     chosen = find(exercise) if exercise else None
     expected = students_in(students) if students else None
@@ -97,8 +97,8 @@ def _book(
 def _for_platform(rows: list[dict[str, str]], platform: str, out: Path) -> list[Path]:
     """A file for each exercise, beside the book."""
     from experiments.exercises.exercise import find
-    from experiments.exercises.platforms import table
-    from experiments.exercises.writing import write_anew
+    from experiments.exercises.teaching.platforms import table
+    from experiments.exercises.teaching.writing import write_anew
 
     written = []
     for number in dict.fromkeys(row["exercise"] for row in rows if row["exercise"]):

@@ -14,12 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from experiments.exercises import child
-from experiments.exercises.answer_catalogue import catalogue_of
 from experiments.exercises.exercise import exercises, find
-from experiments.exercises.findings import clean
-from experiments.exercises.judge import verdict_on
-from experiments.exercises.reply import read
+from experiments.exercises.process import child
+from experiments.exercises.process.reply import read
+from experiments.exercises.verdict.answer_catalogue import catalogue_of
+from experiments.exercises.verdict.findings import clean
+from experiments.exercises.verdict.judge import verdict_on
 
 if TYPE_CHECKING:
     from tests.fuzz.doors import Enter

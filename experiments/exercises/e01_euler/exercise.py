@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from experiments.exercises.exercise import Exercise
-from experiments.exercises.force_mistakes import OF_A_SPRING
-from experiments.exercises.one_mass import on_one_mass, questions_on_one, step_of_one
-from experiments.exercises.step_mistakes import OF_A_STEP, OF_EULER, OF_INERTIA, OTHERS
+from experiments.exercises.solutions.force_mistakes import OF_A_SPRING
+from experiments.exercises.solutions.one_mass import on_one_mass, questions_on_one, step_of_one
+from experiments.exercises.solutions.step_mistakes import OF_A_STEP, OF_EULER, OF_INERTIA, OTHERS
 
 #: On one mass, whose motion is linear, these are the same as Heun's step.
 SAME = ("midpoint", "ralston")

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.exercise import Exercise, Question
-from experiments.exercises.force_mistakes import OF_A_SPRING
-from experiments.exercises.one_mass import EXAMPLE, on_one_mass, questions_on_one, step_of_one
-from experiments.exercises.step_mistakes import OF_A_STEP, OF_HEUN, OF_INERTIA, OTHERS
+from experiments.exercises.solutions.force_mistakes import OF_A_SPRING
+from experiments.exercises.solutions.one_mass import EXAMPLE, on_one_mass, questions_on_one, step_of_one
+from experiments.exercises.solutions.step_mistakes import OF_A_STEP, OF_HEUN, OF_INERTIA, OTHERS
 
 #: On one mass, whose motion is linear, these are the same as Heun's step. They part where drag grows with the speed.
 SAME = ("midpoint", "ralston")

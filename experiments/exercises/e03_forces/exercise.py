@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from experiments.exercises.exercise import Exercise
-from experiments.exercises.force_mistakes import OF_A_SPRING, OF_A_STRING, OF_FORCES
-from experiments.exercises.links import forces
-from experiments.exercises.on_strings import questions_on_forces
+from experiments.exercises.solutions.force_mistakes import OF_A_SPRING, OF_A_STRING, OF_FORCES
+from experiments.exercises.solutions.links import forces
+from experiments.exercises.solutions.on_strings import questions_on_forces
 
 EXERCISE = Exercise(
     title="The forces on a string",

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from experiments.exercises.exercise import Exercise
-from experiments.exercises.force_mistakes import OF_A_SPRING, OF_A_STRING
-from experiments.exercises.on_strings import questions_on_steps
-from experiments.exercises.step_mistakes import IN_PLACE, OF_A_STEP, OF_HEUN, OF_INERTIA, OTHERS
-from experiments.exercises.stepping import step as any_step
+from experiments.exercises.solutions.force_mistakes import OF_A_SPRING, OF_A_STRING
+from experiments.exercises.solutions.on_strings import questions_on_steps
+from experiments.exercises.solutions.step_mistakes import IN_PLACE, OF_A_STEP, OF_HEUN, OF_INERTIA, OTHERS
+from experiments.exercises.solutions.stepping import step as any_step
 from reference.state import Array
 
 

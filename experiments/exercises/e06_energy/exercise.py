@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
-from experiments.exercises.force_mistakes import EXAMPLE_GRAVITY
-from experiments.exercises.links import random_string
-from experiments.exercises.on_strings import MOON, elsewhere, wild_string
+from experiments.exercises.solutions.force_mistakes import EXAMPLE_GRAVITY
+from experiments.exercises.solutions.links import random_string
+from experiments.exercises.solutions.on_strings import MOON, elsewhere, wild_string
 from reference.state import Array
 
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.exercise import Exercise, Mistake, Question, mistake, mistakes
-from experiments.exercises.links import namespace, random_string
-from experiments.exercises.stepping import DT, step
+from experiments.exercises.solutions.links import namespace, random_string
+from experiments.exercises.solutions.stepping import DT, step
 
 #: Whom it may be.
 KNOWN = ("euler", "heun", "kick_drift", "drift_kick", "velocity_verlet", "midpoint", "rk4", "heun_link_by_link")

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.bridges import moved, some_bridge, turned_about
 from experiments.exercises.exercise import Exercise, Question, mistake, mistakes
-from experiments.exercises.force_mistakes import EXAMPLE_GRAVITY
-from experiments.exercises.links import namespace
-from experiments.exercises.on_strings import MOON
+from experiments.exercises.solutions.bridges import moved, some_bridge, turned_about
+from experiments.exercises.solutions.force_mistakes import EXAMPLE_GRAVITY
+from experiments.exercises.solutions.links import namespace
+from experiments.exercises.solutions.on_strings import MOON
 from reference.state import Array
 
 

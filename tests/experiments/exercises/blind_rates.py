@@ -18,7 +18,7 @@ from pathlib import Path
 
 from experiments.exercises.exercise import find
 from experiments.exercises.grading import EFFORT, Grade, grade
-from experiments.exercises.submission import Submission
+from experiments.exercises.handed_in.submission import Submission
 
 HERE = Path(__file__).parent
 

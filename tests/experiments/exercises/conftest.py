@@ -6,7 +6,7 @@ from functools import partial
 
 import pytest
 
-from experiments.exercises import sandbox
+from experiments.exercises.process import sandbox
 
 
 @pytest.fixture(autouse=True)

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from experiments.exercises.exercise import find
-from experiments.exercises.submission import Submission
+from experiments.exercises.handed_in.submission import Submission
 
 STUDENTS = Path(__file__).parent / "students"
 

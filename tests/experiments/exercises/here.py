@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises import child, source_search
-from experiments.exercises.reply import Reply, read
+from experiments.exercises.process import child
+from experiments.exercises.process.reply import Reply, read
+from experiments.exercises.repair import source_search
 
 #: What the sandbox says of itself.
 MARK = child.READY + child.pack({"layers": ["limits"], "missing": []})

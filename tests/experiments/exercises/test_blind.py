@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
-from experiments.exercises import sandbox
-from experiments.exercises.answer_catalogue import catalogue_of
 from experiments.exercises.exercise import Exercise, find
-from experiments.exercises.judge import judge
-from experiments.exercises.naming import SINGLE
+from experiments.exercises.process import sandbox
+from experiments.exercises.verdict.answer_catalogue import catalogue_of
+from experiments.exercises.verdict.judge import judge
+from experiments.exercises.verdict.naming import SINGLE
 from tests.experiments.exercises import here
 from tests.experiments.exercises.blind_rates import SAMPLES
 from tests.experiments.exercises.corpus import solution, wrong

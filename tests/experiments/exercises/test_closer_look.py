@@ -10,15 +10,16 @@ from typing import Any
 
 import pytest
 
-from experiments.exercises import expression_edits, sandbox, source_edits
 from experiments.exercises.closer_look import SECOND, CloserLook, Effort, _groups, _told, look_closer
 from experiments.exercises.exercise import find
 from experiments.exercises.grading import Grade, grade, row_of
-from experiments.exercises.judge import judge
-from experiments.exercises.source_edits import edits_of, without_main
-from experiments.exercises.source_search import fields_given
-from experiments.exercises.submission import Submission
-from experiments.exercises.words import paragraphs
+from experiments.exercises.handed_in.submission import Submission
+from experiments.exercises.process import sandbox
+from experiments.exercises.repair import expression_edits, source_edits
+from experiments.exercises.repair.source_edits import edits_of, without_main
+from experiments.exercises.repair.source_search import fields_given
+from experiments.exercises.teaching.words import paragraphs
+from experiments.exercises.verdict.judge import judge
 from tests.experiments.exercises import here
 from tests.experiments.exercises.corpus import solution
 from tests.experiments.exercises.mutants import mutants

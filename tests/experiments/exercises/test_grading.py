@@ -14,14 +14,15 @@ from typing import Any
 
 import pytest
 
-from experiments.exercises import grading, handout, plot
+from experiments.exercises import grading
 from experiments.exercises.exercise import find
-from experiments.exercises.gradescope import grade_folder, write_zip
 from experiments.exercises.grading import COLUMNS, grade_class
-from experiments.exercises.judge import judge
-from experiments.exercises.plot import in_terminal
-from experiments.exercises.submission import files_of
-from experiments.exercises.words import UNSEEN
+from experiments.exercises.handed_in.submission import files_of
+from experiments.exercises.teaching import handout, plot
+from experiments.exercises.teaching.gradescope import grade_folder, write_zip
+from experiments.exercises.teaching.plot import in_terminal
+from experiments.exercises.teaching.words import UNSEEN
+from experiments.exercises.verdict.judge import judge
 from reference.errors import InputError
 from tests.experiments.exercises.corpus import solution, wrong
 from tests.report.commands.terminal import springlab
@@ -265,7 +266,7 @@ def test_the_zip_can_be_run_and_has_no_solution(autograder: Path) -> None:
     for script in ("setup.sh", "run_autograder"):
         assert os.access(autograder / script, os.X_OK)
     names = [path.relative_to(autograder).as_posix() for path in autograder.rglob("*.py")]
-    assert "experiments/exercises/judge.py" in names
+    assert "experiments/exercises/verdict/judge.py" in names
     assert not [name for name in names if "model" in name or "tests/" in name]
 
 
@@ -286,7 +287,7 @@ def test_the_zip_grades_as_gradescope_would(
     shutil.copy(autograder / "run_autograder", tmp_path)
     (tmp_path / "submission").mkdir()
     (tmp_path / "submission" / "whole_state.py").write_text(text)
-    patient(tmp_path / "source" / "experiments" / "exercises" / "sandbox.py")
+    patient(tmp_path / "source" / "experiments" / "exercises" / "process" / "sandbox.py")
     bare = {"PATH": os.environ["PATH"], "SPRINGLAB_PYTHON": sys.executable, "HOME": str(tmp_path)}
     subprocess.run(["bash", tmp_path / "run_autograder"], env=bare, check=True, cwd=tmp_path)
     document = json.loads((tmp_path / "results" / "results.json").read_text())

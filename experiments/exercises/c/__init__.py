@@ -1,0 +1,1 @@
+"""Submissions in C: compiled and called; their header."""

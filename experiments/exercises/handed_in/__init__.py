@@ -1,0 +1,1 @@
+"""What students hand in: files, notebooks, zips, folders; and whose they are."""

@@ -1,0 +1,1 @@
+"""How a submission is run: a process of its own, that can reach nothing, and what it leaves."""

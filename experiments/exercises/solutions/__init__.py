@@ -1,0 +1,1 @@
+"""What several exercises share: right and wrong forces and steps, and the questions on them."""

@@ -1,0 +1,1 @@
+"""What teachers and students get: handouts, sentences, tables, feedback, other graders' formats."""

@@ -1,0 +1,86 @@
+"""What a wrong step of an exercise computes, derived: its own formulas, and which entry is not as it should be."""
+
+from __future__ import annotations
+
+import pytest
+
+from experiments.exercises.behaviour import derived_step
+from experiments.exercises.closer_look import Effort, look_closer
+from experiments.exercises.exercise import find
+from experiments.exercises.process import sandbox
+from experiments.exercises.verdict.answer_catalogue import catalogue_of
+from experiments.exercises.verdict.judge import judge
+from tests.experiments.exercises import here
+from tests.experiments.exercises.test_closer_look import model
+
+
+@pytest.fixture(autouse=True)
+def trusted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Programs run in this process."""
+    monkeypatch.setattr(sandbox, "run", here.run)
+
+
+def told(number: int, old: str, new: str) -> str:
+    """What is said of a model solution with other words; empty where nothing is."""
+    exercise = find(str(number))
+    asked = derived_step.questions(exercise, catalogue_of(exercise, "example", None).questions)
+    text = model(number)
+    assert old in text
+    answers = sandbox.run(text.replace(old, new), [question.asked() for question in asked]).answers
+    return " ".join(finding.words for finding in derived_step.seen(exercise, asked, answers))
+
+
+@pytest.mark.parametrize(
+    ("number", "old", "new", "matrix", "wrong"),
+    [
+        # Euler is [[1, 1], [-a, 1 - b]]
+        (
+            1,
+            "v + dt * force",
+            "v - dt * force",
+            "new h v = (a) x + (1 + b) h v",
+            "x in the new h v and h v in the new h v",
+        ),
+        (
+            2,
+            "(y1 + y2) / 2",
+            "(y1 + y2) / 3",
+            "new x = (1 - a/3) x + (2/3 - b/3) h v",
+            "x in the new x and h v in the new x",
+        ),
+        (
+            4,
+            "dt * (a + b) / 2",
+            "dt * (a + b) / 3",
+            "new h v = (-2 a/3 + a b/3) x",
+            "x in the new h v and h v in the new h v",
+        ),
+    ],
+)
+def test_the_students_own_formulas_are_told(number: int, old: str, new: str, matrix: str, wrong: str) -> None:
+    """By hand, from Euler's and Heun's steps of x'' = -(k x + c x')/m with the change in them."""
+    words = told(number, old, new)
+    assert matrix in words
+    assert words.endswith(f"Not as it should be: {wrong}.")
+
+
+@pytest.mark.parametrize("number", [1, 2, 4])
+def test_nothing_is_said_of_a_right_step_or_of_what_acts_otherwise(number: int) -> None:
+    """A model solution; one that raises; exercises that are no step are not asked."""
+    assert told(number, "dt", "dt") == ""
+    assert told(number, "def step(", "def other(") == ""
+    assert derived_step.questions(find("3"), catalogue_of(find("3"), "example", None).questions) == []
+
+
+def test_where_dt_stands_by_itself_no_formula_is_told() -> None:
+    """For x + v the entry would be 1/h: a number at this one h only."""
+    assert told(1, "y + dt * v", "y + dt * dt * v") == ""
+    assert told(1, "y + dt * v", "y + v") == ""
+
+
+def test_it_is_part_of_the_closer_look() -> None:
+    """With what else is seen of a wrong program."""
+    exercise, text = find("2"), model(2).replace("dt * (y1 + y2) / 2", "dt * (2 * y1 + y2) / 3")
+    verdict = judge(exercise, text, "example")
+    closer = look_closer(exercise, text, "example", verdict, effort=Effort(0.0, 0.0))
+    assert "derived_step" in [finding.name for finding in closer.findings]
