@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from reference.derivation.formula import Formula
 from reference.errors import InputError
 
 if TYPE_CHECKING:
@@ -24,22 +25,47 @@ def matrix_lines(explanation: Explanation) -> list[str]:
     matrix = explanation.matrix
     if matrix is None:
         return []
-    of_sum = [entry.of_sum() for entry in matrix.entries] if matrix.damped and matrix.dragged else [None]
-    summed = [str(entry).replace("b", "g") for entry in of_sum if entry is not None]
-    by_sum = len(summed) == len(matrix.entries) and matrix.asks("b")
-    entries = summed if by_sum else [str(entry) for entry in matrix.entries]
+    entries, letters = _in_letters(matrix.entries, matrix.damped and matrix.dragged)
     lines = [f"x' = {_times(entries[0], 'x')} + {_times(entries[1], 'h v')}"]
     lines.append(f"h v' = {_times(entries[2], 'x')} + {_times(entries[3], 'h v')}")
-    letters = ", ".join(part for part in LETTERS.split(", ") if matrix.asks(part[0]))
-    letters = "a = h^2 k/m, g = h (c + Cd)/m" if by_sum else letters
-    seen = [word for word, there in (("damping", matrix.damped), ("drag", matrix.dragged)) if not there]
-    without = f"; without {' and '.join(seen)}" if seen else ""
+    without = _without(matrix.damped, matrix.dragged)
     only = f"; at h = {matrix.only_at:g} s only: h stands in it by itself" if matrix.only_at is not None else ""
     return [*lines, f"with {letters}{without}{only}"]
 
 
+def _in_letters(entries: Sequence[Formula], of_both: bool) -> tuple[list[str], str]:
+    """Formulas as they are written, and what their letters mean: with g = b + d, where they ask for that sum only."""
+    of_sum = [entry.of_sum() for entry in entries] if of_both else [None]
+    summed = [str(entry).replace("b", "g") for entry in of_sum if entry is not None]
+    if len(summed) == len(entries) and any(entry.asks("b") for entry in entries):
+        return summed, "a = h^2 k/m, g = h (c + Cd)/m"
+    asked = [part for part in LETTERS.split(", ") if any(entry.asks(part[0]) for entry in entries)]
+    return [str(entry) for entry in entries], ", ".join(asked)
+
+
+def _without(damped: bool, dragged: bool) -> str:
+    """What formulas were seen without, behind a semicolon."""
+    seen = [word for word, there in (("damping", damped), ("drag", dragged)) if not there]
+    return f"; without {' and '.join(seen)}" if seen else ""
+
+
 def _times(entry: str, of: str) -> str:
-    return of if entry == "1" else f"({entry}) {of}"
+    return of if entry == "1" else f"-{of}" if entry == "-1" else f"({entry}) {of}"
+
+
+def difference_lines(explanation: Explanation) -> list[str]:
+    """What positions obey step after step, with what its letters mean; x1 is the new one, x0 that before."""
+    difference = explanation.difference
+    if difference is None:
+        return []
+    new, *old = difference.parts
+    of_old = [Formula({m: -c for m, c in part.numerator.items()}) for part in old]
+    (first, *others), letters = _in_letters([new, *of_old], difference.damped and difference.dragged)
+    places = ["x0", *(f"x[-{j}]" for j in range(1, len(others)))]
+    terms = " + ".join(_times(entry, place) for entry, place in zip(others, places, strict=True) if entry != "0")
+    terms = terms.replace("+ -", "- ")
+    without = _without(difference.damped, difference.dragged)
+    return [f"{_times(first, 'x1')} = {terms}", f"with {letters}{without}"]
 
 
 def tableau_lines(explanation: Explanation) -> list[str]:
@@ -150,8 +176,11 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
         reused = ", one of them that of the step before" if explanation.updates.reused else ""
         yield f"Slopes or forces taken in a step: {explanation.updates.calls + explanation.updates.reused}{reused}"
     yield from _order(explanation)
+    yield from _stability(explanation)
     if explanation.follows is not None and explanation.of_one_step:
         yield from _of_matrix(explanation, explanation.follows)
+    if explanation.difference is not None and explanation.difference.of_fast is not None:
+        yield f"What swings infinitely fast is multiplied by {explanation.difference.of_fast:.4g} in a step"
 
 
 def _order(explanation: Explanation) -> Iterator[str]:
@@ -161,12 +190,14 @@ def _order(explanation: Explanation) -> Iterator[str]:
     elif explanation.seen.multistep is not None:
         yield f"Order {order}, by its coefficients"
     elif order is not None:
-        follows = explanation.follows
+        follows, of_one_mass = explanation.follows, explanation.order_on_oscillators
         known = []
         matrix = explanation.matrix
         left_out = ", as drag is not in it" if matrix and matrix.dragged and not matrix.asks("d") else ""
         if follows is not None and explanation.of_one_step:
             known.append(f"{follows.undamped_order} on the oscillator, {follows.order} with damping and drag{left_out}")
+        elif of_one_mass is not None:
+            known.append(f"{of_one_mass} on the oscillator, by its difference equation")
         if explanation.nonlinear_order is not None:
             known.append(f"{explanation.nonlinear_order} measured on a spring that turns, without damping")
         yield f"Order {order} without damping: {'; '.join(known)}"
@@ -177,11 +208,16 @@ def _order(explanation: Explanation) -> Iterator[str]:
         )
 
 
+def _stability(explanation: Explanation) -> Iterator[str]:
+    imaginary, real = explanation.limits
+    if imaginary is not None:
+        yield stability("h w", imaginary, "damping")
+    if real is not None:
+        of = explanation.matrix if explanation.of_one_step else explanation.difference
+        yield stability(f"h {'c' if of is not None and of.damped else 'Cd'}/m", real, "stiffness")
+
+
 def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:
-    yield stability("h w", follows.imaginary_axis, "damping")
-    if follows.real_axis is not None:
-        letter = "c" if explanation.matrix is not None and explanation.matrix.damped else "Cd"
-        yield stability(f"h {letter}/m", follows.real_axis, "stiffness")
     symplectic = "symplectic" if explanation.symplectic else "not symplectic"
     reversible = "reversible" if follows.reversible else "not reversible"
     yield f"{symplectic.capitalize()}, and {reversible}, without damping"
@@ -223,6 +259,7 @@ def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
         ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
         ("Derived: where forces of springs are taken, without damping", force_lines(explanation)),
         ("Derived: the multistep method", [str(multistep)] if multistep else []),
+        ("Derived: what an oscillator's positions obey, step after step", difference_lines(explanation)),
         (f"Derived: the Butcher tableau{of_one}", tableau_lines(explanation)),
         ("What follows", [f"- {line}." for line in property_lines(explanation)]),
         ("What cannot be told, and why", [f"- {reason}." for reason in _beside_the_name(explanation)]),

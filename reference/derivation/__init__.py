@@ -14,6 +14,7 @@
 - `implicit`: tableaux of steppers that solve equations
 - `force_jumps`: where a stepper that only steps takes forces, and with which weights
 - `stages`: its tableau, from these
+- `difference_equation`: what positions obey step after step, of methods with a memory
 - `multistep`: coefficients of multistep methods, implicit ones too
 - `irrational`: numbers with roots
 - `seen`: all of what a stepper does with slopes and forces

@@ -70,10 +70,10 @@ def consequences(matrix: StepMatrix) -> Consequences:
     reversible = symplectic and bool(np.abs(undamped[:, 0, 0] - undamped[:, 1, 1]).max() < SAME)
     real = None
     if matrix.damped or matrix.dragged:
-        real = windows(lambda s: matrix.at(0 * s, s, 0 * s) if matrix.damped else matrix.at(0 * s, 0 * s, s))
+        real = windows(lambda s: by_jury(matrix.at(0 * s, s * matrix.damped, s * (not matrix.damped))))
     letters = {"stiffness": "a", "damping": "b", "drag": "d"}
     implicit = tuple(w for w, letter in letters.items() if any(e.divided_by(letter) for e in matrix.entries))
-    imaginary = windows(lambda s: matrix.at(s**2, 0 * s, 0 * s))
+    imaginary = windows(lambda s: by_jury(matrix.at(s**2, 0 * s, 0 * s)))
     return Consequences(
         imaginary,
         real,
@@ -86,18 +86,12 @@ def consequences(matrix: StepMatrix) -> Consequences:
     )
 
 
-def windows(matrices: Callable[[Array], Array]) -> Windows:
-    """The intervals of s from 0 to FAR in which a step of a 2 x 2 matrix does not grow; to FAR means without limit.
+def windows(stable: Callable[[Array], BoolArray]) -> Windows:
+    """The intervals of s from 0 to FAR in which a step does not grow; to FAR means without limit.
 
-    Both eigenvalues are within the unit circle where D <= 1 and |T| <= 1 + D, of its trace and determinant (Jury 1964).
+    Args:
+        stable: at which s it does not, shape (n,).
     """
-
-    def stable(s: Array) -> BoolArray:
-        m = matrices(s)
-        trace, determinant = m[:, 0, 0] + m[:, 1, 1], m[:, 0, 0] * m[:, 1, 1] - m[:, 0, 1] * m[:, 1, 0]
-        rounding = ROUNDING * (1 + np.abs(trace) + np.abs(determinant))
-        return np.asarray((determinant <= 1 + rounding) & (np.abs(trace) <= 1 + determinant + rounding))
-
     at = np.concatenate([np.arange(20 * STEP, 40, STEP), np.geomspace(40, FAR, 4000)])
     inside = stable(at)
     found: list[tuple[float, float]] = []
@@ -113,6 +107,16 @@ def windows(matrices: Callable[[Array], Array]) -> Windows:
     if begin is not None:
         found.append((begin, FAR))
     return tuple(found) if found and found[0][0] == 0 else ((0.0, 0.0), *found)
+
+
+def by_jury(m: Array) -> BoolArray:
+    """Which matrices, shape (n, 2, 2), let nothing grow.
+
+    Both eigenvalues are within the unit circle where D <= 1 and |T| <= 1 + D, of its trace and determinant (Jury 1964).
+    """
+    trace, determinant = m[:, 0, 0] + m[:, 1, 1], m[:, 0, 0] * m[:, 1, 1] - m[:, 0, 1] * m[:, 1, 0]
+    rounding = ROUNDING * (1 + np.abs(trace) + np.abs(determinant))
+    return np.asarray((determinant <= 1 + rounding) & (np.abs(trace) <= 1 + determinant + rounding))
 
 
 def order_of(matrix: StepMatrix, damped: bool, dragged: bool) -> int:

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from reference.derivation.consequences import FAR, Consequences, Windows, consequences
+from reference.derivation.difference_equation import DifferenceEquation, difference_equation
 from reference.derivation.near import SAME_TABLEAU, nearest_known
 from reference.derivation.nonlinear_order import nonlinear_order, order_of_two_masses
 from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_of
@@ -74,6 +75,7 @@ class Explanation:
         held: at which other dt it has its name, where it has one that is not its own.
         reasons: why something cannot be told, each a sentence without its stop.
         order_among_masses: the order seen on two masses that move one another, where slopes are not seen.
+        difference: what positions obey step after step, of one that remembers earlier steps.
     """
 
     stepper: str
@@ -87,6 +89,7 @@ class Explanation:
     held: OverDts | None = None
     reasons: tuple[str, ...] = ()
     order_among_masses: int | None = None
+    difference: DifferenceEquation | None = None
 
     @property
     def updates(self) -> Updates | None:
@@ -140,12 +143,21 @@ class Explanation:
             return self.tableau.order
         if self.seen.multistep is not None:
             return self.seen.multistep.order
-        if self.pasts is not None and self.pasts.one_step is False:
-            return self.nonlinear_order
-        known = [
-            n for n in (self.follows.undamped_order if self.follows else None, self.nonlinear_order) if n is not None
-        ]
+        known = [n for n in (self.order_on_oscillators, self.nonlinear_order) if n is not None]
         return min(known, default=None)
+
+    @property
+    def order_on_oscillators(self) -> int | None:
+        """Without damping: by its step matrix; of one that remembers earlier steps, by its difference equation."""
+        if not self.of_one_step:
+            return self.difference.order if self.difference else None
+        return self.follows.undamped_order if self.follows else None
+
+    @property
+    def limits(self) -> tuple[Windows | None, Windows | None]:
+        """In which intervals of h w, and of h c/m or h Cd/m, oscillators do not grow; None of what is not known."""
+        found = self.follows if self.of_one_step else self.difference
+        return (found.imaginary_axis, found.real_axis) if found else (None, None)
 
     @property
     def symplectic(self) -> bool | None:
@@ -169,6 +181,8 @@ class Explanation:
     def document(self) -> dict[str, Any]:
         """As JSON has it: fractions and formulas as text."""
         follows = self.follows if self.of_one_step else None
+        imaginary, real = self.limits
+        multistep = self.seen.multistep
         return {
             "stepper": self.stepper,
             "identified_as": self.identification.identified_as,
@@ -181,10 +195,9 @@ class Explanation:
             "order": self.order,
             "symplectic": self.symplectic,
             "reversible": follows.reversible if follows else None,
-            "stability": {
-                "real_axis": first_limit(follows.real_axis) if follows else None,
-                "imaginary_axis": first_limit(follows.imaginary_axis) if follows else None,
-            },
+            "stability": {"real_axis": first_limit(real), "imaginary_axis": first_limit(imaginary)},
+            "multistep": multistep.text() if multistep else None,
+            "difference_equation": self.difference.text() if self.difference else None,
             "reason": self.reason,
         }
 
@@ -255,8 +268,10 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         )
         if nearest.startswith(SAME_TABLEAU):
             reasons.append(CONTRADICTION)
+    difference = None
     if past is not None and past.one_step is False:
         reasons.append("it remembers earlier steps: its step matrix is that of a first step")
+        difference = tried(lambda: difference_equation(runs, precision), reasons, "no difference equation: ")
     follows = consequences(matrix) if matrix and matrix.only_at is None else None
     return Explanation(
         stepper.name,
@@ -270,6 +285,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         held,
         tuple(reasons),
         among,
+        difference,
     )
 
 

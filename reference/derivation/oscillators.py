@@ -88,11 +88,7 @@ def one_by_one(runs: Runs, at: Samples, dt: float = DT) -> Array:
     Raises:
         Unsupported: where the stepper cannot step one, with its reason.
     """
-    cases = list(zip(at.a.tolist(), at.b.tolist(), at.d.tolist(), strict=True))
-    systems = [oscillator(*case, x, v, dt) for case in cases for x, v in ((ASIDE, 0.0), (0.0, ASIDE / dt))]
-    ends = [end_of(outcome) for outcome in runs([Run(system, dt) for system in systems])]
-    moved = np.array([[-1.0 - x[1, 0], -dt * v[1, 0]] for x, v in ends]) / ASIDE
-    return moved.reshape(len(cases), 2, 2).swapaxes(1, 2)
+    return _matrices(_rows_one_by_one(runs, at, dt, 1))
 
 
 def side_by_side(runs: Runs, at: Samples, dt: float = DT) -> Array:
@@ -101,6 +97,38 @@ def side_by_side(runs: Runs, at: Samples, dt: float = DT) -> Array:
     Raises:
         Unsupported: where the stepper cannot step that, with its reason.
     """
+    return _matrices(_rows_side_by_side(runs, at, dt, 1))
+
+
+def rows_of_steps(runs: Runs, at: Samples, steps: int) -> Array:
+    """Displacements over the first one after so many steps in a row, shape (2, steps + 1, n).
+
+    Those of oscillators that are let go displaced, and of those that set out from rest.
+
+    Raises:
+        Unsupported: where the stepper cannot step them, with its reason.
+    """
+    try:
+        return _rows_side_by_side(runs, at, DT, steps)[..., 0]
+    except Unsupported:
+        return _rows_one_by_one(runs, at, DT, steps)[..., 0]
+
+
+def _matrices(rows: Array) -> Array:
+    return rows[:, -1].transpose(1, 2, 0)
+
+
+def _rows_one_by_one(runs: Runs, at: Samples, dt: float, steps: int) -> Array:
+    """(x, h v) over ASIDE of all steps, shape (2, steps + 1, n, 2), of both beginnings."""
+    cases = list(zip(at.a.tolist(), at.b.tolist(), at.d.tolist(), strict=True))
+    begun = [oscillator(*case, x, v, dt) for x, v in ((ASIDE, 0.0), (0.0, ASIDE / dt)) for case in cases]
+    found = [row_of(outcome, steps) for outcome in runs([Run(system, dt, steps) for system in begun])]
+    rows = np.stack([np.stack([-1.0 - x[:, 1, 0], -dt * v[:, 1, 0]], axis=1) for x, v in found], axis=1)
+    return rows.reshape(steps + 1, 2, len(cases), 2).swapaxes(0, 1) / ASIDE
+
+
+def _rows_side_by_side(runs: Runs, at: Samples, dt: float, steps: int) -> Array:
+    """The same of all oscillators in one system."""
     n = len(at.a)
     dragged = bool(at.d.any())
     mass = 1 / at.d if dragged else np.ones(n)
@@ -120,14 +148,19 @@ def side_by_side(runs: Runs, at: Samples, dt: float = DT) -> Array:
         replace(system, positions=system.positions + aside),
         replace(system, velocities=aside / dt),
     ]
-    ends = [end_of(outcome) for outcome in runs([Run(s, dt) for s in begun])]
-    columns = [np.stack([-1.0 - x[1::2, 0], -dt * v[1::2, 0]], axis=1) / ASIDE for x, v in ends]
-    return np.stack(columns, axis=2)
+    found = [row_of(outcome, steps) for outcome in runs([Run(s, dt, steps) for s in begun])]
+    return np.stack([np.stack([-1.0 - x[:, 1::2, 0], -dt * v[:, 1::2, 0]], axis=2) for x, v in found]) / ASIDE
 
 
 def end_of(outcome: Outcome) -> tuple[Array, Array]:
-    """Where a run has come to. Raises Unsupported, with its reason, where it has not."""
+    """Where a run of a step has come to. Raises Unsupported, with its reason, where it has not."""
+    x, v = row_of(outcome, 1)
+    return x[-1], v[-1]
+
+
+def row_of(outcome: Outcome, steps: int) -> tuple[Array, Array]:
+    """Positions and velocities at all steps of a run. Raises Unsupported, with its reason, where it ended before."""
     run = outcome.trajectory
-    if run is None or len(run) < 2 or not np.isfinite(run.velocities[-1]).all():
+    if run is None or len(run) < steps + 1 or not np.isfinite(run.velocities[-1]).all():
         raise Unsupported(outcome.reason or "it tells no velocities")
-    return run.positions[-1], run.velocities[-1]
+    return run.positions, run.velocities

@@ -8,7 +8,7 @@ from pathlib import Path
 from tests.report.commands.terminal import springlab
 
 KEYS = ["stepper", "identified_as", "one_step", "explicit", "deterministic", "slope_evaluations", "tableau"]
-KEYS += ["step_matrix", "order", "symplectic", "reversible", "stability", "reason"]
+KEYS += ["step_matrix", "order", "symplectic", "reversible", "stability", "multistep", "difference_equation", "reason"]
 
 
 def test_the_json_has_exactly_the_promised_form() -> None:
