@@ -21,7 +21,7 @@ Solver = Literal["SolverXPBD", "SolverSemiImplicit", "SolverVBD"]
 SCHEMES: Mapping[Solver, str] = {
     "SolverXPBD": "xpbd_jacobi(single=True)",
     "SolverSemiImplicit": "kick_drift",
-    "SolverVBD": "vertex_block_descent",
+    "SolverVBD": "vertex_block_descent(single=True)",
 }
 
 #: Newton takes particles nearer to one another than their radii, 0.1 m unless told otherwise, for colliding ones; and
