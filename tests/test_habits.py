@@ -1,4 +1,4 @@
-"""Habits that hold in every source file: SI units in all labels and texts, sorts that give one order on every machine."""
+"""Habits of every source file: SI units in labels and texts, sorts that give the same order on every machine."""
 
 from __future__ import annotations
 
@@ -21,7 +21,25 @@ OTHERWISE = {
 }
 
 #: Units with a prefix, or none of SI, that a label might have by mistake.
-NOT_SI = ("ms", "us", "min", "mm", "cm", "km", "g", "kN", "mN", "kJ", "mJ", "kHz", "MHz", "N/mm", "N s/mm", "mm/s", "km/h")
+NOT_SI = (
+    "ms",
+    "us",
+    "min",
+    "mm",
+    "cm",
+    "km",
+    "g",
+    "kN",
+    "mN",
+    "kJ",
+    "mJ",
+    "kHz",
+    "MHz",
+    "N/mm",
+    "N s/mm",
+    "mm/s",
+    "km/h",
+)
 
 
 def units(text: str) -> Iterator[tuple[int, str]]:
@@ -36,13 +54,14 @@ def units(text: str) -> Iterator[tuple[int, str]]:
 def sorts(text: str) -> Iterator[int]:
     """Lines on which `argsort` may order equal values as the machine likes."""
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "argsort":
-            if not any(keyword.arg == "kind" and ast.unparse(keyword.value) == "'stable'" for keyword in node.keywords):
-                yield node.lineno
+        is_sort = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr == "argsort"
+        if is_sort and not any(ast.unparse(keyword) == "kind='stable'" for keyword in node.keywords):
+            yield node.lineno
 
 
 @pytest.mark.parametrize("room", ROOMS)
 def test_labels_and_texts_have_si_units(room: str) -> None:
+    """But for those that readers know in another."""
     for file in sorted((ROOT / room).rglob("*.py")):
         name = file.relative_to(ROOT).as_posix()
         found = list(units(file.read_text(encoding="utf-8")))
@@ -50,6 +69,7 @@ def test_labels_and_texts_have_si_units(room: str) -> None:
 
 
 def test_another_unit_is_caught() -> None:
+    """In a text with gaps, too."""
     assert list(units('label = f"{name}: time [ms]"\naxes.set_xlabel("time [s]")')) == [(1, "ms")]
 
 
@@ -61,4 +81,5 @@ def test_equal_values_are_ordered_the_same_on_every_machine(room: str) -> None:
 
 
 def test_an_unstable_sort_is_caught() -> None:
+    """As a function, as a method, and with another kind."""
     assert list(sorts('np.argsort(a)\nnp.argsort(a, kind="stable")\na.argsort(kind="quicksort")')) == [1, 3]

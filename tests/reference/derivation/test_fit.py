@@ -28,7 +28,8 @@ def test_coefficients_are_fractions_as_sure_as_the_terms_are_large(largest: floa
     a = np.linspace(0.1, 1.0, 12) * largest
     noise = NOISE * np.random.default_rng(5).uniform(-1, 1, len(a))
     found = formula_of(along(a), 1 - 3 / 7 * a + noise, NOISE)
-    assert found is not None and found.numerator == {ONE: 1, (1, 0, 0, 0, 0): Fraction(-3, 7)}
+    assert found is not None
+    assert found.numerator == {ONE: 1, (1, 0, 0, 0, 0): Fraction(-3, 7)}
     beside = formula_of(along(a), 1 - (3 / 7 + 1e-9) * a + noise, NOISE)
     assert beside is not None
     assert (beside.numerator[1, 0, 0, 0, 0] == Fraction(-3, 7)) == (largest == 1e-2)
