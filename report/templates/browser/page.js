@@ -237,30 +237,41 @@ function goBack() {
   showAll();
 }
 
+// Words where they are others: what is the same is not laid out again.
+function write(place, text) { if (place.textContent !== text) place.textContent = text; }
+
 function showState() {
-  $("play").textContent = say(lab.playing ? "pause" : "play");
+  write($("play"), say(lab.playing ? "pause" : "play"));
   const {steps} = lab.lanes[0].world;
   const words = [say("status", {scene: lab.scene.title || lab.scene.name, time: number(laneTime(), 5) || "0", steps, paused: lab.playing ? "" : say("paused")})];
   if (lab.playing && lab.reached < 0.9) words.push(say("slow", {part: number(lab.reached, 2)}));
   if (lab.short) words.push(say("link_short"));
-  $("status").textContent = words.join(" ");
+  write($("status"), words.join(" "));
   $("past").max = lab.past.length - 1;
   if (document.activeElement !== $("past") || lab.playing) $("past").value = lab.past.length - 1;
   $("past").setAttribute("aria-valuetext", `${number(laneTime())} s`);
-  $("command").textContent = commandText();
-  $("shared").textContent = leftOut();
+  write($("command"), commandText());
+  write($("shared"), leftOut());
   showBanner();
   showNumbers();
   checkLesson();
 }
 
+// The table is made once; then its numbers change where they do.
 function showNumbers() {
-  const last = lab.series[lab.series.length - 1];
+  const last = lab.series[lab.series.length - 1], first = lab.series[0];
   if (!last) return;
-  const first = lab.series[0];
+  const numbers = lab.lanes.flatMap((lane, k) => [number(timeOf(lane.world)), number(last.energy[k] - first.energy[k]), k ? number(last.apart[k]) : ""]);
+  const shown = $("numbers"), made = `${language} ${lab.lanes.map(nameOf).join()}`;
+  if (shown.dataset.made !== made) makeNumbers(shown, made);
+  shown.querySelectorAll("td").forEach((cell, k) => write(cell, numbers[k]));
+}
+
+function makeNumbers(shown, made) {
+  shown.dataset.made = made;
   const head = element("tr", {}, ...[say("scheme"), say("time") + " [s]", say("energy_plot"), say("apart_plot")].map(text => element("th", {scope: "col"}, text)));
-  $("numbers").replaceChildren(element("thead", {}, head), element("tbody", {}, ...lab.lanes.map((lane, k) => element("tr", {}, element("th", {scope: "row"}, nameOf(lane)),
-    ...[number(timeOf(lane.world)), number(last.energy[k] - first.energy[k]), k ? number(last.apart[k]) : ""].map(text => element("td", {className: "number"}, text))))));
+  const row = lane => element("tr", {}, element("th", {scope: "row"}, nameOf(lane)), ...[0, 1, 2].map(() => element("td", {className: "number"})));
+  shown.replaceChildren(element("thead", {}, head), element("tbody", {}, ...lab.lanes.map(row)));
 }
 
 // Sixty times a second.
@@ -274,7 +285,8 @@ function frame(now) {
     if (lab.lanes.every(lane => lane.world.blownUp || lane.recording)) { lab.playing = false; showState(); }
   }
   draw();
-  if (now - told > (lab.playing ? 120 : 400)) { drawPlots(); if (lab.playing) showState(); told = now; }
+  if (lab.playing && now - told > 120) { drawNextPlot(); showState(); told = now; }
+  if (!lab.playing && now - told > 400) { drawPlots(); told = now; }
   requestAnimationFrame(frame);
 }
 
