@@ -57,7 +57,8 @@ function swatch(k) {
 const nameOf = lane => lane.recording ? say("recorded", {name: lane.recording.stepper}) : lane.scheme;
 
 function showLanes() {
-  const names = [...Object.keys(schemes), ...(lab.scene.recordings || []).map(one => `recorded:${one.name}`)];
+  const stepped = Object.keys(lab.scene.engines || {}).filter(engineNamed);
+  const names = [...stepped, ...Object.keys(schemes), ...(lab.scene.recordings || []).map(one => `recorded:${one.name}`)];
   const shown = name => name.startsWith("recorded:") ? say("recorded", {name: recordingNamed(name).stepper}) : name;
   $("lanes").replaceChildren(...lab.lanes.map((lane, k) => {
     const select = element("select", {id: `lane-${k}`, "aria-label": say("lane", {k: k + 1}), onchange: () => setLanes(lab.lanes.map((one, q) => q === k ? select.value : one.scheme))},
@@ -68,6 +69,8 @@ function showLanes() {
     if (lab.lanes.length > 1) item.append(element("button", {type: "button", "aria-label": say("remove_lane", {k: k + 1}), onclick: () => setLanes(lab.lanes.filter((_, q) => q !== k).map(one => one.scheme))}, "×"));
     return item;
   }));
+  const refused = Object.values(lab.scene.engines || {}).filter(Boolean);
+  $("engines-refused").textContent = refused.length ? `${refused.join("; ")}.` : "";
   $("add").disabled = lab.lanes.length >= 4;
   $("beside").checked = lab.beside;
 }
@@ -106,6 +109,7 @@ function showLimits() {
 
 function limitSaid(lane) {
   const name = lane.recording ? nameOf(lane) : lane.scheme;
+  if (lane.engine) return say("engine_note", {...lane.engine, precision: say(`precision_${lane.engine.precision}`)});
   if (lane.recording) return say("recorded_note", {name, dt: number(1e3 * lane.recording.dt), error: number(lane.recording.error, 2)});
   const told = lab.limits[lane.scheme];
   if (!lab.scene.rest.length) return say("limit_unknown", {name, why: say("no_rest")});
@@ -189,7 +193,7 @@ function openLesson(k) {
 }
 
 function showEquations() {
-  const names = [...new Set(lab.lanes.filter(lane => !lane.recording).map(lane => lane.scheme))];
+  const names = [...new Set(lab.lanes.map(lane => lane.scheme).filter(name => schemes[name]))];
   $("equations").replaceChildren(...names.flatMap(name => {
     const {summary, equations} = schemes[name];
     const shown = element("div", {className: "equations wide", tabIndex: 0, role: "group", ariaLabel: `${say("equations")}: ${name}`});
@@ -306,6 +310,15 @@ function openHash() {
   translate();
 }
 
-openHash();
-listen();
-requestAnimationFrame(frame);
+function begin() {
+  openHash();
+  listen();
+  if (DATA.carried) $("licences").append(element("details", {}, element("summary", {}, say("licence", DATA.carried.engines[0])), element("pre", {tabIndex: 0}, DATA.carried.licence)));
+  requestAnimationFrame(frame);
+}
+
+if (!DATA.carried) begin();
+else loadEngines().then(begin, error => {
+  for (const scene of DATA.scenes) for (const name of Object.keys(scene.engines)) scene.engines[name] = `${name}: ${error.message}`;
+  begin();
+});

@@ -59,7 +59,8 @@ function advance(world, steps) {
   for (let k = 1; k <= steps && !world.blownUp; k++) {
     applyChanges(world);
     if (world.drives.length) applyDrives(world, timeOf(world));
-    run(F, I, at, coefficients(world.dt), 1);
+    if (!world.step) run(F, I, at, coefficients(world.dt), 1);
+    else if (!world.step()) { world.blownUp = {what: "refused", which: 0}; break; }  // an engine takes them
     for (const {kind, values} of system.obstacles) {
       const project = obstacles[kind];
       for (let i = 0; i < at.n; i++) project(F, at.x, at.v, i, !I[at.fixed + i], values);

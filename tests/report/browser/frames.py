@@ -5,7 +5,7 @@ the page's thread did (script, style and raster), and CPU time of the renderer a
 together. On a machine that is busy otherwise frames come late that would not; the load is printed beside.
 
 As the page gives steps only what drawing leaves of a frame, it is then played once more with all the steps of 1/60 s in
-each frame, however long they take: the renderer's CPU time of that hangs little on what else the machine does, and below
+each frame, however long they take: the CPU time of that hangs little on what else the machine does, and below
 16.7 ms the scene can run in real time at 60 frames a second.
 """
 
