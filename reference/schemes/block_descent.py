@@ -32,19 +32,28 @@ NEXT, LAST = [1, 2, 0], [2, 0, 1]
 
 @scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
 def vertex_block_descent(
-    motion: MotionOfSprings, state: State, dt: float, *, iterations: int = 10, jacobi: bool = True, single: bool = False
+    motion: MotionOfSprings,
+    state: State,
+    dt: float,
+    *,
+    iterations: int = 10,
+    jacobi: bool = True,
+    braked: bool = False,
+    single: bool = False,
 ) -> State:
     """Vertex block descent: Newton's method on one mass at a time, on backward Euler's energy (Newton's SolverVBD).
 
     Newton colours its masses by triangles: with springs alone all have one colour, and move from the same positions
-    (`jacobi`). What it sums is how far a mass has moved since the step began.
+    (`jacobi`). What it sums is how far a mass has moved since the step began. Newton up to 1.3 took a spring's damping
+    for a time [s] and braked each mass by that time, over h, times the spring's part of H without damping and how far
+    the mass itself has moved (`braked`): a spring that only falls is braked, too.
     """
     it = numbers_of(motion.system, state, "made", single)
     masses = np.where(motion.system.fixed, 0.0, motion.system.masses).astype(it.x.dtype)
     h, start = it.number(dt), in_space(it.x)
     moved = (in_space(it.v) + in_space(it.weight) * h) * h
     moved[masses == 0] = 0
-    blocks = Blocks(it, masses, h, start, start + moved)
+    blocks = Blocks(it, masses, h, start, start + moved, braked)
     x, free = start + moved, np.flatnonzero(masses)
     for _ in range(iterations):
         for some in [free] if jacobi else free[:, None]:
@@ -78,6 +87,7 @@ class Blocks:
     Attributes:
         masses: 0 for those that are fixed [kg], shape (n,).
         start, inertial: positions x0, and y, where no spring would let them go [m], shape (n, 3).
+        braked: whether damping brakes each mass by itself.
     """
 
     it: SolverNumbers
@@ -85,6 +95,7 @@ class Blocks:
     h: Array
     start: Array
     inertial: Array
+    braked: bool
 
     @cached_property
     def _one(self) -> Array:
@@ -108,8 +119,7 @@ class Blocks:
         inverse, determinant = inverted(block)
         if not np.isfinite(determinant).all():
             raise SolverError("vertex block descent: a block of its matrix is infinite at these numbers")
-        first, second, third = (inverse[:, :, axis] * force[:, axis, None] for axis in range(3))
-        return np.where(np.abs(determinant)[:, None] > SINGULAR, first + second + third, 0)
+        return np.where(np.abs(determinant)[:, None] > SINGULAR, times(inverse, force), 0)
 
     def _springs(self, x: Array) -> tuple[Array, Array]:
         """What the springs add to f, shape (n, 3), and to H, shape (n, 3, 3)."""
@@ -120,13 +130,24 @@ class Blocks:
         e = gap / length[:, None]
         across = one - by_itself(gap) / (length * length)[:, None, None]
         stiff = it.stiffness[:, None, None] * (one - (it.rest / length)[:, None, None] * across)
-        stiff = stiff + by_itself(e) * damping[:, None, None]
         push = (it.stiffness * (it.rest - length) / length)[:, None] * gap
-        push = push - e * (damping * (length - self._lengths_before))[:, None]
+        if self.braked:
+            slow = stiff * damping[:, None, None]
+            pushes = [push + times(slow, (self.start - x)[a]), -push + times(slow, (self.start - x)[b])]
+        else:
+            slow, drag = by_itself(e) * damping[:, None, None], e * (damping * (length - self._lengths_before))[:, None]
+            pushes = [push - drag, drag - push]
+        stiff = stiff + slow
         force, block = np.zeros_like(x), np.zeros((len(x), 3, 3), x.dtype)
-        np.add.at(force, it.ends.ravel(), np.stack([push, -push], axis=1).reshape(-1, 3))
+        np.add.at(force, it.ends.ravel(), np.stack(pushes, axis=1).reshape(-1, 3))
         np.add.at(block, it.ends.ravel(), np.repeat(stiff, 2, axis=0))
         return force, block
+
+
+def times(matrices: Array, vectors: Array) -> Array:
+    """Products, added up column by column, shape (n, 3)."""
+    first, second, third = (matrices[:, :, axis] * vectors[:, axis, None] for axis in range(3))
+    return first + second + third
 
 
 def inverted(matrices: Array) -> tuple[Array, Array]:

@@ -25,12 +25,19 @@ from reference.system import IntArray
 
 @scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
 def xpbd_jacobi(
-    motion: MotionOfSprings, state: State, dt: float, *, iterations: int = 2, single: bool = False
+    motion: MotionOfSprings,
+    state: State,
+    dt: float,
+    *,
+    iterations: int = 2,
+    accumulated: bool = True,
+    single: bool = False,
 ) -> State:
     """XPBD, all springs corrected from the same positions, and the corrections summed (Newton's SolverXPBD).
 
     Neither averaged nor relaxed, so it blows up where too many springs meet at a mass. Two iterations are Newton's
-    default; it has no drag.
+    default; it has no drag. Newton up to 1.7 took L for zero in each iteration (not `accumulated`): with more of them a
+    spring then gets stiffer, and is a rigid rod in the end.
     """
     it = numbers_of(motion.system, state, "made", single)
     h, (a, b) = it.number(dt), it.ends.T
@@ -47,7 +54,7 @@ def xpbd_jacobi(
         wanted = lengths - it.rest + compliance * sums + damping * (h * dots(e, relative))
         with np.errstate(invalid="ignore"):
             change = np.where(moves, -wanted / ((1 + damping) * it.both + compliance), 0)
-        sums = sums + change
+        sums = sums + change if accumulated else sums
         moved = np.zeros_like(it.x)
         ends = np.concatenate([(it.inverse[b] * change)[:, None] * e, -(it.inverse[a] * change)[:, None] * e], axis=1)
         np.add.at(moved, it.ends[:, ::-1].ravel(), ends.reshape(-1, it.x.shape[1]))

@@ -58,9 +58,10 @@ def test_an_engine_declares_known_capabilities_and_catalogued_schemes(declared: 
     So a parameter is named where it is not as the scheme has it, and only there. Installed or not: nothing is run.
     """
     assert declared.capabilities <= set(CAPABILITIES)
-    for claim in declared.identified_as.values():
-        assert stepper_named(claim).name == claim
-    assert set(declared.identified_as) == {"plain"} | ({"damping", "drag"} & declared.capabilities)
+    for claims in (declared.identified_as, *getattr(declared, "formerly", {}).values()):
+        for claim in claims.values():
+            assert stepper_named(claim).name == claim
+        assert set(claims) == {"plain"} | ({"damping", "drag"} & declared.capabilities)
 
 
 @pytest.mark.parametrize("declared", registry().values(), ids=lambda engine: engine.name)
