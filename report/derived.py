@@ -26,9 +26,15 @@ def matrix_lines(explanation: Explanation) -> list[str]:
     if matrix is None:
         return []
     entries, letters = _in_letters(matrix.entries, matrix.damped and matrix.dragged)
-    lines = [f"x' = {_times(entries[0], 'x')} + {_times(entries[1], 'h v')}"]
-    lines.append(f"h v' = {_times(entries[2], 'x')} + {_times(entries[3], 'h v')}")
-    without = _without(matrix.damped, matrix.dragged)
+    if matrix.of_swings:
+        letters = f"{letters.replace('k/m', 'g/L')}, of small swings of a rod of length L: x is its angle, v its rate"
+    s = "h" if matrix.substeps == 1 else "s"
+    lines = [f"x' = {_times(entries[0], 'x')} + {_times(entries[1], f'{s} v')}"]
+    lines.append(f"{s} v' = {_times(entries[2], 'x')} + {_times(entries[3], f'{s} v')}")
+    if matrix.substeps > 1:
+        of_part = letters.replace("= h", "= s")
+        letters = f"{of_part}, s = h/{matrix.substeps}: a step of h is {matrix.substeps} of these"
+    without = _without(matrix.damped or matrix.of_swings, matrix.dragged)
     only = f"; at h = {matrix.only_at:g} s only: h stands in it by itself" if matrix.only_at is not None else ""
     return [*lines, f"with {letters}{without}{only}"]
 
@@ -195,7 +201,8 @@ def _order(explanation: Explanation) -> Iterator[str]:
         matrix = explanation.matrix
         left_out = ", as drag is not in it" if matrix and matrix.dragged and not matrix.asks("d") else ""
         if follows is not None and explanation.of_one_step:
-            known.append(f"{follows.undamped_order} on the oscillator, {follows.order} with damping and drag{left_out}")
+            where = "small swings" if matrix and matrix.of_swings else "the oscillator"
+            known.append(f"{follows.undamped_order} on {where}, {follows.order} with damping and drag{left_out}")
         elif of_one_mass is not None:
             known.append(f"{of_one_mass} on the oscillator, by its difference equation")
         if explanation.nonlinear_order is not None:
@@ -214,7 +221,8 @@ def _stability(explanation: Explanation) -> Iterator[str]:
         yield stability("h w", imaginary, "damping")
     if real is not None:
         of = explanation.matrix if explanation.of_one_step else explanation.difference
-        yield stability(f"h {'c' if of is not None and of.damped else 'Cd'}/m", real, "stiffness")
+        without = "gravity" if explanation.matrix is not None and explanation.matrix.of_swings else "stiffness"
+        yield stability(f"h {'c' if of is not None and of.damped else 'Cd'}/m", real, without)
 
 
 def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:
@@ -254,8 +262,12 @@ def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
 
     multistep = explanation.seen.multistep
     of_one = ", as one mass shows it" if explanation.lower_among_masses else ""
+    of_swings = explanation.matrix is not None and explanation.matrix.of_swings
     found = [
-        ("Derived: a step of the damped oscillator", matrix_lines(explanation)),
+        (
+            f"Derived: a step of {'small swings of a rod' if of_swings else 'the damped oscillator'}",
+            matrix_lines(explanation),
+        ),
         ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
         ("Derived: where forces of springs are taken, without damping", force_lines(explanation)),
         ("Derived: the multistep method", [str(multistep)] if multistep else []),

@@ -5,6 +5,8 @@
 - `fit`: the formula that values follow
 - `oscillators`: damped oscillators to step, and the step matrices that come out
 - `step_matrix`: a stepper's step matrix as formulas
+- `swings`: that of rods, by their small swings
+- `substeps`: that of a step that is made of several
 - `consequences`: what follows from it: stability, order, symplectic, reversible, period, what is implicit
 - `recording`: answers to a stepper that asks for slopes, independent of one another
 - `updates`: what such a stepper makes of them: the update formulas

@@ -55,6 +55,9 @@ CONTRADICTION = (
     "or from call to call"
 )
 
+#: What a step matrix is of, as JSON says it.
+OF_SPRINGS, OF_RODS = "the damped oscillator", "small swings of a rod, a = h^2 g/L"
+
 #: Of one whose order is lower where masses move one another.
 OF_ONE_MASS = "the order is that of two masses that move one another; what is derived of one mass has a higher one"
 
@@ -120,7 +123,8 @@ class Explanation:
             return self.seen.multistep.explicit
         if self.updates is not None:
             return True
-        return None if self.matrix is None else self.matrix.is_polynomial
+        # rods are held by equations that small swings do not show
+        return None if self.matrix is None or self.matrix.of_swings else self.matrix.is_polynomial
 
     @property
     def order(self) -> int | None:
@@ -192,6 +196,8 @@ class Explanation:
             "slope_evaluations": self.updates.calls if self.updates else None,
             "tableau": self.tableau.text() if self.tableau else None,
             "step_matrix": self.matrix.text() if self.matrix else None,
+            "step_matrix_of": (OF_RODS if self.matrix.of_swings else OF_SPRINGS) if self.matrix else None,
+            "substeps": self.matrix.substeps if self.matrix else None,
             "order": self.order,
             "symplectic": self.symplectic,
             "reversible": follows.reversible if follows else None,
@@ -236,7 +242,8 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if matrix is not None and matrix.only_at is not None:
         reasons.append(f"{ONLY_AT}: no limits of stability follow")
     tell("its past")
-    past = tried(lambda: pasts(runs, precision, damped, dragged), reasons, "whether it looks back: ")
+    on_rods = matrix is not None and matrix.of_swings
+    past = tried(lambda: pasts(runs, precision, damped, dragged, on_rods), reasons, "whether it looks back: ")
     if past is not None and not past.deterministic:
         reason = NOT_TWICE if getattr(stepper, "begins_anew", True) else f"{NOT_TWICE}, {OR_REMEMBERS}"
         nothing = Identification(stepper.name, (), 0.0, reason)
@@ -245,13 +252,13 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     of_slopes: list[str] = []
     seen = beside_steps(slopes_of(stepper, of_slopes), runs, of_slopes)
     of_one_step = past is not None and past.one_step and precision == "double"
-    if seen == NOTHING and of_one_step and matrix is not None and matrix.only_at is None:
+    if seen == NOTHING and of_one_step and matrix is not None and matrix.only_at is None and not on_rods:
         seen = forces_of(runs, matrix, of_slopes)
     # rounding, not the formulas, is why these are not found
     reasons += of_slopes if IN_SINGLE not in reasons else []
     tell("its order")
-    order = None if precision == "single" else nonlinear_order(runs, False, False)
-    among = order_of_two_masses(runs) if of_one_step and seen.updates is None else None
+    order = None if precision == "single" or on_rods else nonlinear_order(runs, False, False)
+    among = order_of_two_masses(runs) if of_one_step and seen.updates is None and not on_rods else None
     tell("its name")
     identification = identified_on_a_string(stepper, damped, dragged)
     nearest, held = "", None

@@ -85,6 +85,15 @@ class Formula:
         spread = Formula(*map(_of_both, (alone.numerator, alone.denominator)))
         return alone if spread == self else None
 
+    def rounded(self, decimals: int) -> Formula:
+        """The same with coefficients that are no fractions to so many decimals."""
+        return Formula(
+            *(
+                {m: c if isinstance(c, Fraction) else round(c, decimals) for m, c in terms.items()}
+                for terms in (self.numerator, self.denominator)
+            )
+        )
+
     def __str__(self) -> str:
         """As it is written: (1 + b)/(1 + a + b)."""
         above, below = written(self.numerator), written(self.denominator)

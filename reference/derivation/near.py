@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from itertools import product
@@ -89,6 +90,18 @@ def _said(symbol: Symbol, power: int) -> str:
 
 def _by_matrix(matrix: StepMatrix) -> str:
     """Of all one-step schemes: first by what they do without damping, as a mistake is often in that alone."""
+    if matrix.substeps > 1:
+        n, (name, words) = matrix.substeps, _alike(replace(matrix, substeps=1))
+        each = f"with the step matrix of {name}" if name and not words else f"of which {words}"
+        return f"its step is {n} of h/{n}, each {each}" if name else ""
+    name, words = _alike(matrix)
+    if name and not words:
+        return f"its step matrix is that of {name}: they differ in motion that is not linear, or by rounding"
+    return words
+
+
+def _alike(matrix: StepMatrix) -> tuple[str, str]:
+    """The scheme, and in which entries it is another; of none, nothing."""
     at = matrix.samples
     undamped = type(at)(at.a, 0 * at.a, 0 * at.a)
     found: dict[str, tuple[int, int]] = {}
@@ -99,12 +112,12 @@ def _by_matrix(matrix: StepMatrix) -> str:
             found[name] = int(apart[0].sum()), int(apart[1].sum())
     name = min(found, key=lambda n: found[n])
     if found[name][0] and found[name][1] > MOST // 2:
-        return ""
+        return "", ""
     if not any(found[name]):
-        return f"its step matrix is that of {name}: they differ in motion that is not linear, or by rounding"
+        return name, ""
     mine, its = matrix.text(), step_matrix(runs_of(SchemeStepper(catalogue.find(name)))).text()
     places = [(i, j) for i, j in product(range(2), range(2)) if mine[i][j] != its[i][j]]
-    return ", ".join(f"m{i + 1}{j + 1} is {mine[i][j]} where {name} has {its[i][j]}" for i, j in places)
+    return name, ", ".join(f"m{i + 1}{j + 1} is {mine[i][j]} where {name} has {its[i][j]}" for i, j in places)
 
 
 def _known() -> dict[str, Scheme]:

@@ -19,8 +19,12 @@ from reference.state import Array
 from reference.stepper import Stepper
 from reference.system import MassSpringSystem
 
-#: The step [s], and how far masses are displaced [m]: powers of two, so that rounding is only the stepper's.
-DT, ASIDE = 1 / 16, 1 / 32
+#: The step [s], and how far masses are displaced [m]: powers of two, so that rounding is only the stepper's. In single
+#: precision a position's rounding is less of a larger displacement; no mass passes its anchor in a step.
+DT, ASIDE, FAR_ASIDE = 1 / 16, 1 / 32, 1 / 2
+
+#: What gravity is where it cannot be none [m/s^2].
+GRAVITY = 9.81
 
 #: How many oscillators are stepped: a third of them checks what the others are fitted by. More, where that are too few.
 FEW, MANY = 40, 160
@@ -66,7 +70,9 @@ def matrices_at(runs: Runs, at: Samples) -> Array:
         return one_by_one(runs, at)
 
 
-def oscillator(a: float, b: float, d: float, x: float = 0.0, v: float = 0.0, dt: float = DT) -> MassSpringSystem:
+def oscillator(
+    a: float, b: float, d: float, x: float = 0.0, v: float = 0.0, dt: float = DT, gravity: float = 0.0
+) -> MassSpringSystem:
     """A mass of 1 kg on a spring of 1 m to a fixed mass, displaced by x [m], moving at v [m/s]."""
     return MassSpringSystem(
         positions=np.array([[0.0], [-1.0 - x]]),
@@ -77,27 +83,36 @@ def oscillator(a: float, b: float, d: float, x: float = 0.0, v: float = 0.0, dt:
         stiffness=np.array([a / dt**2]),
         damping=np.array([b / dt]),
         drag=d / dt,
-        gravity=np.zeros(1),
+        gravity=np.array([gravity]),
         fixed=np.array([True, False]),
     )
 
 
-def one_by_one(runs: Runs, at: Samples, dt: float = DT) -> Array:
+def one_by_one(runs: Runs, at: Samples, dt: float = DT, aside: float = ASIDE) -> Array:
     """Step matrices, shape (n, 2, 2), every oscillator in a system of its own.
 
     Raises:
         Unsupported: where the stepper cannot step one, with its reason.
     """
-    return _matrices(_rows_one_by_one(runs, at, dt, 1))
+    return _matrices(_rows_one_by_one(runs, at, dt, 1, aside))
 
 
-def side_by_side(runs: Runs, at: Samples, dt: float = DT) -> Array:
+def by_difference(runs: Runs, at: Samples, dt: float = DT, aside: float = ASIDE) -> Array:
+    """The same under gravity, for who knows no other: of each also a step from where it is not displaced is taken away.
+
+    Raises:
+        Unsupported: where the stepper cannot step one, with its reason.
+    """
+    return _matrices(_rows_one_by_one(runs, at, dt, 1, aside, -GRAVITY))
+
+
+def side_by_side(runs: Runs, at: Samples, dt: float = DT, aside: float = ASIDE) -> Array:
     """The same, all oscillators in one system: drag is one number there, and masses differ instead.
 
     Raises:
         Unsupported: where the stepper cannot step that, with its reason.
     """
-    return _matrices(_rows_side_by_side(runs, at, dt, 1))
+    return _matrices(_rows_side_by_side(runs, at, dt, 1, aside))
 
 
 def rows_of_steps(runs: Runs, at: Samples, steps: int) -> Array:
@@ -118,16 +133,20 @@ def _matrices(rows: Array) -> Array:
     return rows[:, -1].transpose(1, 2, 0)
 
 
-def _rows_one_by_one(runs: Runs, at: Samples, dt: float, steps: int) -> Array:
-    """(x, h v) over ASIDE of all steps, shape (2, steps + 1, n, 2), of both beginnings."""
+def _rows_one_by_one(
+    runs: Runs, at: Samples, dt: float, steps: int, aside: float = ASIDE, gravity: float = 0.0
+) -> Array:
+    """(x, h v) over the first one of all steps, shape (2, steps + 1, n, 2), of both beginnings."""
     cases = list(zip(at.a.tolist(), at.b.tolist(), at.d.tolist(), strict=True))
-    begun = [oscillator(*case, x, v, dt) for x, v in ((ASIDE, 0.0), (0.0, ASIDE / dt)) for case in cases]
+    ways = ((aside, 0.0), (0.0, aside / dt), *([(0.0, 0.0)] if gravity else []))
+    begun = [oscillator(*case, x, v, dt, gravity) for x, v in ways for case in cases]
     found = [row_of(outcome, steps) for outcome in runs([Run(system, dt, steps) for system in begun])]
     rows = np.stack([np.stack([-1.0 - x[:, 1, 0], -dt * v[:, 1, 0]], axis=1) for x, v in found], axis=1)
-    return rows.reshape(steps + 1, 2, len(cases), 2).swapaxes(0, 1) / ASIDE
+    rows = rows.reshape(steps + 1, len(ways), len(cases), 2).swapaxes(0, 1) / aside
+    return rows[:2] - rows[2:] if gravity else rows
 
 
-def _rows_side_by_side(runs: Runs, at: Samples, dt: float, steps: int) -> Array:
+def _rows_side_by_side(runs: Runs, at: Samples, dt: float, steps: int, aside: float = ASIDE) -> Array:
     """The same of all oscillators in one system."""
     n = len(at.a)
     dragged = bool(at.d.any())
@@ -143,13 +162,13 @@ def _rows_side_by_side(runs: Runs, at: Samples, dt: float, steps: int) -> Array:
         gravity=np.zeros(1),
         fixed=np.arange(2 * n) % 2 == 0,
     )
-    aside = np.where(system.fixed, 0.0, -ASIDE)[:, None]
+    moved = np.where(system.fixed, 0.0, -aside)[:, None]
     begun = [
-        replace(system, positions=system.positions + aside),
-        replace(system, velocities=aside / dt),
+        replace(system, positions=system.positions + moved),
+        replace(system, velocities=moved / dt),
     ]
     found = [row_of(outcome, steps) for outcome in runs([Run(s, dt, steps) for s in begun])]
-    return np.stack([np.stack([-1.0 - x[:, 1::2, 0], -dt * v[:, 1::2, 0]], axis=2) for x, v in found]) / ASIDE
+    return np.stack([np.stack([-1.0 - x[:, 1::2, 0], -dt * v[:, 1::2, 0]], axis=2) for x, v in found]) / aside
 
 
 def end_of(outcome: Outcome) -> tuple[Array, Array]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from reference.derivation.oscillators import ASIDE, DT, Run, Runs, oscillator
+from reference.derivation.swings import swing
 from reference.errors import Unsupported
 from reference.identification.scale import ROUNDING, Precision
 from reference.state import Array, State, Trajectory
@@ -36,14 +37,21 @@ class Pasts:
     apart: float
 
 
-def pasts(runs: Runs, precision: Precision, damped: bool, dragged: bool) -> Pasts:
+def pasts(runs: Runs, precision: Precision, damped: bool, dragged: bool, of_swings: bool = False) -> Pasts:
     """A few steps of an oscillator in a row, twice; and again one by one, begun from every state on the way.
+
+    Args:
+        damped, dragged: whether with damping, and with drag.
+        of_swings: whether it is a rod that swings.
 
     Raises:
         Unsupported: where it cannot, with the reason.
     """
     a, b, d = WHERE
-    system = oscillator(a, b if damped else 0.0, d if dragged else 0.0, ASIDE, ASIDE / DT / 2)
+    if of_swings:
+        system = swing(a, d * dragged, ASIDE, ASIDE / DT / 2)
+    else:
+        system = oscillator(a, b * damped, d * dragged, ASIDE, ASIDE / DT / 2)
     first, second = (_trajectory(outcome.trajectory, outcome.reason) for outcome in runs([Run(system, DT, STEPS)] * 2))
     same = all(np.array_equal(one, two) for one, two in _pairs(first, second))
     states = [State(0.0, first.positions[i], first.velocities[i]) for i in range(1, STEPS)]

@@ -4,19 +4,36 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 
 import numpy as np
 
-from reference.derivation.fit import Samples, formula_of
-from reference.derivation.formula import Formula
-from reference.derivation.oscillators import DT, FEW, MANY, ROUNDINGS, Runs, one_by_one, samples, side_by_side
+from reference.derivation.fit import Entries, Samples, formula_of, formulas_of
+from reference.derivation.oscillators import (
+    ASIDE,
+    DT,
+    FAR_ASIDE,
+    FEW,
+    MANY,
+    ROUNDINGS,
+    Runs,
+    by_difference,
+    one_by_one,
+    samples,
+    side_by_side,
+)
+from reference.derivation.substeps import as_whole, of_substeps
+from reference.derivation.swings import CERTAIN, NOISE, are_rods, swing_matrices
 from reference.errors import Unsupported
 from reference.identification.scale import ROUNDING, Precision
 from reference.state import Array
 
 #: What is tried, the most first: damping and drag, one of the two, neither.
 VARIANTS = ((True, True), (True, False), (False, True), (False, False))
+
+#: What is said where there is nothing else.
+RODS = "a step does not depend on the springs' stiffness: springs are rods to it"
 
 #: How: all oscillators in one system; one by one, as it takes an engine long to start few, then many.
 WAYS = ((side_by_side, MANY), (one_by_one, FEW), (one_by_one, MANY))
@@ -27,20 +44,24 @@ class StepMatrix:
     """The 2 x 2 matrix that multiplies (x, h v) in a step.
 
     Attributes:
-        entries: m11, m12, m21, m22.
+        entries: m11, m12, m21, m22; of a sub-step, where a step is many.
         damped: whether it was seen with damping of the spring.
         dragged: whether it was seen with drag.
         samples: where it was measured.
         measured: what was, shape (n, 2, 2).
         only_at: the h [s] it is seen at, where it is another at another h and the same a, b and d; else None.
+        substeps: of how many equal ones a step is made.
+        of_swings: whether it is that of the small swings of a rod, with a = h^2 g/L, x an angle and v its rate.
     """
 
-    entries: tuple[Formula, Formula, Formula, Formula]
+    entries: Entries
     damped: bool
     dragged: bool
     samples: Samples
     measured: Array
     only_at: float | None = None
+    substeps: int = 1
+    of_swings: bool = False
 
     @property
     def exact(self) -> bool:
@@ -59,7 +80,9 @@ class StepMatrix:
     def at(self, a: Array, b: Array, d: Array) -> Array:
         """The matrices at many points, shape (n, 2, 2)."""
         a, b, d = np.broadcast_arrays(np.asarray(a, float), b, d)
-        return np.stack([entry.at(a, b, d) for entry in self.entries], axis=-1).reshape(*a.shape, 2, 2)
+        n = self.substeps
+        one = np.stack([entry.at(a / n**2, b / n, d / n) for entry in self.entries], axis=-1).reshape(*a.shape, 2, 2)
+        return one if n == 1 else as_whole(one, n)
 
     def text(self) -> list[list[str]]:
         """Its rows, as they are written."""
@@ -70,41 +93,78 @@ class StepMatrix:
 def step_matrix(runs: Runs, precision: Precision = "double") -> StepMatrix:
     """Found from single steps of many oscillators, with damping and drag where the stepper can do them.
 
+    Of a stepper to which springs are rods it is that of small swings.
+
     Raises:
         Unsupported: where it can step no such oscillator, or its entries follow no small formula; with the reason.
     """
-    reason, together = "", set()
-    for (damped, dragged), (measure, count) in product(VARIANTS, WAYS):
+    reason, together, aside = "", set(), ASIDE if precision == "double" else FAR_ASIDE
+    last: tuple[Samples, Array, float] | None = None
+    for (damped, dragged), (measure, count) in (*product(VARIANTS, WAYS), ((False, False), (by_difference, FEW))):
+        if measure is by_difference and last is not None:
+            break
         if (damped, dragged) in together and count == MANY:
             continue  # as many were stepped side by side: more of them tell no more one by one
         at = samples(damped, dragged, count)
         try:
-            measured = measure(runs, at)
+            measured = measure(runs, at, DT, aside)
         except Unsupported as error:
-            reason = reason or str(error)
+            reason = str(error)
             continue
         together |= {(damped, dragged)} if measure is side_by_side else set()
-        noise = ROUNDINGS * ROUNDING[precision] * max(1.0, float(np.abs(measured).max()))
-        entries = [formula_of(at, measured[:, i, j], noise) for i, j in product(range(2), range(2))]
-        m11, m12, m21, m22 = entries
-        if m11 is not None and m12 is not None and m21 is not None and m22 is not None:
-            found = StepMatrix((m11, m12, m21, m22), damped, dragged, at, measured)
+        noise = ROUNDINGS * ROUNDING[precision] * ASIDE / aside * max(1.0, float(np.abs(measured).max()))
+        found = _found(at, measured, noise, damped, dragged)
+        if found is not None:
             if np.abs(measured - np.eye(2)).max() <= noise:
                 raise Unsupported("a step changes nothing: the state stays as it is")
             if not found.asks("a"):
-                raise Unsupported("a step does not depend on the springs' stiffness: springs are rods to it")
-            return replace(found, only_at=DT) if _asks_for_h(runs, found, measure, 100 * noise) else found
-        lost = ", ".join(f"m{i}{j}" for (i, j), e in zip(product((1, 2), (1, 2)), entries, strict=True) if e is None)
-        reason = f"no small rational function of a, b and d gives {lost} of its step matrix"
+                return _of_swings(runs, RODS)
+            again = partial(measure, runs, aside=aside)
+            return replace(found, only_at=DT) if _asks_for_h(again, found, 100 * noise) else found
+        last = at, measured, noise
+    if last is None:
+        return _of_swings(runs, reason)
+    digits = "" if precision == "double" else ", to the digits of single precision"
+    raise Unsupported(f"no small rational function of a, b and d gives {_lost(*last)} of its step matrix{digits}")
+
+
+def _lost(at: Samples, measured: Array, noise: float) -> str:
+    """Which entries have no formula."""
+    lost = [formula_of(at, entry, noise) is None for entry in measured.reshape(-1, 4).T]
+    return ", ".join(f"m{i}{j}" for (i, j), it in zip(product((1, 2), (1, 2)), lost, strict=True) if it)
+
+
+def _found(at: Samples, measured: Array, noise: float, damped: bool, dragged: bool) -> StepMatrix | None:
+    """Of formulas that values follow; else of those that a sub-step follows."""
+    entries = formulas_of(at, measured, noise)
+    if entries is not None:
+        return StepMatrix(entries, damped, dragged, at, measured)
+    parts = of_substeps(at, measured, noise)
+    return StepMatrix(parts[1], damped, dragged, at, measured, substeps=parts[0]) if parts is not None else None
+
+
+def _of_swings(runs: Runs, reason: str) -> StepMatrix:
+    """That of small swings of a rod. Raises Unsupported, with the reason why there is no other, where there is none."""
+    for dragged in (True, False):
+        at = samples(False, dragged, FEW)
+        try:
+            measured = swing_matrices(runs, at)
+            rods = are_rods(runs)
+        except Unsupported:
+            continue
+        entries = formulas_of(at, measured, NOISE)
+        if entries is not None and rods and any(entry.asks("a") for entry in entries):
+            m11, m12, m21, m22 = (entry.rounded(CERTAIN) for entry in entries)
+            return StepMatrix((m11, m12, m21, m22), False, dragged, at, measured, of_swings=True)
     raise Unsupported(reason)
 
 
-def _asks_for_h(runs: Runs, found: StepMatrix, measure: Callable[..., Array], noise: float) -> bool:
+def _asks_for_h(measure: Callable[..., Array], found: StepMatrix, noise: float) -> bool:
     """Whether at half the step, with a, b and d as they were, the matrix is another."""
     at = found.samples
     few = Samples(at.a[:FEW], at.b[:FEW], at.d[:FEW])
     try:
-        again = measure(runs, few, DT / 2)
+        again = measure(few, DT / 2)
     except Unsupported:
         return False
     return bool(np.abs(again - found.at(few.a, few.b, few.d)).max() > noise)

@@ -38,7 +38,8 @@ def bdf2(motion: MotionOfSprings, state: State, dt: float) -> State:
         return backward_euler(motion, state, dt).remembering(state.positions, state.velocities)
     x = (4 * state.positions - state.memory[0]) / 3
     v = (4 * state.velocities - state.memory[1]) / 3
-    part, end = 2 * dt / 3, state.drift(dt)
+    part = 2 * dt / 3
+    end = State(state.time + dt, x + part * state.velocities, state.velocities)
     for _ in range(50):
         by_position, by_velocity = motion.jacobians(end)
         missing = v + part * motion.acceleration(end) - end.velocities

@@ -8,6 +8,7 @@ from reference.derivation.consequences import FAR, Windows
 from reference.derivation.explanation import Explanation
 from reference.derivation.fit import Samples
 from reference.derivation.oscillators import matrices_at, runs_of
+from reference.derivation.swings import swing_matrices
 from reference.state import Array
 from reference.stepper import Stepper
 from report.figures import COLOURS, Picture, new_figure
@@ -44,7 +45,8 @@ def draw(explanation: Explanation, stepper: Stepper) -> Picture:
     some = [(np.arange(COARSE) + 0.5) / COARSE * most for most in (widest, highest)]
     x, y = (values.ravel() for values in np.meshgrid(*some))
     y = y if matrix.damped or matrix.dragged else 0 * y
-    measured = matrices_at(runs_of(stepper), Samples(x**2, *_damped(y, across)))
+    measure = swing_matrices if matrix.of_swings else matrices_at
+    measured = measure(runs_of(stepper), Samples(x**2, *_damped(y, across)))
     grows = _growth(measured) > NONE
     axes.plot(x[~grows], y[~grows], "o", color=COLOURS[0], markersize=5, label="measured: does not grow")
     axes.plot(x[grows], y[grows], "x", color=COLOURS[1], markersize=6, label="measured: grows")

@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from engines.engine import registry
+from reference.derivation.difference_equation import difference_equation
 from reference.derivation.oscillators import runs_of
 from reference.derivation.step_matrix import step_matrix
-from reference.schemes.catalogue import find
+from reference.motion import MotionOfSprings
+from reference.schemes.catalogue import Scheme, find
+from reference.schemes.structural import hht
+from reference.state import State
 from reference.stepper import SchemeStepper
-from report.derived_table import FILE, _same, engine_rows, line_of, row_of, schemes
+from report.derived_table import FILE, _same, engine_rows, line_of, row_of, steppers
+from report.listings import stepper_rows
 from tests import wrong
 
 PAGE = FILE.read_text(encoding="utf-8")
@@ -16,22 +24,50 @@ PAGE = FILE.read_text(encoding="utf-8")
 
 @pytest.mark.rotating(8)
 @pytest.mark.filterwarnings("ignore::RuntimeWarning")
-@pytest.mark.parametrize("name", schemes())
+@pytest.mark.parametrize("name", steppers())
 def test_a_schemes_row_is_what_is_derived(name: str) -> None:
     """Now, word for word."""
     assert line_of(row_of(name)) in PAGE.splitlines()
 
 
 def test_every_scheme_and_engine_has_a_row_and_none_is_another_than_the_catalogues() -> None:
-    """A row that is not says so in bold."""
+    """A row that is not says so in bold; one that has nothing says why."""
     rows = [line for line in PAGE.splitlines() if line.startswith("| `")]
-    assert [line.split("`")[1] for line in rows[: len(schemes())]] == list(schemes())
-    assert rows[len(schemes()) :] == [line_of(row) for row in engine_rows()]
+    names = [line.split("`")[1] for line in rows]
+    assert names == [*steppers(), *registry()]
+    assert rows[len(steppers()) :] == [line_of(row) for row in engine_rows()]
     assert not [row for row in rows if "**" in row]
+
+
+def test_all_that_is_listed_is_in_the_table() -> None:
+    """As `springlab list` has it."""
+    assert {str(name) for name, *_ in stepper_rows().rows} <= set(steppers())
 
 
 def test_a_mistake_is_told_in_the_table() -> None:
     """Heun without its half, held against Heun."""
     wrongly = step_matrix(runs_of(SchemeStepper(wrong.heun_without_half)))
-    assert _same(find("heun"), wrongly) == "**no**"
-    assert _same(wrong.heun_without_half, wrongly) == "yes"
+    assert _same(find("heun"), wrongly, None) == "**no**"
+    assert _same(wrong.heun_without_half, wrongly, None) == "yes"
+
+
+def test_a_mistake_in_what_is_remembered_is_told() -> None:
+    """HHT that loses a part of the acceleration it keeps, held against HHT; its first step is the same."""
+
+    def forgetful(motion: MotionOfSprings, state: State, dt: float) -> State:
+        end = hht(motion, state, dt)
+        return end.remembering(0.9 * end.memory[0])
+
+    mine = Scheme(forgetful, 2, "wide_scheme", implicit=True, linear=False, one_step=False)
+    runs = runs_of(SchemeStepper(mine))
+    matrix, difference = step_matrix(runs), difference_equation(runs)
+    assert _same(find("hht"), matrix, difference) == "**no**"
+    assert _same(mine, matrix, difference) == "yes"
+
+
+def test_one_sub_step_too_few_is_told() -> None:
+    """Three of XPBD held against its five."""
+    three = step_matrix(runs_of(SchemeStepper(find("xpbd_gauss_seidel(substeps=3)"))))
+    assert three.substeps == 3
+    assert _same(find("xpbd_gauss_seidel"), three, None) == "**no**"
+    assert _same(find("xpbd_gauss_seidel"), replace(three, substeps=5), None) == "yes"

@@ -65,9 +65,17 @@ def test_a_mistake_shows_in_the_formulas(pretender: Scheme, name: str) -> None:
     assert mistaken.text() != right.text()
 
 
-def test_rods_have_none() -> None:
-    """A pendulum refuses a line, a rope does not feel stiffness: no matrix, with the reason."""
-    with pytest.raises(Unsupported):
-        step_matrix(runs_of(catalogued()["pendulum_heun"]))
-    with pytest.raises(Unsupported, match="rods"):
-        step_matrix(runs_of(catalogued()["rope_kick_drift"]))
+@pytest.mark.parametrize(
+    "name", ["soft_constraints_cold(substeps=1, single=True)", "soft_constraints_cold(single=True)"]
+)
+def test_formulas_are_seen_through_single_precision(name: str) -> None:
+    """Those of the same scheme in double precision, as far as damping and drag are in them, sub-steps counted."""
+    seen = step_matrix(runs_of(SchemeStepper(find(name))), "single")
+    same = step_matrix(runs_of(SchemeStepper(find(name).with_parameters(single=False))))
+    assert (seen.text(), seen.substeps) == (same.text(), same.substeps)
+
+
+def test_few_digits_make_no_decimals() -> None:
+    """Where coefficients in single precision are no fractions, nothing is told: a polynomial goes through anything."""
+    with pytest.raises(Unsupported, match="to the digits of single precision"):
+        step_matrix(runs_of(SchemeStepper(find("soft_constraints_relaxed(single=True)"))), "single")

@@ -8,7 +8,8 @@ from pathlib import Path
 from tests.report.commands.terminal import springlab
 
 KEYS = ["stepper", "identified_as", "one_step", "explicit", "deterministic", "slope_evaluations", "tableau"]
-KEYS += ["step_matrix", "order", "symplectic", "reversible", "stability", "multistep", "difference_equation", "reason"]
+KEYS += ["step_matrix", "step_matrix_of", "substeps", "order", "symplectic", "reversible", "stability"]
+KEYS += ["multistep", "difference_equation", "reason"]
 
 
 def test_the_json_has_exactly_the_promised_form() -> None:
@@ -23,12 +24,22 @@ def test_the_json_has_exactly_the_promised_form() -> None:
     assert (document["slope_evaluations"], document["order"], document["explicit"]) == (2, 2, True)
 
 
-def test_what_cannot_be_told_is_null_with_its_reason() -> None:
-    """A pendulum knows no line."""
-    document = json.loads(springlab("explain", "pendulum_heun", "--json").out)
-    assert document["step_matrix"] is None
+def test_what_cannot_be_told_is_null_with_its_reason(tmp_path: Path) -> None:
+    """A step that changes nothing."""
+    file = tmp_path / "mine.py"
+    file.write_text("def step(x, v, dt, system):\n    return x, v\n", encoding="utf-8")
+    document = json.loads(springlab("explain", str(file), "--json").out)
+    assert (document["step_matrix"], document["step_matrix_of"], document["substeps"]) == (None, None, None)
     assert document["stability"] == {"real_axis": None, "imaginary_axis": None}
-    assert "rod" in document["reason"] or "line" in document["reason"]
+    assert "a step changes nothing" in document["reason"]
+
+
+def test_rods_and_sub_steps_are_told_in_json() -> None:
+    """What the matrix is of, and of how many sub-steps a step is made."""
+    document = json.loads(springlab("explain", "pendulum_heun", "--json").out)
+    assert (document["step_matrix_of"], document["substeps"]) == ("small swings of a rod, a = h^2 g/L", 1)
+    document = json.loads(springlab("explain", "soft_constraints_cold", "--json").out)
+    assert (document["step_matrix_of"], document["substeps"]) == ("the damped oscillator", 4)
 
 
 def test_the_terminal_has_formulas_and_the_figure_is_written(tmp_path: Path) -> None:

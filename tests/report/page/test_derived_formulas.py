@@ -18,11 +18,11 @@ def test_what_is_kept_is_what_is_derived(name: str) -> None:
     engine = find(name)
     if version(engine) != KEPT[name]["version"]:
         pytest.skip(f"{name}: formulas are kept of version {KEPT[name]['version']}")
-    assert derived_of(engine) == KEPT[name]
+    assert {**derived_of(engine), "on": KEPT[name]["on"]} == KEPT[name]
     assert formulas_of(engine) == KEPT[name]["lines"]
 
 
-@pytest.mark.parametrize("name", KEPT)
+@pytest.mark.parametrize("name", [name for name, kept in KEPT.items() if "reason" not in kept])
 def test_each_agrees_with_a_scheme_that_it_claims_to_be(name: str) -> None:
     """The formulas beside the name say the same as the name."""
     assert name in registry()
