@@ -108,7 +108,8 @@ class Engine(Protocol):
     interactive use, in masses: that many it steps some hundred times within half a minute. `compare` leaves it out
     beyond, unless it is asked for by name. One that computes in single precision has `precision` "single" (see
     `precision`). One whose package does not come along everywhere has `where_it_comes`, which says where, and how to
-    have it elsewhere.
+    have it elsewhere. One whose package stepped otherwise in earlier versions may have `formerly`: by the last version
+    that did so, the oldest first, what it is to be `identified_as` there.
     """
 
     @property

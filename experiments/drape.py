@@ -112,7 +112,7 @@ def shadow(positions: Array, triangles: IntArray, system: MassSpringSystem) -> d
     inner = pi * SUPPORT**2
     edge = np.concatenate([np.array(part.exterior.coords) for part in getattr(fallen, "geoms", [fallen])])
     angles, reach = np.arctan2(edge[:, 1], edge[:, 0]), np.hypot(edge[:, 0], edge[:, 1])
-    order = np.argsort(angles)
+    order = np.argsort(angles, kind="stable")
     round_about = np.linspace(-pi, pi, DIRECTIONS, endpoint=False)
     outline = np.interp(round_about, angles[order], reach[order], period=2 * pi)
     return {"coefficient": float((fallen.area - inner) / (flat.area - inner)), "outline": outline}

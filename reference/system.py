@@ -333,7 +333,7 @@ class MassSpringSystem:
     def renumbered(self, order: npt.ArrayLike) -> MassSpringSystem:
         """The same system with its masses listed in another order: mass order[i] becomes mass i."""
         old = np.asarray(order, dtype=np.int64)
-        new_of_old = np.argsort(old)
+        new_of_old = np.argsort(old, kind="stable")
         return replace(
             self,
             positions=self.positions[old],

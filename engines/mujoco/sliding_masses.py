@@ -38,7 +38,7 @@ class SlidingMasses(ABC):
         self._v[:] = self._coordinates(system.velocities[free])
         # what a state is read from: the free masses first, then the fixed; in order only once taken out
         order = np.concatenate([free, fixed])
-        self._order = np.argsort(order)
+        self._order = np.argsort(order, kind="stable")
         self._positions, self._velocities = system.positions[order], system.velocities[order]
         self._free_positions, self._free_velocities = self._positions[: len(free)], self._velocities[: len(free)]
         self._write_pulls()

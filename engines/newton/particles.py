@@ -21,7 +21,7 @@ Solver = Literal["SolverXPBD", "SolverSemiImplicit", "SolverVBD"]
 SCHEMES: Mapping[Solver, str] = {
     "SolverXPBD": "xpbd_jacobi(single=True)",
     "SolverSemiImplicit": "kick_drift",
-    "SolverVBD": "vertex_block_descent",
+    "SolverVBD": "vertex_block_descent(single=True)",
 }
 
 #: Newton takes particles nearer to one another than their radii, 0.1 m unless told otherwise, for colliding ones; and
@@ -47,12 +47,23 @@ class NewtonParticles:
     @property
     def identified_as(self) -> Mapping[str, str]:
         """The schemes written out above."""
-        scheme = SCHEMES[self.solver]
-        if self.iterations is not None:
-            base, _, words = scheme.rstrip(")").partition("(")
-            given = ", ".join(sorted(filter(None, [*words.split(", "), f"iterations={self.iterations}"])))
-            scheme = f"{base}({given})"
-        return dict.fromkeys(("plain", "damping"), scheme)
+        return {case: self._scheme() for case in ("plain", "damping")}
+
+    @property
+    def formerly(self) -> Mapping[str, Mapping[str, str]]:
+        """XPBD forgot its corrections after each iteration; VBD took damping for a time, and braked free fall."""
+        if self.solver == "SolverXPBD":
+            return {"1.7.0": {case: self._scheme("accumulated=False") for case in ("plain", "damping")}}
+        if self.solver == "SolverVBD":
+            return {"1.3.0": {"plain": self._scheme(), "damping": self._scheme("braked=True")}}
+        return {}
+
+    def _scheme(self, *words: str) -> str:
+        """The solver's, with parameters that are not its own."""
+        base, _, own = SCHEMES[self.solver].rstrip(")").partition("(")
+        iterations = () if self.iterations is None else (f"iterations={self.iterations}",)
+        given = ", ".join(sorted(filter(None, (*own.split(", "), *iterations, *words))))
+        return f"{base}({given})" if given else base
 
     @property
     def settings(self) -> Mapping[str, object]:

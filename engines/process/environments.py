@@ -93,6 +93,15 @@ def version_of_wheel(name: str) -> str:
     return Path(name).name.split("-")[1] if name.endswith(".whl") and name.count("-") >= 4 else name
 
 
+def version_numbers(version: str) -> tuple[int, ...]:
+    """What versions, or the files of wheels, are put in order by.
+
+    >>> version_numbers("3.17.0") > version_numbers("3.2.7")
+    True
+    """
+    return tuple(int(n) for n in re.findall(r"\d+", version_of_wheel(version)))
+
+
 def _label_of_wheel(package: str, wheel: Path) -> str:
     """Its version and the digest of what is in it: a wheel that is built again is another one."""
     if not wheel.is_file():

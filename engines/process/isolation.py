@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
@@ -12,6 +12,7 @@ import numpy as np
 from engines.engine import Engine, Precision, absence, precision, version
 from engines.line import started
 from engines.process.available import interpreter
+from engines.process.environments import version_numbers
 from engines.process.packages import APART
 from engines.process.supervisor import supervisor
 from engines.process.worker_main import one_line
@@ -139,7 +140,15 @@ class EngineStepper:
     @property
     def claims(self) -> tuple[str, ...]:
         """The schemes that the engine claims to step by: identification tries them too."""
-        return tuple(dict.fromkeys(self.engine.identified_as.values()))
+        return tuple(dict.fromkeys(self.identified_as.values()))
+
+    @property
+    def identified_as(self) -> Mapping[str, str]:
+        """The engine's, or those of an earlier version of its package, where it is run in one (`formerly`)."""
+        formerly: Mapping[str, Mapping[str, str]] = getattr(self.engine, "formerly", {})
+        now = version_numbers(self.version or "")
+        claims = [claims for last, claims in formerly.items() if now and now <= version_numbers(last)]
+        return claims[0] if claims else self.engine.identified_as
 
     @property
     def precision(self) -> Precision:

@@ -20,8 +20,8 @@ from reference.system import MassSpringSystem, Value
 #: PyPBD's gravity along y [m/s^2]; no other can be told it from Python.
 GRAVITY = -9.81
 
-#: The sweeps of a step: PyPBD has one, and five sub-steps.
-SWEEPS = 5
+#: The sweeps of a step; PyPBD's own are those of the scheme, five sub-steps of one sweep each.
+SWEEPS, SUBSTEPS, SWEEP = 5, 5, 1
 
 
 @dataclass(frozen=True)
@@ -41,8 +41,9 @@ class PbdParticles:
     @property
     def identified_as(self) -> Mapping[str, str]:
         """XPBD by Gauss-Seidel over colours."""
-        words = f"order=apart, substeps={self.substeps}, sweeps={self.sweeps}"
-        return {"plain": f"xpbd_gauss_seidel({words})"}
+        substeps = "" if self.substeps == SUBSTEPS else f", substeps={self.substeps}"
+        sweeps = "" if self.sweeps == SWEEP else f", sweeps={self.sweeps}"
+        return {"plain": f"xpbd_gauss_seidel(order=apart{substeps}{sweeps})"}
 
     @property
     def settings(self) -> Mapping[str, object]:
@@ -125,4 +126,4 @@ class PbdSimulation:
         self._step = partial(stepper.step, model)
 
 
-ENGINES = (PbdParticles(), PbdParticles("pypbd_xpbd_substeps", substeps=5, sweeps=1))
+ENGINES = (PbdParticles(), PbdParticles("pypbd_xpbd_substeps", SUBSTEPS, SWEEP))

@@ -103,7 +103,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: f"soft_constraints_relaxed(substeps={stepping.substeps or 4})",
         snippet=version_3,
         package="box2d-python",
-        module="box2d",
         substeps=True,
         dimensions=frozenset({2}),
         note="the sweep after the move acts on springs too: twice the numerical damping of backward Euler; rest "
@@ -118,7 +117,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: f"soft_constraints_warm(sweeps={stepping.iterations or 8})",
         snippet=version_2,
         package="box2d",
-        module="Box2D",
         iterations=True,
         dimensions=frozenset({2}),
         note="no body moves more than 2 m in a step",

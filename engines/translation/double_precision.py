@@ -287,7 +287,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: f"drift_kick_sequential_damping(rounds={stepping.iterations or 10})",
         snippet=pymunk,
         package="pymunk",
-        module="pymunk",
         iterations=True,
         dimensions=frozenset({2}),
         note="a spring alone keeps exp(-dt c/m) of its elongation rate in a step",
@@ -300,7 +299,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: "kick_drift",
         snippet=mujoco,
         package="mujoco",
-        module="mujoco",
         note="damping of tendons is explicit under Euler",
         **newtons(),  # type: ignore[arg-type]
     ),
@@ -313,7 +311,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: "kick_drift",
         snippet=solref,
         package="mujoco",
-        module="mujoco",
         note=f"at the constant impedance {IMPEDANCE}; against a force that acts on the masses it is 1/(1 - impedance) "
         "times as stiff",
     ),
@@ -324,7 +321,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: "rk4",
         snippet=exudyn,
         package="exudyn",
-        module="exudyn",
         **newtons(),  # type: ignore[arg-type]
     ),
     Translation(
@@ -334,7 +330,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: "kick_drift_implicit_damping",
         snippet=bullet,
         package="pybullet",
-        module="pybullet",
         note="bending springs of 0.1 N/m are on unless springBendingStiffness=0.0; every node has the same mass",
         **newtons("springElasticStiffness", "springDampingStiffness"),  # type: ignore[arg-type]
     ),

@@ -57,7 +57,6 @@ TRANSLATIONS = (
         scheme=lambda stepping: "kick_drift",
         snippet=drake,
         package="drake",
-        module="pydrake",
         note="its springs and dampers are explicit",
         **newtons(),  # type: ignore[arg-type]
     ),

@@ -64,7 +64,6 @@ TRANSLATIONS = (
         scheme=lambda s: f"soft_constraints_cold(substeps=1, sweeps={s.iterations or 10})",
         snippet=physx,
         package="sapien",
-        module="sapien",
         iterations=True,
         **newtons(),  # type: ignore[arg-type]
     ),

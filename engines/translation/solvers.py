@@ -1,10 +1,9 @@
-"""Rapier, Jolt, Godot, Newton and XPBD itself: solvers of constraints, most of them in single precision."""
+"""Rapier, Godot, Newton and XPBD itself: solvers of constraints, most of them in single precision."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from engines.translation.box2d import as_frequency, of_frequency
 from engines.translation.program import ELONGATION, written
 from engines.translation.translation import Settings, Spring, Stepping, Translation, newtons
 from reference.system import MassSpringSystem
@@ -142,38 +141,6 @@ def of_compliance(typed: Settings, masses: Spring, stepping: Stepping) -> Spring
     return replace(masses, stiffness=1 / typed["compliance"], damping=typed.get("damping", 0.0))
 
 
-def jolt(system: MassSpringSystem, stepping: Stepping, steps: int, settings: list[Settings]) -> str:
-    """The calls, in C++: soft body edges."""
-    lines = [
-        f"settings->mEdgeConstraints.push_back(SoftBodySharedSettings::Edge({a}, {b}, {typed['compliance']!r}f));"
-        for (a, b), typed in zip(system.springs.tolist(), settings, strict=True)
-    ]
-    return "\n".join(
-        [
-            "// C++; masses as mInvMass of the vertices; the order is Optimize()'s, without which it crashes",
-            *lines,
-            "settings->CalculateEdgeLengths();",
-            "settings->Optimize();",
-            "creation.mLinearDamping = 0.0f;  // the default is 0.1/s",
-            f"creation.mNumIterations = {stepping.substeps or 5};  // sub-steps of one sweep each",
-            "creation.mAllowSleeping = false;",
-            f"physics_system.Update({stepping.dt!r}f, 1, &temp_allocator, &job_system);\n",
-        ]
-    )
-
-
-def jolt_constraint(system: MassSpringSystem, stepping: Stepping, steps: int, settings: list[Settings]) -> str:
-    """The calls, in C++: a distance constraint with soft limits."""
-    typed, rest = settings[0], float(system.rest_lengths[0])
-    return (
-        "// C++; one for each spring\n"
-        "DistanceConstraintSettings spring;\n"
-        f"spring.mMinDistance = spring.mMaxDistance = {rest!r}f;\n"
-        "spring.mLimitsSpringSettings = SpringSettings(ESpringMode::FrequencyAndDamping, "
-        f"{typed['hertz']!r}f, {typed['damping_ratio']!r}f);\n"
-    )
-
-
 def godot(system: MassSpringSystem, stepping: Stepping, steps: int, settings: list[Settings]) -> str:
     """The fields, in GDScript; its lengths are pixels, which stiffness in N/m does not ask about."""
     typed = settings[0]
@@ -191,7 +158,6 @@ def godot(system: MassSpringSystem, stepping: Stepping, steps: int, settings: li
 _NEWTON = {
     "fields": {"spring_ke": None, "spring_kd": 0.0},
     "package": "newton",
-    "module": "newton",
     **newtons("spring_ke", "spring_kd"),
 }
 
@@ -204,32 +170,10 @@ TRANSLATIONS = (
         scheme=lambda s: f"soft_constraints_cold(substeps={s.substeps or 4}, sweeps={s.iterations or 1})",
         snippet=rapier,
         package="rapier3d",
-        module="rapier3d",
         substeps=True,
         iterations=True,
         note="many stiff springs together blow up at a long step: one sweep does not solve them",
         **_NEWTONS,  # type: ignore[arg-type]
-    ),
-    Translation(
-        "jolt",
-        "Jolt: edges of a soft body",
-        {"compliance": None},
-        lambda spring, stepping: {"compliance": 1 / spring.stiffness},
-        of_compliance,
-        scheme=lambda s: f"xpbd_gauss_seidel(substeps={s.substeps or 5})",
-        snippet=jolt,
-        substeps=True,
-        note="edges have no damping of their own; in single precision more sub-steps make velocities coarser",
-    ),
-    Translation(
-        "jolt_constraint",
-        "Jolt: distance constraint with soft limits",
-        {"hertz": None, "damping_ratio": 0.0},
-        as_frequency,
-        of_frequency,
-        scheme=lambda s: f"soft_constraints_warm(sweeps={s.iterations or 10})",
-        snippet=jolt_constraint,
-        iterations=True,
     ),
     Translation(
         "godot",

@@ -13,8 +13,10 @@ from functools import cache
 from math import isfinite, pi, sqrt
 
 import engines.translation
+from engines.translation.program import run
 from reference.errors import InputError, unknown_name
 from reference.registry import Registry
+from reference.state import Array
 from reference.system import MassSpringSystem
 
 #: Of k/m [1/s^2], what no spring has: squares and products of such numbers are still finite.
@@ -126,10 +128,10 @@ class Translation:
         meaning: what was typed, masses and stepping -> the spring it is nominally.
         scheme: how it is stepped -> the scheme, by its name in the catalogue.
         snippet: a system, stepping, steps, and settings spring by spring -> a program that runs them, and leaves the
-            elongations of the first spring [m] in a list `elongations`, one for each step and the start; or, where
-            nobody can run it here, the calls to type.
+            elongations of the first spring [m] in a list `elongations`, one for each step and the start (in JavaScript
+            it prints them); or, where nobody can run it here, the calls to type.
         package: the distribution that a snippet runs with; None where it is not run here.
-        module: what the snippet imports of it.
+        run: what runs it, in a process of its own, and tells the elongations.
         iterations: whether it has any, to be set.
         substeps: likewise.
         dimensions: of systems it takes.
@@ -144,7 +146,7 @@ class Translation:
     scheme: Callable[[Stepping], str]
     snippet: Callable[[MassSpringSystem, Stepping, int, list[Settings]], str]
     package: str | None = None
-    module: str = ""
+    run: Callable[[str], Array] = run
     substeps: bool = False
     iterations: bool = False
     dimensions: frozenset[int] = frozenset({2, 3})

@@ -104,7 +104,7 @@ def capability(stepper: EngineStepper, name: str) -> str:
     if not engine.capabilities.issuperset(demands(system)):
         return "broken: it is not among its capabilities, yet not refused"
     asked = {"damping": system.damping.any(), "drag": system.drag > 0, "plain": True}
-    claim = engine.identified_as[next(what for what, is_asked in asked.items() if is_asked)]
+    claim = stepper.identified_as[next(what for what, is_asked in asked.items() if is_asked)]
     exact = stepper.precision == "double" or "single=True" in claim
     tolerance = TOLERANCE if exact else SINGLE
     found = identify_run(engine.name, outcome, system, {claim: _claimed(claim, name)}, tolerance)

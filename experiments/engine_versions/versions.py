@@ -6,7 +6,6 @@ Each version runs in an environment of its own (`engines.process.environments`);
 from __future__ import annotations
 
 import os
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
@@ -15,7 +14,7 @@ from pathlib import Path
 
 from engines.crash_cases import TIME_LIMIT, CrashCase, crash_cases, ending
 from engines.engine import Engine, registry
-from engines.process.environments import environment, numpy_version, version_of_wheel
+from engines.process.environments import environment, numpy_version, version_numbers
 from engines.process.isolation import EngineStepper, isolated
 from engines.process.supervisor import supervisor
 from experiments.engine_versions.conformance import Value, measure
@@ -67,7 +66,7 @@ def find_subject(name: str) -> Subject:
 
 def in_order(versions: Sequence[str]) -> list[str]:
     """Versions, the oldest first, each once."""
-    return sorted(dict.fromkeys(versions), key=lambda v: [int(n) for n in re.findall(r"\d+", version_of_wheel(v))])
+    return sorted(dict.fromkeys(versions), key=version_numbers)
 
 
 def measure_versions(

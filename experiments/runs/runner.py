@@ -15,8 +15,8 @@ from itertools import islice
 from time import perf_counter
 from typing import Any, NamedTuple, Protocol, TypeVar
 
-from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT
-from engines.process.supervisor import supervisor
+from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT, isolated
+from engines.process.supervisor import stop_supervisors
 from experiments.runs.store import Store, Stored
 from experiments.runs.task import Task
 from reference.outcome import Outcome
@@ -73,13 +73,13 @@ class LocalExecutor:
 
     def stop(self) -> None:
         """See Executor."""
-        supervisor().stop()
+        stop_supervisors()
 
 
 def do_here(task: Task) -> Done:
-    """Do a task in a process of this machine."""
+    """Do a task in a process of this machine, by the Python of the engine among its arguments."""
     begin = perf_counter()
-    answer = supervisor().run(task.function, task.arguments, task.time_limit, task.memory_limit)
+    answer = isolated(task.function, *task.arguments, time_limit=task.time_limit, memory_limit=task.memory_limit)
     return Done(answer, perf_counter() - begin)
 
 

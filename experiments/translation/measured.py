@@ -10,7 +10,6 @@ import numpy as np
 
 from engines.process.available import interpreter
 from engines.process.isolation import isolated
-from engines.translation.program import run
 from engines.translation.translation import Spring, Translation
 from experiments.translation.oscillation import STRETCH, spring_of_values
 from reference.outcome import Outcome
@@ -35,7 +34,7 @@ def steps_to_watch(spring: Spring, dt: float) -> int:
 def measured_spring(translation: Translation, snippet: str, spring: Spring, dt: float) -> tuple[float, float] | str:
     """The k [N/m] and c [N s/m] of the first spring in a snippet that is run; or why there are none."""
     python = interpreter(translation.package) if translation.package else None
-    answer = isolated(run, snippet, python=python, time_limit=TIME_LIMIT)
+    answer = isolated(translation.run, snippet, python=python, time_limit=TIME_LIMIT)
     if isinstance(answer, Outcome):
         return f"the snippet {answer.ending}: {answer.reason}"
     found = spring_of_elongations(answer, spring, dt)

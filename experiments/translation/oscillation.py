@@ -67,7 +67,7 @@ def step_matrix(scheme: str, spring: Spring, dt: float) -> Array:
 def spring_of_step(matrix: Array, spring: Spring, dt: float) -> tuple[float, float] | None:
     """The k [N/m] and c [N s/m] that a step is of; None where no spring does what it does."""
     values = np.linalg.eigvals(matrix).astype(complex)
-    return spring_of_values(values[np.argsort(-np.abs(values))][:2], spring.effective_mass, dt)
+    return spring_of_values(values[np.argsort(-np.abs(values), kind="stable")][:2], spring.effective_mass, dt)
 
 
 def spring_of_values(

@@ -86,7 +86,7 @@ class Kernel:
         """Positions [m] and velocities [m/s] now, each (n, d)."""
         x, v = (np.stack([self._arrays[f"{q}{i}"] for i in self._loops.axes], axis=1) for q in "xv")
         if "order" in self._arrays:
-            x, v = (q[np.argsort(self._arrays["order"])] for q in (x, v))
+            x, v = (q[np.argsort(self._arrays["order"], kind="stable")] for q in (x, v))
         return x, v
 
 

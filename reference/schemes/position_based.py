@@ -16,7 +16,6 @@ from __future__ import annotations
 import numpy as np
 
 from reference.constraint_solvers.solver_numbers import SolverNumbers, numbers_of
-from reference.errors import SolverError
 from reference.jit import compiled
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import scheme
@@ -26,12 +25,19 @@ from reference.system import IntArray
 
 @scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
 def xpbd_jacobi(
-    motion: MotionOfSprings, state: State, dt: float, *, iterations: int = 2, single: bool = False
+    motion: MotionOfSprings,
+    state: State,
+    dt: float,
+    *,
+    iterations: int = 2,
+    accumulated: bool = True,
+    single: bool = False,
 ) -> State:
     """XPBD, all springs corrected from the same positions, and the corrections summed (Newton's SolverXPBD).
 
     Neither averaged nor relaxed, so it blows up where too many springs meet at a mass. Two iterations are Newton's
-    default; it has no drag.
+    default; it has no drag. Newton up to 1.7 took L for zero in each iteration (not `accumulated`): with more of them a
+    spring then gets stiffer, and is a rigid rod in the end.
     """
     it = numbers_of(motion.system, state, "made", single)
     h, (a, b) = it.number(dt), it.ends.T
@@ -48,7 +54,7 @@ def xpbd_jacobi(
         wanted = lengths - it.rest + compliance * sums + damping * (h * dots(e, relative))
         with np.errstate(invalid="ignore"):
             change = np.where(moves, -wanted / ((1 + damping) * it.both + compliance), 0)
-        sums = sums + change
+        sums = sums + change if accumulated else sums
         moved = np.zeros_like(it.x)
         ends = np.concatenate([(it.inverse[b] * change)[:, None] * e, -(it.inverse[a] * change)[:, None] * e], axis=1)
         np.add.at(moved, it.ends[:, ::-1].ravel(), ends.reshape(-1, it.x.shape[1]))
@@ -86,40 +92,6 @@ def xpbd_gauss_seidel(
     return it.state(state.time + dt)
 
 
-@scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
-def vertex_block_descent(
-    motion: MotionOfSprings, state: State, dt: float, *, iterations: int = 10, jacobi: bool = True, single: bool = False
-) -> State:
-    """Vertex block descent: Newton's method on one mass at a time, on backward Euler's energy (Newton's SolverVBD).
-
-    With y = x0 + h v + h^2 g, and l0 a spring's length at the start of the step, a mass is moved by H^-1 f,
-    f = m (y - x)/h^2 - sum of (k C + c/h (l - l0)) e,  H = m/h^2 + sum of k (1 - L/l (1 - e e^T)) + c/h e e^T.
-    Newton colours its masses by triangles: with springs alone all have one colour, and move from the same positions
-    (`jacobi`). (Chen, Liu, Yang and Yuksel, *Vertex Block Descent*, SIGGRAPH 2024.)
-    """
-    it = numbers_of(motion.system, state, "made", single)
-    h, start = it.number(dt), it.x.copy()
-    lengths = norms(start[it.ends[:, 1]] - start[it.ends[:, 0]])
-    inertial = start + h * it.v + h * h * it.weight
-    free = it.inverse > 0
-    it.x[free] = inertial[free]
-    every = np.flatnonzero(free)
-    for _ in range(iterations):
-        for masses in [every] if jacobi else every[:, None]:
-            force, hessian = blocks(it, inertial, lengths, h)
-            it.x[masses] += _solved(hessian[masses], force[masses, :, None])[..., 0]
-    it.v[:] = (it.x - start) / h
-    return it.state(state.time + dt)
-
-
-def _solved(matrices: Array, sides: Array) -> Array:
-    """Raises SolverError where a block has no inverse, as with numbers beyond all bounds."""
-    try:
-        return np.asarray(np.linalg.solve(matrices, sides))
-    except np.linalg.LinAlgError:
-        raise SolverError("vertex block descent: a block of its matrix is singular at these numbers") from None
-
-
 def slow_down(it: SolverNumbers, h: Array) -> None:
     """Weight, and what drag leaves of the velocities in a step of h [s]."""
     it.v[:] += it.weight * h
@@ -138,25 +110,6 @@ def dots(one: Array, other: Array) -> Array:
     for axis in range(1, one.shape[1]):
         total = total + one[:, axis] * other[:, axis]
     return total
-
-
-def blocks(it: SolverNumbers, inertial: Array, lengths: Array, h: Array) -> tuple[Array, Array]:
-    """The force f, shape (n, d), and the matrix H, shape (n, d, d), of every mass where they are."""
-    a, b = it.ends.T
-    gap, one = it.x[b] - it.x[a], np.eye(it.x.shape[1], dtype=it.x.dtype)
-    length = norms(gap)
-    e = gap / length[:, None]
-    along = e[:, :, None] * e[:, None, :]
-    with np.errstate(divide="ignore"):
-        mass = np.where(it.inverse > 0, 1 / it.inverse, 0).astype(it.x.dtype) / (h * h)
-    pull = (it.stiffness * (length - it.rest) + it.damping / h * (length - lengths))[:, None] * e
-    stiff = it.stiffness[:, None, None] * (one - (it.rest / length)[:, None, None] * (one - along))
-    stiff = stiff + (it.damping / h)[:, None, None] * along
-    force, hessian = mass[:, None] * (inertial - it.x), mass[:, None, None] * one
-    for end, sign in ((a, 1), (b, -1)):
-        np.add.at(force, end, sign * pull)
-        np.add.at(hessian, end, stiff)
-    return force, hessian
 
 
 def correct(

@@ -56,4 +56,4 @@ def hanging_string(system: MassSpringSystem) -> State:
 
 def _in_order(system: MassSpringSystem) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
     """The springs of a string from its first mass on, however they are listed."""
-    return np.argsort(system.springs.min(axis=1))
+    return np.argsort(system.springs.min(axis=1), kind="stable")

@@ -77,7 +77,7 @@ def _eigenvectors(linear: Linearisation, lowest: int | None) -> tuple[Array, Arr
     shift = -1e-6 * float(matrix.diagonal().max())
     start = np.random.default_rng(0).normal(size=size)
     values, vectors = eigsh(matrix.tocsc(), lowest, sigma=shift, v0=start)
-    order = np.argsort(values)
+    order = np.argsort(values, kind="stable")
     return values[order], vectors[:, order]
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from reference.files.setup import is_file, setup_for
-from reference.scenes import find
+from reference.scenes import Setup, find
 from report.browser.recordings import Recording, recording_data
 from report.browser.system_data import scene_data
 
@@ -42,6 +42,11 @@ class Preset:
         """The scene's name, or its file's without folder and ending."""
         return Path(self.scene).stem if is_file(self.scene) else self.scene
 
+    @property
+    def setup(self) -> Setup:
+        """The scene with its parameters. Raises InputError for an unknown scene, or one that makes no sense."""
+        return setup_for(self.scene, settings=dict(self.settings))
+
     def data(self) -> dict[str, Any]:
         """As the page reads it.
 
@@ -49,7 +54,7 @@ class Preset:
             InputError: for an unknown scene, or one that makes no sense.
             Unsupported: for what the page cannot do.
         """
-        setup = setup_for(self.scene, settings=dict(self.settings))
+        setup = self.setup
         own = is_file(self.scene)
         summary, slides = ("", "") if own else (find(self.scene).summary, find(self.scene).slides)
         data = scene_data(setup, summary, slides, self.scene)

@@ -16,7 +16,7 @@ from functools import cache
 from reference.compiled.expressions import Untraceable
 from reference.compiled.in_place import trace_in_place
 from reference.compiled.loops import Loops
-from reference.compiled.tracing import Program, trace, trace_obstacles
+from reference.compiled.tracing import Place, Program, trace, trace_obstacles
 from reference.errors import InputError, Unsupported
 from reference.jit import text_of
 from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere
@@ -46,18 +46,39 @@ _ARRAYS = (
     *("weight", "divisor", "first", "spring", "sign", "forces", "out"),
 )
 
+#: A spring pulls its first mass towards the second, and the second towards the first.
+_ENDS = (("a", "+="), ("b", "-="))
+
 _HEAD = [f"const {{{', '.join((*_ARRAYS, 'n', 's', 'd'))}}} = at, drag = F[at.drag];"]
 
 
 class PageLoops(Loops):
-    """Loops whose fixed masses have no acceleration, whatever the force: infinity over infinity would be no number."""
+    """The loops as a browser has them.
+
+    Fixed masses have no acceleration, whatever the force: infinity over infinity would be no number. Springs add their
+    forces to both masses at once: each mass has the same sum in the same order, the springs', and nothing is looked up.
+    """
 
     def statements(self) -> list[ast.stmt]:
         """The loop over steps."""
         return ast.parse("\n".join(self._body())).body
 
-    def _mass(self, k: int, following: object) -> tuple[list[str], list[str]]:
-        before, lines = super()._mass(k, following)  # type: ignore[arg-type]
+    def _loop(self, index: str, count: str, before: list[str], body: list[str]) -> list[str]:
+        begin = ["forces = weight.copy()"] if index == "j" else []
+        return [*begin, *super()._loop(index, count, before, body)]
+
+    def _spring(self, k: int) -> tuple[list[str], list[str]]:
+        before, lines = super()._spring(k)
+        kept = [line for line in lines if not line.startswith(tuple(f"force{i}[" for i in self.axes))]
+        assert len(kept) == len(lines) - self.dimension, "the loops' text has changed"
+        pulls = [f"pull{i} = unit{i} * force" for i in self.axes]
+        return before, [*kept, *pulls, *(f"force{i}[{to}] {how} pull{i}" for to, how in _ENDS for i in self.axes)]
+
+    def _sum(self) -> tuple[list[str], list[str]]:
+        return [], [f"f{i} = force{i}[i]" for i in self.axes]
+
+    def _mass(self, k: int, following: Place | None) -> tuple[list[str], list[str]]:
+        before, lines = super()._mass(k, following)
         for i in self.axes:
             plain, guarded = (
                 f"now{i} = f{i} / divisor[i]",
@@ -156,7 +177,7 @@ def _explicit(scheme: Scheme) -> dict[str, str]:
 
 
 def _explicit_lines(program: Program, dimension: int, rooms: list[str]) -> list[str]:
-    translation = Translation(dimension, plain=("spring_force",))
+    translation = Translation(dimension, plain=("spring_force",), rooms=("forces",))
     body = translation.body(PageLoops(program, dimension, False).statements())
     shadowed = {"n", "s"}  # the loops count again what is known
     return [*_HEAD, *_rooms(rooms), *_numbers(len(program.coefficients)), *_without(body, shadowed)]

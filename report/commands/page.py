@@ -17,6 +17,13 @@ import click
     help="Record a stepper on every SCENE, as an engine that no browser runs, to be laid over the page's own lanes.",
 )
 @click.option(
+    "--with",
+    "engines",
+    multiple=True,
+    metavar="NAME",
+    help="Carry an engine that is WebAssembly, to be stepped in the page: jolt_soft_body, jolt_soft_body_once.",
+)
+@click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
     default=Path("lab.html"),
@@ -24,7 +31,9 @@ import click
     help="The file.",
 )
 @click.option("--open", "show", is_flag=True, help="Open it in the browser.")
-def page_command(scenes: tuple[str, ...], steppers: tuple[str, ...], out: Path, show: bool) -> None:
+def page_command(
+    scenes: tuple[str, ...], steppers: tuple[str, ...], engines: tuple[str, ...], out: Path, show: bool
+) -> None:
     """Write the lab as one file that runs in a browser, with nothing installed and nothing asked for.
 
     SCENE is a name or a TOML file; left out, the lecture's scenes.
@@ -38,7 +47,7 @@ def page_command(scenes: tuple[str, ...], steppers: tuple[str, ...], out: Path, 
     presets = [Preset(scene, recordings=recordings) for scene in dict.fromkeys(scenes)] or PRESETS
     if recordings and not scenes:
         raise InputError("--record is of scenes that are named: expected a SCENE with it")
-    text = lab_page(presets)
+    text = lab_page(presets, engines)
     out.write_text(text, encoding="utf-8")
     click.echo(f"written: {out} ({len(text.encode()) / 1e6:.2f} MB)")
     if show:

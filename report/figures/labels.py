@@ -52,7 +52,7 @@ def label_ends(axes: Any, ends: Sequence[End], line: float, fontsize: float = 9,
 
 def gathered(heights: Array, together: float) -> list[list[int]]:
     """The numbers of heights that are near to one another, from group to group upwards, in a group in their order."""
-    order = np.argsort(heights)
+    order = np.argsort(heights, kind="stable")
     apart = np.flatnonzero(np.diff(heights[order]) > together) + 1
     return [sorted(group.tolist()) for group in np.split(order, apart)]
 

@@ -45,8 +45,8 @@ def tolerance_of(engine: Engine) -> float:
     """How far an engine may be off its scheme, as a part of the size.
 
     One in single precision that claims a scheme in single precision is to follow it as closely as any: to the bit. Of
-    another, whole runs show little: rounding of 6e-8 a step adds up to 1.5e-4 in 500 steps, most where velocities are
-    differences of positions (Newton's VBD). What it is is shown by single steps (`test_single_precision`).
+    another, whole runs show little: rounding of 6e-8 a step adds up, in a scheme whose velocities are differences of
+    positions to 1.5e-4 in 500 steps. What it is is shown by single steps (`test_single_precision`).
     """
     exact = precision(engine) == "double" or "single=True" in engine.identified_as["plain"]
     return TOLERANCE if exact else SINGLE

@@ -51,22 +51,25 @@ def test_every_kind_of_spring_is_stepped_by_engines_of_two_packages(kind: str) -
     assert len({engine.package for engine in registry().values() if kind in engine.capabilities}) >= 2
 
 
-def test_an_engine_declares_known_capabilities_and_catalogued_schemes(engine: Engine) -> None:
+@pytest.mark.parametrize("declared", registry().values(), ids=lambda engine: engine.name)
+def test_an_engine_declares_known_capabilities_and_catalogued_schemes(declared: Engine) -> None:
     """Its claims cover the plain case and every kind of damping it can do, each by the name the catalogue gives it.
 
-    So a parameter is named where it is not as the scheme has it, and only there.
+    So a parameter is named where it is not as the scheme has it, and only there. Installed or not: nothing is run.
     """
-    assert engine.capabilities <= set(CAPABILITIES)
-    for claim in engine.identified_as.values():
-        assert stepper_named(claim).name == claim
-    assert set(engine.identified_as) == {"plain"} | ({"damping", "drag"} & engine.capabilities)
+    assert declared.capabilities <= set(CAPABILITIES)
+    for claims in (declared.identified_as, *getattr(declared, "formerly", {}).values()):
+        for claim in claims.values():
+            assert stepper_named(claim).name == claim
+        assert set(claims) == {"plain"} | ({"damping", "drag"} & declared.capabilities)
 
 
-def test_an_engine_says_what_its_numbers_mean_and_what_was_chosen(engine: Engine) -> None:
+@pytest.mark.parametrize("declared", registry().values(), ids=lambda engine: engine.name)
+def test_an_engine_says_what_its_numbers_mean_and_what_was_chosen(declared: Engine) -> None:
     """Its semantics name stiffness, damping and drag, in SI units; its settings are on record, and its precision."""
-    assert all(word in engine.semantics for word in ("stiffness", "damping", "drag"))
+    assert all(word in declared.semantics for word in ("stiffness", "damping", "drag"))
     units = {"k": "N/m", "c": "N s/m", "Cd": "N s/m", "drag": "N s/m"}
-    for name, unit in re.findall(r"(\w+) \[([^\]]+)\]", engine.semantics):
+    for name, unit in re.findall(r"(\w+) \[([^\]]+)\]", declared.semantics):
         assert unit == units[name]
-    assert engine.settings
-    assert precision(engine) in get_args(Precision)
+    assert declared.settings
+    assert precision(declared) in get_args(Precision)

@@ -16,8 +16,7 @@ from tests.conformance.checks import require
 def test_an_engine_in_single_precision_is_identified(engine: Engine, damping: float) -> None:
     """On the default string for 500 steps of 1 ms: every bit where a scheme in single precision is claimed.
 
-    Others are named by single steps, as whole runs in double precision would name the wrong one; Newton's VBD comes to
-    its limit in ten iterations where nothing is damped, and is then backward Euler, too.
+    Others are named by single steps, as whole runs in double precision would name the wrong one.
     """
     if precision(engine) == "double":
         pytest.skip("it is identified by its runs")

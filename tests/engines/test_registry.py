@@ -78,3 +78,13 @@ def test_a_name_that_is_taken_is_refused(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(springs, "ENGINES", (dataclasses.replace(second, name=first.name),))
     with pytest.raises(InputError, match=r"engine 'bullet_softbody' is taken by engines\.bullet\.softbody"):
         registry.__wrapped__()
+
+
+def test_an_engine_is_what_it_was_in_the_version_it_is_run_in() -> None:
+    """Up to the last version that stepped otherwise, versions being numbers; from the next on what it claims now."""
+    newton = find("newton_xpbd")
+    assert newton.identified_as["plain"] == "xpbd_jacobi(single=True)"
+    for version_there, words in (("1.7.0", "accumulated=False, "), ("0.2.0", "accumulated=False, "), ("1.10.0", "")):
+        claims = EngineStepper(newton, pinned=version_there).identified_as
+        assert claims == dict.fromkeys(("plain", "damping"), f"xpbd_jacobi({words}single=True)")
+    assert EngineStepper(find("mujoco_tendons"), pinned="3.2.7").identified_as == find("mujoco_tendons").identified_as

@@ -19,6 +19,9 @@ FARTHEST = 2
 #: Tests that run for minutes, tests of these mutants, and those of style, which every mutant offends against.
 LEFT_OUT = ("tests/soak/", "tests/mutants/", "tests/test_project.py")
 
+#: What reads all sources, quickly: near each of them.
+OF_ALL = "tests/test_habits.py"
+
 #: The suite that every engine goes through, which imports none of them.
 CONFORMANCE = "conformance"
 
@@ -46,7 +49,8 @@ class Imports:
             if distance <= FARTHEST or test.parent == home:
                 found.append((distance, test.parent != home, test))
         own = [entry for entry in found if entry[-1].parts[1] in (path.parts[0], *[CONFORMANCE] * bool(entered))]
-        return [test.as_posix() for *_, test in sorted(own or found)]
+        near = [test.as_posix() for *_, test in sorted(own or found)]
+        return [*near[:1], OF_ALL, *near[1:]]
 
     @cached_property
     def _tests(self) -> list[Path]:

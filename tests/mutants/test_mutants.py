@@ -208,6 +208,7 @@ def test_the_tests_near_a_file_are_its_mirror_and_then_its_users() -> None:
     assert near("reference/axes.py")[0] == "tests/reference/test_obstacle_kinds.py"
     assert "tests/conformance/test_default_string.py" in near("engines/mujoco/tendons.py")
     assert near("report/figures/stability.py")[0].startswith("tests/report/figures/")
+    assert near("report/figures/stability.py")[1] == "tests/test_habits.py"
     assert engines_of("engines/bullet/mesh.py") == ["bullet_softbody"]
     assert "mujoco_rope" not in engines_of("engines/mujoco/tendons.py")
     assert engines_of("reference/forces.py") == []

@@ -31,18 +31,19 @@ function openScene(name, {lanes, dt, changes = [], magnified} = {}) {
 }
 
 function startLanes(names) {
-  const chosen = names.filter(name => schemes[name] || recordingNamed(name)).slice(0, MOST_LANES);
+  const chosen = names.filter(name => schemes[name] || recordingNamed(name) || engineNamed(name)).slice(0, MOST_LANES);
   lab.lanes = (chosen.length ? chosen : ["kick_drift"]).map(startLane);
   Object.assign(lab, {past: [], series: [], touched: false, debt: 0, grabbed: null, firstDt: lab.dt});
   keepPast();
   askLimits();
 }
 
-function startLane(name) {
-  const recording = recordingNamed(name);
-  const world = startWorld(lab.scene.system, recording ? "kick_drift" : name, lab.dt, [...lab.scene.changes, ...lab.changes], lab.scene.drives);
+function startLane(name, k) {
+  const recording = recordingNamed(name), engine = engineNamed(name);
+  const world = startWorld(lab.scene.system, schemes[name] ? name : "kick_drift", lab.dt, [...lab.scene.changes, ...lab.changes], lab.scene.drives);
   applyChanges(world);
-  return {scheme: name, recording, world};
+  if (engine) carry(engine, world, k);
+  return {scheme: name, recording, engine, world};
 }
 
 const recordingNamed = name => lab.scene && (lab.scene.recordings || []).find(one => `recorded:${one.name}` === name);
@@ -120,9 +121,11 @@ function showRecording({recording, world}, time) {
 function holdGrabbed() {
   if (!lab.grabbed) return;
   const {mass, place} = lab.grabbed;
-  for (const {world: {memory: {F, at}}, recording} of lab.lanes) {
+  for (const {world, recording} of lab.lanes) {
     if (recording) continue;
+    const {F, at} = world.memory;
     for (let axis = 0; axis < at.d; axis++) { F[at.x + at.d * mass + axis] = place[axis]; F[at.v + at.d * mass + axis] = 0; }
+    if (world.put) world.put(mass);
   }
   lab.touched = true;
 }
@@ -153,7 +156,7 @@ function rewind(k) {
   const frame = lab.past[k];
   lab.changes = frame.changes.slice();
   lab.lanes.forEach((lane, which) => {
-    const fresh = startLane(lane.scheme).world, {F, at} = fresh.memory;
+    const fresh = startLane(lane.scheme, which).world, {F, at} = fresh.memory;
     Object.assign(fresh, frame.worlds[which]);
     fresh.done = 0;
     while (fresh.done < fresh.changes.length && fresh.changes[fresh.done].time <= frame.time) {
@@ -161,6 +164,7 @@ function rewind(k) {
       if (parameter !== "dt") applyChange(fresh.memory, parameter, value);
     }
     F.set(frame.states[which], at.x);
+    if (fresh.put) for (let i = 0; i < at.n; i++) fresh.put(i);
     lane.world = fresh;
   });
   lab.dt = lab.lanes[0].world.dt;

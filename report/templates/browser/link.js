@@ -42,8 +42,9 @@ function readState(text) {
     if (value === undefined || (value >= least && value <= most)) return value;
     refuse(`${key}=${words[key]} (${say("expected_from", {least, most})})`);
   };
-  const scene = among("s", sceneNamed), recorded = ((sceneNamed(scene) || DATA.scenes[0]).recordings || []).map(one => `recorded:${one.name}`);
-  const lanes = (words.w || "").split(",").filter(Boolean), known = lanes.filter(name => schemes[name] || recorded.includes(name));
+  const scene = among("s", sceneNamed), own = sceneNamed(scene) || DATA.scenes[0];
+  const recorded = (own.recordings || []).map(one => `recorded:${one.name}`), stepped = Object.keys(own.engines || {}).filter(name => own.engines[name] === "");
+  const lanes = (words.w || "").split(",").filter(Boolean), known = lanes.filter(name => schemes[name] || recorded.includes(name) || stepped.includes(name));
   for (const name of [...lanes.filter(name => !known.includes(name)), ...known.slice(MOST_LANES)]) refuse(`w=${name}`);
   const changes = (words.at || "").split(",").filter(Boolean).flatMap(word => {
     const change = readChange(word, (sceneNamed(scene) || DATA.scenes[0]).system);

@@ -27,7 +27,7 @@ function memoryOf(system) {
   for (const name of ["x", "v", "weight", "out"]) room(name, n * d);
   for (const name of ["masses", "divisor"]) room(name, n);
   for (const name of ["rest_lengths", "stiffness", "damping"]) room(name, s);
-  room("sign", 2 * s); room("forces", s * d); room("gravity", d); room("drag", 1); room("room", ROOMS * n * d);
+  room("sign", 2 * s); room("forces", Math.max(n, s) * d); room("gravity", d); room("drag", 1); room("room", ROOMS * n * d);
   list("springs", 2 * s); list("first", n + 1); list("spring", 2 * s); list("fixed", n); list("broken", s);
   const F = new Float64Array(doubles), I = new Int32Array(whole), memory = {F, I, at};
   F.set(spread(system.positions, n * d), at.x); F.set(spread(system.velocities, n * d), at.v);
@@ -67,6 +67,7 @@ function derive({F, I, at}) {
 // One of PARAMETERS, one number for all or one for each; a single number of gravity is downwards.
 function setParameter(memory, name, value) {
   const {F, at} = memory, [begin, count] = PARAMETERS[name](at);
+  memory.most = null;
   if (name === "gravity" && !Array.isArray(value)) {
     F.fill(0, begin, begin + count);
     F[begin + Math.min(1, at.d - 1)] = -value;
@@ -93,29 +94,31 @@ function hold(memory, masses, held) {
 }
 
 // Kinetic, elastic and potential energy [J], the last by gravity from where the masses start.
-function energies({memory: {F, I, at}, start}) {
-  const {n, s, d} = at;
+function energies({memory, start}) {
+  const {F, I, at} = memory, {n, s, d, x, v, masses, weight, fixed, rest_lengths} = at;
   let kinetic = 0, elastic = 0, potential = 0;
   for (let i = 0; i < n; i++) {
-    if (I[at.fixed + i]) continue;
-    for (let axis = 0; axis < d; axis++) {
-      const v = F[at.v + d * i + axis];
-      kinetic += 0.5 * F[at.masses + i] * v * v;
-      potential -= F[at.weight + d * i + axis] * (F[at.x + d * i + axis] - start[d * i + axis]);
+    if (I[fixed + i]) continue;
+    for (let e = d * i; e < d * (i + 1); e++) {
+      kinetic += 0.5 * F[masses + i] * F[v + e] * F[v + e];
+      potential -= F[weight + e] * (F[x + e] - start[e]);
     }
   }
-  for (let j = 0; j < s; j++) elastic += law.elastic_energy(F[at.stiffness + j], stretchOf({F, I, at}, j));
+  const lengths = lengthsOf(memory);
+  for (let j = 0; j < s; j++) elastic += energyOf(memory, j, lengths[j] - F[rest_lengths + j]);
   return {kinetic, elastic, potential, total: kinetic + elastic + potential};
 }
 
-function lengthOf({F, I, at}, j, x = at.x) {
-  const a = I[at.springs + 2 * j], b = I[at.springs + 2 * j + 1];
-  let squares = 0;
-  for (let axis = 0; axis < at.d; axis++) {
-    const along = F[x + at.d * b + axis] - F[x + at.d * a + axis];
-    squares += along * along;
-  }
-  return Math.sqrt(squares);
-}
+// The energy of a spring [J] at a stretch.
+const energyOf = ({F, at}, j, stretch) => law.elastic_energy(F[at.stiffness + j], stretch);
 
-const stretchOf = (memory, j) => lengthOf(memory, j) - memory.F[memory.at.rest_lengths + j];
+// How long all springs are [m], in an array that the next call writes anew.
+function lengthsOf(memory) {
+  const {F, I, at} = memory, {s, d, x, springs} = at, lengths = memory.lengths = memory.lengths || new Float64Array(s);
+  for (let j = 0; j < s; j++) {
+    const a = x + d * I[springs + 2 * j], b = x + d * I[springs + 2 * j + 1];
+    const along = F[b] - F[a], up = d > 1 ? F[b + 1] - F[a + 1] : 0, near = d > 2 ? F[b + 2] - F[a + 2] : 0;
+    lengths[j] = Math.sqrt(along * along + up * up + near * near);
+  }
+  return lengths;
+}

@@ -57,7 +57,8 @@ function swatch(k) {
 const nameOf = lane => lane.recording ? say("recorded", {name: lane.recording.stepper}) : lane.scheme;
 
 function showLanes() {
-  const names = [...Object.keys(schemes), ...(lab.scene.recordings || []).map(one => `recorded:${one.name}`)];
+  const stepped = Object.keys(lab.scene.engines || {}).filter(engineNamed);
+  const names = [...stepped, ...Object.keys(schemes), ...(lab.scene.recordings || []).map(one => `recorded:${one.name}`)];
   const shown = name => name.startsWith("recorded:") ? say("recorded", {name: recordingNamed(name).stepper}) : name;
   $("lanes").replaceChildren(...lab.lanes.map((lane, k) => {
     const select = element("select", {id: `lane-${k}`, "aria-label": say("lane", {k: k + 1}), onchange: () => setLanes(lab.lanes.map((one, q) => q === k ? select.value : one.scheme))},
@@ -68,6 +69,8 @@ function showLanes() {
     if (lab.lanes.length > 1) item.append(element("button", {type: "button", "aria-label": say("remove_lane", {k: k + 1}), onclick: () => setLanes(lab.lanes.filter((_, q) => q !== k).map(one => one.scheme))}, "×"));
     return item;
   }));
+  const refused = Object.values(lab.scene.engines || {}).filter(Boolean);
+  $("engines-refused").textContent = refused.length ? `${refused.join("; ")}.` : "";
   $("add").disabled = lab.lanes.length >= 4;
   $("beside").checked = lab.beside;
 }
@@ -106,6 +109,7 @@ function showLimits() {
 
 function limitSaid(lane) {
   const name = lane.recording ? nameOf(lane) : lane.scheme;
+  if (lane.engine) return say("engine_note", {...lane.engine, precision: say(`precision_${lane.engine.precision}`)});
   if (lane.recording) return say("recorded_note", {name, dt: number(1e3 * lane.recording.dt), error: number(lane.recording.error, 2)});
   const told = lab.limits[lane.scheme];
   if (!lab.scene.rest.length) return say("limit_unknown", {name, why: say("no_rest")});
@@ -189,7 +193,7 @@ function openLesson(k) {
 }
 
 function showEquations() {
-  const names = [...new Set(lab.lanes.filter(lane => !lane.recording).map(lane => lane.scheme))];
+  const names = [...new Set(lab.lanes.map(lane => lane.scheme).filter(name => schemes[name]))];
   $("equations").replaceChildren(...names.flatMap(name => {
     const {summary, equations} = schemes[name];
     const shown = element("div", {className: "equations wide", tabIndex: 0, role: "group", ariaLabel: `${say("equations")}: ${name}`});
@@ -237,30 +241,41 @@ function goBack() {
   showAll();
 }
 
+// Words where they are others: what is the same is not laid out again.
+function write(place, text) { if (place.textContent !== text) place.textContent = text; }
+
 function showState() {
-  $("play").textContent = say(lab.playing ? "pause" : "play");
+  write($("play"), say(lab.playing ? "pause" : "play"));
   const {steps} = lab.lanes[0].world;
   const words = [say("status", {scene: lab.scene.title || lab.scene.name, time: number(laneTime(), 5) || "0", steps, paused: lab.playing ? "" : say("paused")})];
   if (lab.playing && lab.reached < 0.9) words.push(say("slow", {part: number(lab.reached, 2)}));
   if (lab.short) words.push(say("link_short"));
-  $("status").textContent = words.join(" ");
+  write($("status"), words.join(" "));
   $("past").max = lab.past.length - 1;
   if (document.activeElement !== $("past") || lab.playing) $("past").value = lab.past.length - 1;
   $("past").setAttribute("aria-valuetext", `${number(laneTime())} s`);
-  $("command").textContent = commandText();
-  $("shared").textContent = leftOut();
+  write($("command"), commandText());
+  write($("shared"), leftOut());
   showBanner();
   showNumbers();
   checkLesson();
 }
 
+// The table is made once; then its numbers change where they do.
 function showNumbers() {
-  const last = lab.series[lab.series.length - 1];
+  const last = lab.series[lab.series.length - 1], first = lab.series[0];
   if (!last) return;
-  const first = lab.series[0];
+  const numbers = lab.lanes.flatMap((lane, k) => [number(timeOf(lane.world)), number(last.energy[k] - first.energy[k]), k ? number(last.apart[k]) : ""]);
+  const shown = $("numbers"), made = `${language} ${lab.lanes.map(nameOf).join()}`;
+  if (shown.dataset.made !== made) makeNumbers(shown, made);
+  shown.querySelectorAll("td").forEach((cell, k) => write(cell, numbers[k]));
+}
+
+function makeNumbers(shown, made) {
+  shown.dataset.made = made;
   const head = element("tr", {}, ...[say("scheme"), say("time") + " [s]", say("energy_plot"), say("apart_plot")].map(text => element("th", {scope: "col"}, text)));
-  $("numbers").replaceChildren(element("thead", {}, head), element("tbody", {}, ...lab.lanes.map((lane, k) => element("tr", {}, element("th", {scope: "row"}, nameOf(lane)),
-    ...[number(timeOf(lane.world)), number(last.energy[k] - first.energy[k]), k ? number(last.apart[k]) : ""].map(text => element("td", {className: "number"}, text))))));
+  const row = lane => element("tr", {}, element("th", {scope: "row"}, nameOf(lane)), ...[0, 1, 2].map(() => element("td", {className: "number"})));
+  shown.replaceChildren(element("thead", {}, head), element("tbody", {}, ...lab.lanes.map(row)));
 }
 
 // Sixty times a second.
@@ -274,7 +289,8 @@ function frame(now) {
     if (lab.lanes.every(lane => lane.world.blownUp || lane.recording)) { lab.playing = false; showState(); }
   }
   draw();
-  if (now - told > (lab.playing ? 120 : 400)) { drawPlots(); if (lab.playing) showState(); told = now; }
+  if (lab.playing && now - told > 120) { drawNextPlot(); showState(); told = now; }
+  if (!lab.playing && now - told > 400) { drawPlots(); told = now; }
   requestAnimationFrame(frame);
 }
 
@@ -294,6 +310,15 @@ function openHash() {
   translate();
 }
 
-openHash();
-listen();
-requestAnimationFrame(frame);
+function begin() {
+  openHash();
+  listen();
+  if (DATA.carried) $("licences").append(element("details", {}, element("summary", {}, say("licence", DATA.carried.engines[0])), element("pre", {tabIndex: 0}, DATA.carried.licence)));
+  requestAnimationFrame(frame);
+}
+
+if (!DATA.carried) begin();
+else loadEngines().then(begin, error => {
+  for (const scene of DATA.scenes) for (const name of Object.keys(scene.engines)) scene.engines[name] = `${name}: ${error.message}`;
+  begin();
+});

@@ -1,4 +1,5 @@
-// The plots: energy, how far lanes are apart, and the growth that theory predicts at every dt.
+// The plots: energy, how far lanes are apart, and the growth that theory predicts at every dt. A line of them is {k, count,
+// at, value}: lane k has so many points, with functions of their numbers for where each is and what it is there.
 
 function plot(id, {lines, low, high, from, to, logarithmic, marks = [], unit, axis}) {
   const of = document.getElementById(id), [width, height] = sizeCanvas(of), on = of.getContext("2d");
@@ -20,17 +21,18 @@ function plot(id, {lines, low, high, from, to, logarithmic, marks = [], unit, ax
     on.beginPath(); on.moveTo(x(at), top); on.lineTo(x(at), bottom); on.stroke(); on.setLineDash([]);
     if (label) { on.fillStyle = ink(); on.textBaseline = "bottom"; on.fillText(label, Math.min(x(at) + 3, right - 28), bottom - 2); }
   }
-  lines.forEach(({points, k}) => {
+  for (const {count, at, value, k} of lines) {
     on.strokeStyle = on.fillStyle = colourOf(k); on.lineWidth = 1.8; on.beginPath();
-    let begun = false;
-    points.forEach(([at, value]) => {
-      if (!Number.isFinite(value)) return;
-      on[begun ? "lineTo" : "moveTo"](x(at), Math.max(-50, Math.min(height + 50, y(value)))); begun = true;
-    });
+    let last = -1;
+    for (let q = 0; q < count; q++) {
+      const shown = value(q);
+      if (!Number.isFinite(shown)) continue;
+      on[last < 0 ? "moveTo" : "lineTo"](x(at(q)), Math.max(-50, Math.min(height + 50, y(shown))));
+      last = q;
+    }
     on.stroke();
-    const last = points.filter(([, value]) => Number.isFinite(value)).pop();
-    if (last && y(last[1]) >= top && y(last[1]) <= bottom) drawMarker(on, k, x(last[0]), y(last[1]), 3.5);
-  });
+    if (last >= 0 && y(value(last)) >= top && y(value(last)) <= bottom) drawMarker(on, k, x(at(last)), y(value(last)), 3.5);
+  }
   on.restore();
 }
 
@@ -40,25 +42,34 @@ const shortNumber = value => {
   return size >= 1e4 || size < 1e-3 ? value.toExponential(0).replace("e+", "e") : String(+value.toPrecision(3));
 };
 
-function drawPlots() {
-  const rows = lab.series, to = Math.max(laneTime(), lab.scene.duration);
-  const first = rows.length ? rows[0].energy.find(Number.isFinite) || 0 : 0;
+function drawPlots() { for (const one of PLOTS) one(); }
+
+// While it runs one of them is drawn at a time, so that no frame is long.
+let nextPlot = 0;
+const drawNextPlot = () => PLOTS[nextPlot++ % PLOTS.length]();
+
+const until = () => Math.max(laneTime(), lab.scene.duration);
+
+function drawEnergy() {
+  const rows = lab.series, first = rows.length ? rows[0].energy.find(Number.isFinite) || 0 : 0;
   const given = Math.max(lab.lanes[0].world.given, 1e-9);
-  const changes = rows.flatMap(row => row.energy.map(value => value - first)).filter(value => Number.isFinite(value));
-  const within = value => Math.max(-20 * given, Math.min(20 * given, value));
   // of stiff scenes what is exchanged is a small part of what would blow them up: the scale is the curves' own
-  const most = Math.max(...changes.map(value => Math.abs(within(value))), 1e-15 * given, 1e-15);
-  plot("energy", {lines: lab.lanes.map((lane, k) => ({k, points: rows.map(row => [row.time, row.energy[k] - first])})), low: -most, high: most, from: 0, to, unit: "J", axis: "s"});
-  document.getElementById("apart").parentElement.hidden = lab.lanes.length === 1;
-  if (lab.lanes.length > 1) drawDistances(rows, to);
-  drawGrowth();
+  let most = Math.max(1e-15 * given, 1e-15);
+  for (const {energy} of rows) for (const value of energy) if (Number.isFinite(value)) most = Math.max(most, Math.min(20 * given, Math.abs(value - first)));
+  const lines = lab.lanes.map((lane, k) => ({k, count: rows.length, at: q => rows[q].time, value: q => rows[q].energy[k] - first}));
+  plot("energy", {lines, low: -most, high: most, from: 0, to: until(), unit: "J", axis: "s"});
 }
 
 // How far each lane is from the first, on a logarithmic scale.
-function drawDistances(rows, to) {
-  const size = Math.max(view.width, view.height) / 2.5, distances = rows.flatMap(row => row.apart).filter(value => value > 0 && Number.isFinite(value));
-  const least = Math.max(1e-16, Math.min(...distances, size)), largest = Math.min(Math.max(...distances, 10 * least), 1e3 * size);
-  plot("apart", {lines: lab.lanes.map((lane, k) => ({k, points: k ? rows.filter(row => row.apart[k] > 0).map(row => [row.time, row.apart[k]]) : []})), low: least, high: largest, logarithmic: true, from: 0, to, unit: "m", axis: "s"});
+function drawDistances() {
+  document.getElementById("apart").parentElement.hidden = lab.lanes.length === 1;
+  if (lab.lanes.length === 1) return;
+  const rows = lab.series, size = Math.max(view.width, view.height) / 2.5;
+  let least = size, largest = 0;
+  for (const {apart} of rows) for (const value of apart) if (value > 0 && Number.isFinite(value)) { least = Math.min(least, value); largest = Math.max(largest, value); }
+  least = Math.max(1e-16, least); largest = Math.min(Math.max(largest, 10 * least), 1e3 * size);
+  const lines = lab.lanes.map((lane, k) => ({k, count: k ? rows.length : 0, at: q => rows[q].time, value: q => rows[q].apart[k] > 0 ? rows[q].apart[k] : NaN}));
+  plot("apart", {lines, low: least, high: largest, logarithmic: true, from: 0, to: until(), unit: "m", axis: "s"});
 }
 
 // By what the fastest mode is multiplied in a step, by dt, for each lane's scheme; dt and the limits are marked.
@@ -68,8 +79,10 @@ function drawGrowth() {
   const to = 1e3 * Math.max(1.3 * lab.dt, 1.4 * Math.max(...limits, 2 / Math.sqrt(lab.mode.w2)));
   const lines = lab.lanes.map((lane, k) => {
     const scheme = schemes[lane.scheme];
-    if (!scheme || !scheme.linear) return {k, points: []};
-    return {k, points: Array.from({length: 161}, (_, q) => to * (q + 1) / 161).map(ms => [ms, growthOfMode(scheme, ms / 1e3, lab.mode.w2, lab.mode.g)])};
+    const at = q => to * (q + 1) / 161, known = lab.mode.grown = lab.mode.grown || {};
+    if (scheme && scheme.linear) known[`${lane.scheme} ${to}`] ||= Float64Array.from({length: 161}, (_, q) => growthOfMode(scheme, at(q) / 1e3, lab.mode.w2, lab.mode.g));
+    const grown = known[`${lane.scheme} ${to}`] || [];
+    return {k, count: grown.length, at, value: q => grown[q]};
   });
   const marks = lab.lanes.flatMap((lane, k) => {
     const {limit} = lab.limits[lane.scheme] || {};
@@ -77,3 +90,5 @@ function drawGrowth() {
   });
   plot("growth", {lines, low: 0, high: 2, from: 0, to, marks: [...marks, {at: 1e3 * lab.dt, label: "dt"}], unit: "", axis: "ms"});
 }
+
+const PLOTS = [drawEnergy, drawDistances, drawGrowth];

@@ -6,7 +6,7 @@ const RATIO = 100;
 function startWorld(system, scheme, dt, changes = [], drives = []) {
   const memory = memoryOf(system);
   const world = {system, memory, scheme, dt, drives, steps: 0, origin: {time: 0, steps: 0}, blownUp: null, done: 0};
-  world.natural = Array.from({length: system.s}, (_, j) => Math.max(memory.F[memory.at.rest_lengths + j], lengthOf(memory, j)));
+  world.natural = lengthsOf(memory).map((length, j) => Math.max(memory.F[memory.at.rest_lengths + j], length));
   world.start = memory.F.slice(memory.at.x, memory.at.x + system.n * system.d);
   const {kinetic, elastic} = energies(world);
   world.given = kinetic + elastic;
@@ -46,6 +46,7 @@ function applyDrives({memory, drives, dt}, time) {
       const value = drive.table[row * width + k];
       F[begin + columns[k]] = whole ? value : value + (place - row) * (drive.table[(row + 1) * width + k] - value);
     }
+    memory.most = null;
     derive(memory);
   }
 }
@@ -58,7 +59,8 @@ function advance(world, steps) {
   for (let k = 1; k <= steps && !world.blownUp; k++) {
     applyChanges(world);
     if (world.drives.length) applyDrives(world, timeOf(world));
-    run(F, I, at, coefficients(world.dt), 1);
+    if (!world.step) run(F, I, at, coefficients(world.dt), 1);
+    else if (!world.step()) { world.blownUp = {what: "refused", which: 0}; break; }  // an engine takes them
     for (const {kind, values} of system.obstacles) {
       const project = obstacles[kind];
       for (let i = 0; i < at.n; i++) project(F, at.x, at.v, i, !I[at.fixed + i], values);
@@ -69,31 +71,58 @@ function advance(world, steps) {
   return world;
 }
 
-// When and how a run has left physics behind, or null: {what, which}. Looked at in every step, so in two plain loops.
-function blowUp({memory: {F, I, at}, natural, given, start}) {
-  const {n, s, d, x, v, masses, springs, rest_lengths, stiffness} = at;
-  let pull = 0, energy = 0, allowed = given;
-  for (let axis = 0; axis < d; axis++) pull += F[at.gravity + axis] * F[at.gravity + axis];
+// When and how a run has left physics behind, or null: {what, which}. Looked at in every step.
+function blowUp(world) {
+  const {memory, natural, given, start} = world, {F, at} = memory, {n, s, d, x, v, masses, rest_lengths} = at;
+  let kinetic = 0;
   for (let i = 0; i < n; i++) {
     let away = 0, speed = 0;
-    for (let e = d * i; e < d * (i + 1); e++) {
-      const moved = F[x + e] - start[e];
-      away += moved * moved; speed += F[v + e] * F[v + e];
-    }
-    if (!Number.isFinite(away)) return {what: "position", which: i};
-    if (!Number.isFinite(speed)) return {what: "velocity", which: i};
-    energy += 0.5 * F[masses + i] * speed;
-    allowed += F[masses + i] * Math.sqrt(pull * away);
+    for (let e = d * i; e < d * (i + 1); e++) { away += Math.abs(F[x + e] - start[e]); speed += F[v + e] * F[v + e]; }
+    if (!(away < Infinity)) return {what: "position", which: i};
+    if (!(speed < Infinity)) return {what: "velocity", which: i};
+    kinetic += 0.5 * F[masses + i] * speed;
   }
+  if (isNear(world, kinetic)) return null;
+  const lengths = lengthsOf(memory);
+  let energy = kinetic;
+  for (let j = 0; j < s; j++) {
+    if (lengths[j] > RATIO * natural[j]) return {what: "spring", which: j};
+    energy += energyOf(memory, j, lengths[j] - F[rest_lengths + j]);
+  }
+  const allowed = given + givenByGravity(world);
+  return energy > RATIO * RATIO * allowed && allowed > 0 ? {what: "energy", which: 0} : null;
+}
+
+// Up to how many times its natural length a spring is no matter, if all of them at that length have not too much energy.
+const NEAR = 40;
+
+// Whether all springs are that short: it takes no square roots.
+function isNear({memory, natural, given}, kinetic) {
+  const {F, I, at} = memory, {s, d, x, springs, rest_lengths} = at;
+  if (!memory.most) {
+    memory.most = {squares: natural.map(length => (NEAR * length) ** 2), energy: 0};
+    for (let j = 0; j < s; j++) memory.most.energy += energyOf(memory, j, Math.max(NEAR * natural[j], F[rest_lengths + j]));
+  }
+  const {squares, energy} = memory.most;
+  if (!(2 * (kinetic + energy) < RATIO * RATIO * given)) return false;
   for (let j = 0; j < s; j++) {
     const a = x + d * I[springs + 2 * j], b = x + d * I[springs + 2 * j + 1];
-    let squares = 0;
-    for (let axis = 0; axis < d; axis++) { const along = F[b + axis] - F[a + axis]; squares += along * along; }
-    const length = Math.sqrt(squares);
-    if (length > RATIO * natural[j]) return {what: "spring", which: j};
-    energy += law.elastic_energy(F[stiffness + j], length - F[rest_lengths + j]);
+    const along = F[b] - F[a], up = d > 1 ? F[b + 1] - F[a + 1] : 0, near = d > 2 ? F[b + 2] - F[a + 2] : 0;
+    if (!(along * along + up * up + near * near < squares[j])) return false;
   }
-  return energy > RATIO * RATIO * allowed && allowed > 0 ? {what: "energy", which: 0} : null;
+  return true;
+}
+
+// What gravity does at most on the way from the start [J].
+function givenByGravity({memory: {F, at: {n, d, x, masses, gravity}}, start}) {
+  let pull = 0, sum = 0;
+  for (let axis = 0; axis < d; axis++) pull += F[gravity + axis] * F[gravity + axis];
+  for (let i = 0; i < n; i++) {
+    let away = 0;
+    for (let e = d * i; e < d * (i + 1); e++) away += (F[x + e] - start[e]) * (F[x + e] - start[e]);
+    sum += F[masses + i] * Math.sqrt(pull * away);
+  }
+  return sum;
 }
 
 // The mean distance of the masses of two worlds of one system [m].

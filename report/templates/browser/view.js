@@ -13,13 +13,14 @@ const view = {yaw: 0.5, pitch: 0.35, scale: 1, centre: [0, 0, 0], zoom: 1, boxes
 const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 const colourOf = k => COLOURS[isDark() ? "dark" : "light"][k % 4];
 
-// The page's own colours, looked up once a frame.
+// The page's own colours, looked up when they change: to ask in a frame makes the browser lay the page out in it.
 const colours = {};
 function readColours() {
   const style = getComputedStyle(document.documentElement);
   for (const name of ["ink", "paper", "soft"]) colours[name] = style.getPropertyValue(`--${name}`).trim();
 }
 readColours();
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", readColours);
 const ink = () => colours.ink, sheet = () => colours.paper, soft = () => colours.soft;
 
 // Which parts of a place, from the centre of the picture, are right, up and near.
@@ -78,8 +79,13 @@ function fitView() {
 
 const canvas = document.getElementById("stage"), paper = canvas.getContext("2d");
 
+// How large canvases are on the page, told by the browser when it changes, for the same reason.
+const sizes = new Map(), resized = new ResizeObserver(all => { for (const {target} of all) sizes.set(target, sizeOnPage(target)); });
+const sizeOnPage = ({clientWidth, clientHeight}) => ({clientWidth, clientHeight});
+
 function sizeCanvas(of) {
-  const ratio = Math.min(window.devicePixelRatio || 1, 2), {clientWidth, clientHeight} = of;
+  if (!sizes.has(of)) { sizes.set(of, sizeOnPage(of)); resized.observe(of); }
+  const ratio = Math.min(window.devicePixelRatio || 1, 2), {clientWidth, clientHeight} = sizes.get(of);
   const [width, height] = [Math.round(clientWidth * ratio), Math.round(clientHeight * ratio)];
   if (of.width !== width || of.height !== height) { of.width = width; of.height = height; }
   of.getContext("2d").setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -95,7 +101,6 @@ function boxes(width, height) {
 }
 
 function draw() {
-  readColours();
   const [width, height] = sizeCanvas(canvas);
   paper.clearRect(0, 0, width, height);
   view.boxes = boxes(width, height);
@@ -164,13 +169,12 @@ function drawLane(lane, k) {
 
 // One path for the springs of each class of strain; a spring that begins where the one before it in its class ended goes on
 // from there.
-function pathsByStrain({F, I, at}, places) {
-  const {s, d, x, springs, rest_lengths} = at, paths = STRAINS.map(() => new Path2D()), ends = STRAINS.map(() => -1);
+function pathsByStrain(memory, places) {
+  const {F, I, at} = memory, {s, springs, rest_lengths} = at, lengths = lengthsOf(memory);
+  const paths = STRAINS.map(() => new Path2D()), ends = STRAINS.map(() => -1);
   for (let j = 0; j < s; j++) {
     const a = I[springs + 2 * j], b = I[springs + 2 * j + 1];
-    let squares = 0;
-    for (let axis = 0; axis < d; axis++) { const along = F[x + d * b + axis] - F[x + d * a + axis]; squares += along * along; }
-    const strain = Math.abs(Math.sqrt(squares) / F[rest_lengths + j] - 1);
+    const strain = Math.abs(lengths[j] / F[rest_lengths + j] - 1);
     const bin = strain <= STRAINS[0] ? 0 : strain <= STRAINS[1] ? 1 : strain <= STRAINS[2] ? 2 : 3;
     if (ends[bin] !== a) paths[bin].moveTo(places[2 * a], places[2 * a + 1]);
     paths[bin].lineTo(places[2 * b], places[2 * b + 1]);

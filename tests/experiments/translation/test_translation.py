@@ -27,6 +27,7 @@ FORWARD: list[tuple[str, float, float, float, float | None, float, int | None]] 
     ("box2d_2.3", 50.0, 0.2, 1.0, None, 1 / 60, None),
     ("rapier", 200.0, 0.5, 0.2, 0.1, 1 / 120, None),
     ("physx", 200.0, 0.5, 0.2, 0.1, 1 / 120, None),
+    ("jolt", 200.0, 0.0, 0.2, 0.1, 1 / 120, 3),
     ("drake", 30.0, 0.5, 0.5, None, 1 / 120, None),
     ("newton_xpbd", 100.0, 0.5, 1.0, None, 1 / 100, None),
     ("newton_semi_implicit", 100.0, 0.5, 1.0, None, 1 / 100, None),
@@ -47,11 +48,11 @@ BACKWARD: list[tuple[str, Settings, float, float]] = [
     ("xpbd", {"compliance": 0.01}, 100.0, 0.0),
     ("newton_xpbd", {"spring_ke": 100.0, "spring_kd": 2.0}, 100.0, 2.0),
     ("physx", {"stiffness": 20.0, "damping": 1.0}, 20.0, 1.0),
+    ("jolt", {"compliance": 0.01}, 100.0, 0.0),
     ("drake", {"stiffness": 20.0, "damping": 1.0}, 20.0, 1.0),
     # not run here: what they mean all the same
     ("bullet_constraint", {"erp": 0.2, "cfm": 0.02}, 600.0, 40.0),
     ("godot", {"stiffness": 20.0, "damping": 1.0}, 20.0, 1.0),
-    ("jolt", {"compliance": 0.01}, 100.0, 0.0),
     ("jolt_constraint", {"hertz": 1.0, "damping_ratio": 0.1}, 4 * np.pi**2, 0.4 * np.pi),
 ]
 

@@ -60,6 +60,14 @@ def test_small_systems_and_other_equations_run_as_written(monkeypatch: pytest.Mo
     assert hasattr(step_of(find("euler"), PendulumMotion(find_scene("string").system({}))), "func")
 
 
+@pytest.mark.usefixtures("for_all")
+@pytest.mark.parametrize("scheme", IN_PLACE[:1], ids=label)
+def test_one_mass_that_is_pulled_has_the_function_take_all(scheme: Scheme) -> None:
+    """The loops know of no pulls."""
+    system = MESHES[2].with_parameter(f"pull.{len(MESHES[2].masses) - 1}.y", 3.0)
+    assert not is_by_loops(scheme, system)
+
+
 # --- Functions that loops would not be ---
 
 
