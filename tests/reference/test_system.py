@@ -332,6 +332,18 @@ def test_a_parameter_is_set_to_one_number_for_each(name: str) -> None:
         getattr(changed, field)[0] = 1.0
 
 
+def test_pulls_add_up_and_the_system_they_were_set_in_has_none() -> None:
+    """One number of one mass each; what was there stays, and nothing is shared."""
+    plain = system()
+    one = plain.with_parameter("pull.1.x", 3.0)
+    both = one.with_parameter("pull.0.y", -2.0)
+    assert not plain.pulls.any()
+    assert (one.pulls[1, 0], np.count_nonzero(one.pulls)) == (3.0, 1)
+    assert (both.pulls[1, 0], both.pulls[0, 1], np.count_nonzero(both.pulls)) == (3.0, -2.0, 2)
+    with pytest.raises(ValueError, match="read-only"):
+        both.pulls[0, 0] = 1.0
+
+
 @pytest.mark.parametrize(
     ("name", "value", "message"),
     [
