@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from experiments.runs.results import MORE_COLUMNS
+from report.commands import results
 from report.commands.results_table import for_people, heading
 
 LONG = "spring 2 is over 100 times its length at t = 0.015 s, and so are all others of the string"
@@ -70,3 +71,17 @@ def test_headings_have_units() -> None:
     names = ("stiffness", "gravity", "dt", "error_m", "identified_as", "outcome")
     wanted = ["stiffness [N/m]", "gravity [m/s^2]", "dt [s]", "error [m]", "identified as", "outcome"]
     assert [heading(name) for name in names] == wanted
+
+
+def test_all_rows_are_printed_with_what_they_share_and_what_there_is_no_room_for(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of no rows there is nothing to print."""
+    monkeypatch.setenv("COLUMNS", "80")
+    results._show([])
+    assert not capsys.readouterr().out
+    results._show([ROW, OTHER])
+    table, said = capsys.readouterr().out.split("In every row: ")
+    assert all(word in table for word in ("mujoco_tendons", "pymunk_springs", "stiffness [N/m]", "dt [s]", "diverged"))
+    assert "scene=string" in said
+    assert "--csv" in said
