@@ -181,3 +181,11 @@ def test_the_file_of_a_wheel_is_a_version(folder: Path, tmp_path: Path) -> None:
         environment("spring", str(tmp_path / "spring-9-py3-none-any.whl"))
     with pytest.raises(InputError, match="expected a wheel of rope"):
         environment("rope", str(wheel))
+
+
+def test_what_cannot_be_installed_is_told_in_the_installers_words() -> None:
+    """The last of them, in one line, with what was wanted."""
+    program = "import sys; print('at first'); sys.exit('no such\\nversion')"
+    with pytest.raises(InputError, match=r"^pymunk==0\.1 cannot be installed: no such version$"):
+        environments._call("pymunk==0.1", sys.executable, "-c", program)
+    environments._call("pymunk==0.1", sys.executable, "-c", "")

@@ -47,7 +47,9 @@ def test_the_terminal_has_formulas_and_the_figure_is_written(tmp_path: Path) -> 
     file = tmp_path / "region.svg"
     said = springlab("explain", "kick_drift", "--plot", str(file))
     assert said.code == 0
-    assert "x' = x + h v + h^2 a1" in said.out
+    lines = said.out.splitlines()
+    assert "    x' = x + h v + h^2 a1" in lines
+    assert "- Stable up to h w = 2 without damping." in lines
     assert file.read_text(encoding="utf-8").startswith("<svg")
 
 

@@ -80,3 +80,16 @@ def test_the_same_sentence_is_one_note() -> None:
     short, notes = with_notes(cells)
     assert short == [["a", "(1)"], ["b", "(2)"], ["c", "(1)"], ["d", "short"]]
     assert notes == [f"(1) {UNSTABLE}", f"(2) {STABLE}"]
+
+
+def test_numbers_are_to_the_right_and_words_to_the_left(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By column: one of numbers may have gaps, and words may stand before it."""
+    monkeypatch.setenv("COLUMNS", "160")
+    show_table("", ["scheme", "error of it [m]", "outcome of it"], [["heun", None, "done"], ["rk4", 0.5, "none"]])
+    lines = capsys.readouterr().out.splitlines()
+    (heads,), (row,) = ([line for line in lines if word in line] for word in ("scheme", "rk4"))
+    assert row.index("rk4") == heads.index("scheme")
+    assert row.index("0.5") + len("0.5") == heads.index("[m]") + len("[m]")
+    assert row.index("none") == heads.index("outcome")
