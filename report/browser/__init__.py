@@ -2,6 +2,7 @@
 
 javascript  Python's text of loops over numbers as JavaScript
 programs    schemes, the spring's law and obstacles, each from its one definition
+spring_laws the law of springs that are not linear, of numbers that write themselves
 system_data systems and scenes as the page reads them
 changes     what changes on the way, a truck that crosses and ground that shakes too
 engines     those that step in the page themselves

@@ -25,6 +25,7 @@ from reference.springs.linear_law import elastic_energy, force_by_rate, force_by
 from reference.theory.keeps_to_surfaces import keeps_to_surfaces
 from reference.theory.runge_kutta import stability_polynomial
 from report.browser.javascript import Translation, definitions, of_expression, plain_function
+from report.browser.spring_laws import ASKED, law_functions
 from report.site.linear_form import NotLinear, equations
 from report.site.mathml import of_equations
 
@@ -44,7 +45,12 @@ _ONES: tuple[Obstacle, ...] = (
 _ARRAYS = (
     *("x", "v", "springs", "rest_lengths", "stiffness", "damping", "masses", "gravity", "fixed"),
     *("weight", "divisor", "first", "spring", "sign", "forces", "out"),
+    "nonlinear",
 )
+
+#: The force of spring j as loops have it, and where a system has springs that are not linear.
+_LINEAR_FORCE = "spring_force(stiffness[j], stretch, damping[j], rate)"
+_ANY_FORCE = "force_at(j, stretch, rate)"
 
 #: A spring pulls its first mass towards the second, and the second towards the first.
 _ENDS = (("a", "+="), ("b", "-="))
@@ -52,12 +58,18 @@ _ENDS = (("a", "+="), ("b", "-="))
 _HEAD = [f"const {{{', '.join((*_ARRAYS, 'n', 's', 'd'))}}} = at, drag = F[at.drag];"]
 
 
+@dataclass(frozen=True)
 class PageLoops(Loops):
     """The loops as a browser has them.
 
     Fixed masses have no acceleration, whatever the force: infinity over infinity would be no number. Springs add their
     forces to both masses at once: each mass has the same sum in the same order, the springs', and nothing is looked up.
+
+    Attributes:
+        nonlinear: whether springs need not be linear. One text for both would take several times as long.
     """
+
+    nonlinear: bool = False
 
     def statements(self) -> list[ast.stmt]:
         """The loop over steps."""
@@ -71,6 +83,7 @@ class PageLoops(Loops):
         before, lines = super()._spring(k)
         kept = [line for line in lines if not line.startswith(tuple(f"force{i}[" for i in self.axes))]
         assert len(kept) == len(lines) - self.dimension, "the loops' text has changed"
+        kept[kept.index(f"force = {_LINEAR_FORCE}")] = f"force = {_ANY_FORCE if self.nonlinear else _LINEAR_FORCE}"
         pulls = [f"pull{i} = unit{i} * force" for i in self.axes]
         return before, [*kept, *pulls, *(f"force{i}[{to}] {how} pull{i}" for to, how in _ENDS for i in self.axes)]
 
@@ -157,6 +170,7 @@ def script() -> str:
     """All of it: `schemes`, `law` and `obstacles`, in one text."""
     laws = (spring_force, elastic_energy, force_by_stretch, force_by_rate)
     lines = [line for function in laws for line in plain_function(text_of(function), function.__name__)]
+    lines += [*law_functions(), *_force_at()]
     lines += ["const law = {" + ", ".join(function.__name__ for function in laws) + "};", *_readable_forces()]
     members = [f"{json.dumps(name)}: {scheme.text}" for name, scheme in page_schemes().items()]
     lines += ["const schemes = {", ",\n".join(members), "};"]
@@ -164,21 +178,33 @@ def script() -> str:
     return "\n".join(lines) + "\n"
 
 
+def _force_at() -> list[str]:
+    """The force of a spring that need not be linear."""
+    spring = ", ".join((*(f"F[at.{name} + j]" for name in ASKED), "stretch"))
+    stiffness, damping = (f"{name}({spring})" for name in ("secant_stiffness", "damping_at"))
+    force = f"spring_force({stiffness}, stretch, {damping}, rate)"
+    return ["function force_at(F, I, at, j, stretch, rate) {", f"  return {force};", "}"]
+
+
 def _explicit(scheme: Scheme) -> dict[str, str]:
     program = trace(scheme)
     rooms = ["xs", "vs", *(f"a{k}_" for k in PageLoops(program, 1, False).kept)]
-    advance = {d: _function(_explicit_lines(program, d, rooms)) for d in DIMENSIONS}
+    linear, nonlinear = (
+        "{" + ", ".join(f"{d}: {_function(_explicit_lines(program, d, rooms, kind))}" for d in DIMENSIONS) + "}"
+        for kind in (False, True)
+    )
     return {
         "coefficients": _coefficients([text for text, _ in program.coefficients]),
         "rooms": str(len(rooms)),
-        "advance": "{" + ", ".join(f"{d}: {text}" for d, text in advance.items()) + "}",
+        "advance": linear,
+        "nonlinear": nonlinear,
         "linear": _linear(program),
     }
 
 
-def _explicit_lines(program: Program, dimension: int, rooms: list[str]) -> list[str]:
-    translation = Translation(dimension, plain=("spring_force",), rooms=("forces",))
-    body = translation.body(PageLoops(program, dimension, False).statements())
+def _explicit_lines(program: Program, dimension: int, rooms: list[str], nonlinear: bool) -> list[str]:
+    translation = Translation(dimension, functions=("force_at",), plain=("spring_force",), rooms=("forces",))
+    body = translation.body(PageLoops(program, dimension, False, nonlinear=nonlinear).statements())
     shadowed = {"n", "s"}  # the loops count again what is known
     return [*_HEAD, *_rooms(rooms), *_numbers(len(program.coefficients)), *_without(body, shadowed)]
 
@@ -193,27 +219,38 @@ def _in_place(scheme: Scheme) -> dict[str, str]:
     translation = Translation(functions=("one_acceleration",), rooms=tuple(rooms))
     lines = translation.body(step.body, returned=("x", "v"))
     steps = ["for (let step = 0; step < steps; step++) {", *("  " + line for line in lines), "}"]
-    head = [*_HEAD, "const one_acceleration = accelerate || acceleration_of_one;"]
+    head = [*_HEAD, "const one_acceleration = accelerate || (nonlinear ? acceleration_of_any : acceleration_of_one);"]
     function = _function([*head, *_rooms(rooms), *_numbers(len(known)), *steps])
     return {
         "coefficients": _coefficients(list(loops.texts)),
         "rooms": str(len(rooms)),
-        "advance": "(run => ({1: run, 2: run, 3: run}))(" + function + ")",
+        "advance": f"(run => ({{1: run, 2: run, 3: run}}))({function})",
+        "nonlinear": "null",
         "linear": "null",
     }
 
 
 def _readable_forces() -> list[str]:
-    """The forces on one mass, from the functions that `reference.forces` compiles."""
+    """The forces on one mass, from the functions that `reference.forces` compiles; and for springs of any law."""
     from reference.forces import acceleration_of_mass, force_of_spring, one_acceleration
 
-    known = ("force_of_spring", "acceleration_of_mass")
+    linear, any_law = text_of(force_of_spring), "force_of_any_spring"
+    plain = f"force = {_LINEAR_FORCE.replace('stretch', 'length - rest_lengths[j]')}"
+    assert plain in linear, "the forces' text has changed"
+    nonlinear = linear.replace(plain, f"stretch = length - rest_lengths[j]\n    force = {_ANY_FORCE}")
+    one = text_of(one_acceleration)
+    texts = {
+        "force_of_spring": linear,
+        any_law: nonlinear,
+        "acceleration_of_mass": text_of(acceleration_of_mass),
+        "acceleration_of_one": one,
+        "acceleration_of_any": one.replace("force_of_spring(", f"{any_law}("),
+    }
     lines: list[str] = []
-    for function in (force_of_spring, acceleration_of_mass, one_acceleration):
-        (definition,) = definitions(text_of(function))
+    for name, text in texts.items():
+        (definition,) = definitions(text)
         arguments = [argument.arg for argument in definition.args.args]
-        body = Translation(functions=known, plain=("spring_force",)).body(definition.body)
-        name = "acceleration_of_one" if function is one_acceleration else function.__name__
+        body = Translation(functions=(*texts, "force_at"), plain=("spring_force",)).body(definition.body)
         lines += [f"function {name}(F, I, at, {', '.join(arguments)}) {{", "  const d = at.d;"]
         lines += [*("  " + line for line in body), "}"]
     return lines

@@ -26,13 +26,12 @@ MOST_MASSES = 2_500
 KNOWN = frozenset(
     {
         *("positions", "springs", "masses", "rest_lengths", "stiffness", "damping", "drag", "gravity"),
-        *("velocities", "fixed", "obstacles"),
+        *("velocities", "fixed", "obstacles", "nonlinear"),
     }
 )
 
 #: What people call those that it does not.
 _WORDS = {
-    "nonlinear": "springs that are not linear",
     "collisions": "masses that collide",
     "pulls": "forces that pull on masses",
     "angular_springs": "springs that resist bending",
@@ -58,11 +57,21 @@ def system_data(system: MassSpringSystem) -> dict[str, Any]:
         "rest_lengths": _compact(system.rest_lengths),
         "stiffness": _compact(system.stiffness),
         "damping": _compact(system.damping),
+        **_kinds(system),
         "drag": system.drag,
         "gravity": system.gravity.tolist(),
         "fixed": np.flatnonzero(system.fixed).tolist(),
         "obstacles": [{"kind": f"{o.kind}{o.dimension}", "values": numbers_of([o])} for o in system.obstacles],
     }
+
+
+def _kinds(system: MassSpringSystem) -> dict[str, Any]:
+    """What springs have besides stiffness and damping, where any has; JSON has no infinity: there it is no number."""
+    law = system.nonlinear
+    if law is None:
+        return {}
+    values = {name: getattr(law, name).astype(float).tolist() for name in law.asked}
+    return {"nonlinear": {name: [v if np.isfinite(v) else None for v in row] for name, row in values.items()}}
 
 
 def refuse_beyond(system: MassSpringSystem) -> None:

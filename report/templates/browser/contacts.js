@@ -9,7 +9,7 @@ function growthOnObstacles(system, linear, scheme, h) {
   const {F, I, at} = linear.memory, {n, s, d} = at, places = coordinates(linear), m = places.length;
   let scale = Infinity;
   for (let j = 0; j < s; j++) scale = Math.min(scale, F[at.rest_lengths + j]);
-  const own = {F: F.slice(), I, at}, run = scheme.advance[d], c = scheme.coefficients(h);
+  const own = {F: F.slice(), I, at}, run = runOf(scheme, linear.memory.at), c = scheme.coefficients(h);
   const put = z => {
     own.F.set(linear.rest, at.x); own.F.fill(0, at.v, at.v + n * d);
     places.forEach((place, k) => { own.F[at.x + place] += z[k]; own.F[at.v + place] = z[m + k] / h; });

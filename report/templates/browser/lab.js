@@ -133,13 +133,20 @@ function holdGrabbed() {
 // What was: positions and velocities of all lanes, thinned out where it would fill the memory; and the plots' numbers.
 function keepPast() {
   const states = lab.lanes.map(({world: {memory: {F, at}}}) => F.slice(at.x, at.x + 2 * at.n * at.d));
-  const worlds = lab.lanes.map(({world}) => ({steps: world.steps, origin: world.origin, dt: world.dt, blownUp: world.blownUp}));
+  const worlds = lab.lanes.map(({world}) => ({steps: world.steps, origin: world.origin, dt: world.dt, blownUp: world.blownUp, broken: brokenOf(world.memory)}));
   lab.past.push({time: laneTime(), states, worlds, changes: lab.changes.slice()});
   const size = states.reduce((sum, state) => sum + state.length, 0);
   if (lab.past.length > 60 && lab.past.length * size > PAST) lab.past = lab.past.filter((_, k) => k % 2 === 0 || k === lab.past.length - 1);
   if (lab.past.length > 1500) lab.past = lab.past.filter((_, k) => k % 2 === 0);
   lab.series.push(measured());
   if (lab.series.length > 1500) lab.series = lab.series.filter((_, k) => k % 2 === 0);
+}
+
+// Which springs are broken; null where none can.
+function brokenOf({I, at}) {
+  const found = [];
+  if (at.nonlinear) for (let j = 0; j < at.s; j++) if (I[at.broken + j]) found.push(j);
+  return found;
 }
 
 function measured() {
@@ -163,6 +170,7 @@ function rewind(k) {
       const {parameter, value} = fresh.changes[fresh.done++];
       if (parameter !== "dt") applyChange(fresh.memory, parameter, value);
     }
+    breakSprings(fresh.memory, fresh.broken);
     F.set(frame.states[which], at.x);
     if (fresh.put) for (let i = 0; i < at.n; i++) fresh.put(i);
     lane.world = fresh;

@@ -174,7 +174,7 @@ function stepInPlace(scheme, linear, h) {
     stiffness(F.subarray(x, x + size), pull); damping(F.subarray(v, v + size), slow);
     for (let axis = 0; axis < d; axis++) F[at.out + d * i + axis] = -pull[d * i + axis] - slow[d * i + axis];
   };
-  const c = scheme.coefficients(h), run = scheme.advance[d];
+  const c = scheme.coefficients(h), run = runOf(scheme, linear.memory.at);
   return (x, v) => {
     F.set(x, 0); F.set(v, size);
     run(F, linear.memory.I, at, c, 1, accelerate);
@@ -204,6 +204,7 @@ function answerLimits({id, memory, system, rest, contacts, names}) {
   const found = equilibrium(memory, rest, contacts);
   if (!(found.off < 1e-6)) return {id, limits: Object.fromEntries(names.map(name => [name, {limit: null, reason: "no rest"}])), mode: null};
   const linear = linearise(memory, found.x, contacts);
+  if (linear.corner !== undefined) return {id, limits: Object.fromEntries(names.map(name => [name, {limit: null, reason: "corner"}])), mode: null};
   const limits = Object.fromEntries(names.map(name => [name, limitOf(name, linear, known, system)]));
   if (!known.top || !(known.top.value > 0)) return {id, limits, mode: null};
   const y = known.top.vector, out = new Float64Array(linear.size), share = new Float64Array(at.s);

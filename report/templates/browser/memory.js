@@ -19,20 +19,24 @@ const LARGEST = 1e12, mayBe = (name, value) => Number.isFinite(value) && Math.ab
 // What a dt may be [s].
 const SHORTEST_DT = 1e-9, LONGEST_DT = 10;
 
+// What springs may have besides stiffness and damping, and what it is where they have not.
+const KINDS = {hardening: 0, largest_force: Infinity, tension_only: 0, compression_only: 0, breaking_force: Infinity, breaking_stretch: Infinity};
+
 function memoryOf(system) {
-  const {n, s, d} = system, at = {n, s, d};
+  const {n, s, d} = system, at = {n, s, d, nonlinear: Boolean(system.nonlinear)};
   let doubles = 0, whole = 0;
   const room = (name, count) => { at[name] = doubles; doubles += count; };
   const list = (name, count) => { at[name] = whole; whole += count; };
   for (const name of ["x", "v", "weight", "out"]) room(name, n * d);
   for (const name of ["masses", "divisor"]) room(name, n);
-  for (const name of ["rest_lengths", "stiffness", "damping"]) room(name, s);
+  for (const name of ["rest_lengths", "stiffness", "damping", ...Object.keys(KINDS)]) room(name, s);
   room("sign", 2 * s); room("forces", Math.max(n, s) * d); room("gravity", d); room("drag", 1); room("room", ROOMS * n * d);
   list("springs", 2 * s); list("first", n + 1); list("spring", 2 * s); list("fixed", n); list("broken", s);
   const F = new Float64Array(doubles), I = new Int32Array(whole), memory = {F, I, at};
   F.set(spread(system.positions, n * d), at.x); F.set(spread(system.velocities, n * d), at.v);
   F.set(spread(system.masses, n), at.masses);
   for (const name of ["rest_lengths", "stiffness", "damping"]) F.set(spread(system[name], s), at[name]);
+  for (const [name, none] of Object.entries(KINDS)) F.set(spread((system.nonlinear || {})[name] ?? none, s).map(value => value ?? none), at[name]);
   F.set(system.gravity, at.gravity); F[at.drag] = system.drag;
   I.set(system.springs, at.springs);
   for (const i of system.fixed) I[at.fixed + i] = 1;
@@ -80,8 +84,34 @@ function setParameter(memory, name, value) {
 // Springs that are gone for good, and those that were before: no parameter brings one back.
 function breakSprings({F, I, at}, springs) {
   for (const j of springs) I[at.broken + j] = 1;
-  for (let j = 0; j < at.s; j++) if (I[at.broken + j]) F[at.stiffness + j] = F[at.damping + j] = 0;
+  for (let j = 0; j < at.s; j++) {
+    if (!I[at.broken + j]) continue;
+    F[at.stiffness + j] = F[at.damping + j] = 0;
+    for (const [name, none] of Object.entries(KINDS)) F[at[name] + j] = none;
+  }
 }
+
+// The springs that break as they are: stretched too far, or pulling with too much force, their dampers' part included.
+function breaking(memory) {
+  const {F, I, at} = memory, {s, d, x, v, springs, breaking_force, breaking_stretch} = at, found = [], lengths = lengthsOf(memory);
+  for (let j = 0; j < s; j++) {
+    if (F[breaking_force + j] === Infinity && F[breaking_stretch + j] === Infinity) continue;
+    const a = d * I[springs + 2 * j], b = d * I[springs + 2 * j + 1], stretch = lengths[j] - F[at.rest_lengths + j];
+    let rate = 0;
+    if (F[at.damping + j] > 0 && lengths[j] > 0) {
+      for (let axis = 0; axis < d; axis++) rate += (F[x + b + axis] - F[x + a + axis]) * (F[v + b + axis] - F[v + a + axis]);
+      rate /= lengths[j];
+    }
+    const [k, c] = [secant_stiffness, damping_at].map(part => ofSpring(part, memory, j, stretch));
+    if (stretch > F[breaking_stretch + j] || law.spring_force(k, stretch, c, rate) > F[breaking_force + j]) found.push(j);
+  }
+  return found;
+}
+
+const mayBreak = ({F, at}, j) => F[at.breaking_force + j] < Infinity || F[at.breaking_stretch + j] < Infinity;
+
+// One of the law's functions, of a spring at a stretch.
+const ofSpring = (part, {F, at}, j, stretch) => part(F[at.stiffness + j], F[at.damping + j], F[at.hardening + j], F[at.largest_force + j], F[at.tension_only + j], F[at.compression_only + j], stretch);
 
 // Masses held where they are, or let go from rest.
 function hold(memory, masses, held) {
@@ -110,7 +140,7 @@ function energies({memory, start}) {
 }
 
 // The energy of a spring [J] at a stretch.
-const energyOf = ({F, at}, j, stretch) => law.elastic_energy(F[at.stiffness + j], stretch);
+const energyOf = (memory, j, stretch) => memory.at.nonlinear ? ofSpring(energy_of_spring, memory, j, stretch) : law.elastic_energy(memory.F[memory.at.stiffness + j], stretch);
 
 // How long all springs are [m], in an array that the next call writes anew.
 function lengthsOf(memory) {

@@ -46,7 +46,8 @@ function showScene() {
   $("scene").replaceChildren(...DATA.scenes.map(scene => element("option", {value: scene.name, selected: scene === lab.scene}, scene.title || scene.name)));
   const slides = lab.scene.slides ? ` (${slidesSaid(lab.scene.slides)})` : "";
   $("not-taken").textContent = lab.refused.length ? say("not_taken", {parts: lab.refused.join(", ")}) : "";
-  $("summary").textContent = lab.scene.summary + slides;
+  const kinds = Object.keys(lab.scene.system.nonlinear || {}).map(name => say(name));
+  $("summary").textContent = lab.scene.summary + slides + (kinds.length ? ` ${say("kinds", {kinds: kinds.join(", ")})}` : "");
 }
 
 function swatch(k) {
@@ -114,7 +115,7 @@ function limitSaid(lane) {
   const told = lab.limits[lane.scheme];
   if (!lab.scene.rest.length) return say("limit_unknown", {name, why: say("no_rest")});
   if (!told) return `${name}: ${say("computing")}`;
-  if (told.limit === null) return say("limit_unknown", {name, why: say(told.reason === "too large" ? "too_large" : "no_rest")});
+  if (told.limit === null) return say("limit_unknown", {name, why: say({"too large": "too_large", corner: "corner"}[told.reason] || "no_rest")});
   if (told.limit === 0) return say("limit_never", {name});
   if (told.limit === Infinity) return say("limit_always", {name});
   return say(told.about ? "limit_about" : "limit_of", {name, limit: number(1e3 * told.limit, 6), part: number(lab.dt / told.limit, 4)});

@@ -5,6 +5,7 @@
 function linearise(memory, rest, contacts = []) {
   const {F, I, at} = memory, {n, s, d} = at, size = n * d;
   const unit = new Float64Array(s * d), along = new Float64Array(s), across = new Float64Array(s), slowed = new Float64Array(s);
+  const linear = {memory, rest, unit, along, across, slowed, contacts, size};
   for (let j = 0; j < s; j++) {
     const a = I[at.springs + 2 * j], b = I[at.springs + 2 * j + 1];
     let squares = 0;
@@ -13,20 +14,30 @@ function linearise(memory, rest, contacts = []) {
       squares += unit[d * j + axis] ** 2;
     }
     const length = Math.sqrt(squares), stretch = length - F[at.rest_lengths + j], k = F[at.stiffness + j];
+    if (at.nonlinear && atCorner(memory, j, stretch)) linear.corner = j;
     for (let axis = 0; axis < d; axis++) unit[d * j + axis] /= length;
-    along[j] = law.force_by_stretch(k, stretch);
-    across[j] = law.spring_force(k, stretch, 0, 0) / length;
-    slowed[j] = law.force_by_rate(F[at.damping + j]);
+    along[j] = at.nonlinear ? ofSpring(tangent_stiffness, memory, j, stretch) : law.force_by_stretch(k, stretch);
+    across[j] = law.spring_force(at.nonlinear ? ofSpring(secant_stiffness, memory, j, stretch) : k, stretch, 0, 0) / length;
+    slowed[j] = law.force_by_rate(at.nonlinear ? ofSpring(damping_at, memory, j, stretch) : F[at.damping + j]);
   }
   const root = new Float64Array(size), free = [];
   for (let i = 0; i < n; i++) {
     if (!I[at.fixed + i]) free.push(i);
     root.fill(I[at.fixed + i] ? 0 : 1 / Math.sqrt(F[at.masses + i]), d * i, d * (i + 1));
   }
-  const linear = {memory, rest, unit, along, across, slowed, root, free, contacts, size};
+  Object.assign(linear, {root, free});
   linear.damped = slowed.some(value => value > 0);
   linear.drag = F[at.drag];
   return linear;
+}
+
+// Whether no linear spring does the same near a stretch, as in reference/springs/nonlinear_law.py (`tangent_system`): it is
+// where the spring goes slack or yields, or beyond that.
+function atCorner(memory, j, stretch) {
+  const {F, at} = memory, near = 1e-9 * F[at.rest_lengths + j], k = F[at.stiffness + j], most = F[at.largest_force + j];
+  const oneSided = (F[at.tension_only + j] || F[at.compression_only + j]) && k > 0;
+  const [tangent, secant] = [tangent_stiffness, secant_stiffness].map(part => ofSpring(part, memory, j, stretch));
+  return (oneSided && Math.abs(stretch) <= near) || (most < Infinity && Math.abs(k * Math.abs(stretch) - most) <= k * near) || (tangent === 0 && secant !== 0);
 }
 
 // Moves without their parts along the normals of contacts; of fixed masses none.
@@ -111,7 +122,7 @@ function equilibrium(memory, guess, contacts = []) {
       const a = I[at.springs + 2 * j], b = I[at.springs + 2 * j + 1];
       let squares = 0;
       for (let axis = 0; axis < d; axis++) squares += (y[d * b + axis] - y[d * a + axis]) ** 2;
-      sum += law.elastic_energy(F[at.stiffness + j], Math.sqrt(squares) - F[at.rest_lengths + j]);
+      sum += energyOf(memory, j, Math.sqrt(squares) - F[at.rest_lengths + j]);
     }
     return sum;
   };

@@ -6,11 +6,14 @@ const RATIO = 100;
 function startWorld(system, scheme, dt, changes = [], drives = []) {
   const memory = memoryOf(system);
   const world = {system, memory, scheme, dt, drives, steps: 0, origin: {time: 0, steps: 0}, blownUp: null, done: 0};
-  world.natural = lengthsOf(memory).map((length, j) => Math.max(memory.F[memory.at.rest_lengths + j], length));
+  const {F, at} = memory, named = changes.filter(change => change.parameter === "break").flatMap(change => change.value);
+  // what breaks, now or later, may then be of any length, and so may what only pushes
+  world.breaks = Uint8Array.from({length: system.s}, (_, j) => mayBreak(memory, j) || named.includes(j) ? 1 : 0);
+  world.natural = lengthsOf(memory).map((length, j) => world.breaks[j] || F[at.compression_only + j] ? Infinity : Math.max(F[at.rest_lengths + j], length));
   world.start = memory.F.slice(memory.at.x, memory.at.x + system.n * system.d);
   const {kinetic, elastic} = energies(world);
   world.given = kinetic + elastic;
-  for (let j = 0; j < system.s; j++) world.given += law.elastic_energy(memory.F[memory.at.stiffness + j], world.natural[j]);
+  for (let j = 0; j < system.s; j++) world.given += energyOf(memory, j, world.natural[j] < Infinity ? world.natural[j] : F[at.rest_lengths + j]);
   world.changes = changes.slice().sort((a, b) => a.time - b.time);
   return world;
 }
@@ -51,11 +54,13 @@ function applyDrives({memory, drives, dt}, time) {
   }
 }
 
+// A scheme's loops, for springs that are linear or need not be.
+const runOf = ({advance, nonlinear}, at) => (at.nonlinear && nonlinear || advance)[at.d];
+
 // A number of steps, as many as there are until it blows up. That is looked at after each: when and where it did does not
 // hang on how many steps are asked for at once.
 function advance(world, steps) {
-  const {memory: {F, I, at}, system, scheme} = world, {advance: ofDimension, coefficients} = schemes[scheme];
-  const run = ofDimension[at.d];
+  const {memory: {F, I, at}, system, scheme} = world, {coefficients} = schemes[scheme], run = runOf(schemes[scheme], at);
   for (let k = 1; k <= steps && !world.blownUp; k++) {
     applyChanges(world);
     if (world.drives.length) applyDrives(world, timeOf(world));
@@ -66,14 +71,23 @@ function advance(world, steps) {
       for (let i = 0; i < at.n; i++) project(F, at.x, at.v, i, !I[at.fixed + i], values);
     }
     world.steps++;
+    if (at.nonlinear && world.breaks.includes(1)) breakNow(world);
     world.blownUp = blowUp(world);
   }
   return world;
 }
 
+// Springs that break at the end of a step are gone from the next one on.
+function breakNow({memory}) {
+  const found = breaking(memory);
+  if (!found.length) return;
+  breakSprings(memory, found);
+  memory.most = null;
+}
+
 // When and how a run has left physics behind, or null: {what, which}. Looked at in every step.
 function blowUp(world) {
-  const {memory, natural, given, start} = world, {F, at} = memory, {n, s, d, x, v, masses, rest_lengths} = at;
+  const {memory, natural, breaks, given, start} = world, {F, at} = memory, {n, s, d, x, v, masses, rest_lengths} = at;
   let kinetic = 0;
   for (let i = 0; i < n; i++) {
     let away = 0, speed = 0;
@@ -87,7 +101,7 @@ function blowUp(world) {
   let energy = kinetic;
   for (let j = 0; j < s; j++) {
     if (lengths[j] > RATIO * natural[j]) return {what: "spring", which: j};
-    energy += energyOf(memory, j, lengths[j] - F[rest_lengths + j]);
+    if (!breaks[j]) energy += energyOf(memory, j, lengths[j] - F[rest_lengths + j]);
   }
   const allowed = given + givenByGravity(world);
   return energy > RATIO * RATIO * allowed && allowed > 0 ? {what: "energy", which: 0} : null;
@@ -97,11 +111,14 @@ function blowUp(world) {
 const NEAR = 40;
 
 // Whether all springs are that short: it takes no square roots.
-function isNear({memory, natural, given}, kinetic) {
+function isNear({memory, natural, breaks, given}, kinetic) {
   const {F, I, at} = memory, {s, d, x, springs, rest_lengths} = at;
   if (!memory.most) {
     memory.most = {squares: natural.map(length => (NEAR * length) ** 2), energy: 0};
-    for (let j = 0; j < s; j++) memory.most.energy += energyOf(memory, j, Math.max(NEAR * natural[j], F[rest_lengths + j]));
+    for (let j = 0; j < s; j++) {
+      const rest = F[rest_lengths + j], most = natural[j] < Infinity ? Math.max(NEAR * natural[j], rest) : rest;
+      if (!breaks[j]) memory.most.energy += Math.max(energyOf(memory, j, most), energyOf(memory, j, -rest));
+    }
   }
   const {squares, energy} = memory.most;
   if (!(2 * (kinetic + energy) < RATIO * RATIO * given)) return false;

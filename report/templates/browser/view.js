@@ -170,9 +170,10 @@ function drawLane(lane, k) {
 // One path for the springs of each class of strain; a spring that begins where the one before it in its class ended goes on
 // from there.
 function pathsByStrain(memory, places) {
-  const {F, I, at} = memory, {s, springs, rest_lengths} = at, lengths = lengthsOf(memory);
+  const {F, I, at} = memory, {s, springs, rest_lengths, broken} = at, lengths = lengthsOf(memory);
   const paths = STRAINS.map(() => new Path2D()), ends = STRAINS.map(() => -1);
   for (let j = 0; j < s; j++) {
+    if (I[broken + j]) continue;
     const a = I[springs + 2 * j], b = I[springs + 2 * j + 1];
     const strain = Math.abs(lengths[j] / F[rest_lengths + j] - 1);
     const bin = strain <= STRAINS[0] ? 0 : strain <= STRAINS[1] ? 1 : strain <= STRAINS[2] ? 2 : 3;

@@ -39,6 +39,7 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
   }
   const memory = memoryOf(asked.system);
   for (const [name, value] of Object.entries(asked.set || {})) setParameter(memory, name, value);
+  if (asked.ask === "corner") return linearise(memory, asked.rest).corner !== undefined;
   const rest = equilibrium(memory, asked.rest, asked.contacts), linear = linearise(memory, rest.x, asked.contacts);
   const known = {};
   if (asked.ask === "limits") {

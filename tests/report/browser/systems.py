@@ -9,6 +9,7 @@ import numpy as np
 
 from reference.errors import InputError
 from reference.obstacles import Box, Circle, Cylinder, Obstacle, Plane, Sphere
+from reference.springs.kinds import NonlinearSprings
 from reference.system import MassSpringSystem
 
 
@@ -41,6 +42,23 @@ def random_system(seed: int) -> tuple[MassSpringSystem, float]:
             system = replace(system, obstacles=(*system.obstacles, obstacle))
     safe = random.random() < 0.6
     return system, float(10 ** (random.uniform(-3.5, -1.0) if safe else random.uniform(0.0, 2.0)))
+
+
+def with_random_kinds(system: MassSpringSystem, seed: int) -> MassSpringSystem:
+    """The same with springs each of a kind: linear, hardening, yielding, ropes, struts, and some that break."""
+    random = np.random.default_rng(seed)
+    s = len(system.springs)
+    kind = random.integers(5, size=s)
+    breaks = random.random((2, s)) < 0.2
+    law = NonlinearSprings(
+        tension_only=kind == 1,
+        compression_only=kind == 2,
+        hardening=np.where(kind == 3, random.uniform(0, 1e3, s), 0.0),
+        largest_force=np.where(kind == 4, random.uniform(0.1, 20, s), np.inf),
+        breaking_force=np.where(breaks[0], random.uniform(1, 50, s), np.inf),
+        breaking_stretch=np.where(breaks[1], random.uniform(0.1, 3, s), np.inf),
+    )
+    return replace(system, nonlinear=law)
 
 
 def random_obstacles(random: np.random.Generator, d: int) -> tuple[Obstacle, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
+from reference.springs.kinds import NonlinearSprings
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.limits import stability_limit
@@ -23,6 +25,9 @@ CASES: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
     ("string", {"drag": 0.1}, tuple(page_schemes())),
     ("string", {"damping": 0.1, "masses": 4}, tuple(page_schemes())),
     ("chain", {}, ("kick_drift", "rk4")),
+    ("string", {"tension_only": 1, "damping": 0.05, "masses": 4}, ("heun", "kick_drift", "rk4")),
+    ("string", {"hardening": 2e3, "masses": 4}, ("heun", "kick_drift", "velocity_verlet", "rk4")),
+    ("string", {"largest_force": 20.0, "breaking_stretch": 0.2}, ("kick_drift", "rk4")),
     ("cloth", {"rows": 5, "columns": 5}, ("heun", "kick_drift", "velocity_verlet", "rk4")),
     ("strip", {}, ("euler", "kick_drift", "rk4")),
     ("bridge", {}, ("kick_drift", "velocity_verlet", "rk4")),
@@ -75,6 +80,15 @@ def test_limits_are_those_of_the_theory_room(request: pytest.FixtureRequest) -> 
         rest = at_rest(system)
         for scheme in schemes:
             assert agrees(answer["limits"][scheme], scheme, rest), (name, settings, scheme, answer["limits"][scheme])
+
+
+def test_where_a_law_has_a_corner_there_is_no_limit() -> None:
+    """Springs stretched by half that yield below that: their force stays as it is, and no linear one does that."""
+    system = find_scene("string").system({"masses": 4})
+    yielding = replace(system, nonlinear=NonlinearSprings(largest_force=np.array([0.1])))
+    rest = {"rest": (1.5 * system.positions).ravel().tolist(), "contacts": []}
+    question = {"system": system_data(yielding), **rest, "ask": "corner"}
+    assert ask([question, {**question, "system": system_data(system)}]) == [True, False]
 
 
 def test_a_limit_off_by_a_hundred_thousandth_is_seen() -> None:

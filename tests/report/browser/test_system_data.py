@@ -27,8 +27,6 @@ def test_what_the_page_does_not_know_and_what_is_too_large_is_refused() -> None:
     """With the reason: other springs, a table of a truck in too short steps, more masses than a browser steps."""
     with pytest.raises(Unsupported, match="shorter duration"):
         drives_data(find("crossing").setup({}, 1e-5, 0.6))
-    with pytest.raises(Unsupported, match="not linear"):
-        refuse_beyond(find("string").system({"tension_only": 1}))
     with pytest.raises(Unsupported, match="collide"):
         refuse_beyond(find("string").system({"radii": 0.01}))
     with pytest.raises(Unsupported, match="resist bending"):

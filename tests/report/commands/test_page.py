@@ -24,14 +24,14 @@ def test_a_scene_of_one_s_own_is_written(tmp_path: Path) -> None:
     assert "http" not in text.replace("http-equiv", "")
 
 
-#: A spring that only pulls, which the page cannot do; a name that is none.
-ONE_SIDED = 'scene = "string"\n[parameters]\ntension_only = true\n'
+#: Springs that resist bending, which the page cannot do.
+BENT = 'scene = "string"\n[parameters]\nangular_stiffness = 0.1\n'
 
 
 @pytest.mark.parametrize(("scene", "said"), [("rope.toml", "rope"), ("strng", "strng")])
 def test_what_cannot_be_is_refused_by_name(scene: str, said: str, tmp_path: Path) -> None:
     """In one line, and nothing is written."""
-    (tmp_path / "rope.toml").write_text(ONE_SIDED, encoding="utf-8")
+    (tmp_path / "rope.toml").write_text(BENT, encoding="utf-8")
     out, given = tmp_path / "lab.html", tmp_path / scene if scene.endswith("toml") else scene
     with pytest.raises(InputError, match=said):
         CliRunner().invoke(page_command, [str(given), "--out", str(out)], catch_exceptions=False)
