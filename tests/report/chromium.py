@@ -36,6 +36,10 @@ def chromium(*graphics: str) -> Iterator[Any]:
             browser.close()
 
 
+#: A page that draws so many pictures a second, as the processor alone paints them: for who does not count them.
+CALMLY = "window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), 50)"
+
+
 class Shown:
     """A page as it is shown, and what it asked for and complained of meanwhile.
 
@@ -43,7 +47,9 @@ class Shown:
         complaints: errors and warnings in the console.
     """
 
-    def __init__(self, browser: Any, file: Path, view: tuple[int, str, str]) -> None:
+    def __init__(
+        self, browser: Any, file: Path, view: tuple[int, str, str], state: str = "", calmly: bool = False
+    ) -> None:
         width, colours, medium = view
         self._asked: list[str] = []
         self.complaints: list[str] = []
@@ -53,7 +59,9 @@ class Shown:
         self.page.on("request", lambda request: self._asked.append(request.url))
         self.page.on("console", lambda m: self.complaints.append(m.text) if m.type in ("error", "warning") else None)
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        self.page.goto(self._address)
+        if calmly:
+            self.page.add_init_script(CALMLY)
+        self.page.goto(f"{self._address}#{state}" if state else self._address)
 
     @property
     def requests(self) -> list[str]:

@@ -23,6 +23,7 @@ from experiments.exercises.teaching.gradescope import grade_folder, write_zip
 from experiments.exercises.teaching.plot import in_terminal
 from experiments.exercises.teaching.words import UNSEEN
 from experiments.exercises.verdict.judge import judge
+from reference.cache import cache_folder
 from reference.errors import InputError
 from tests.experiments.exercises.corpus import solution, wrong
 from tests.report.commands.terminal import springlab
@@ -281,7 +282,8 @@ def test_the_zip_grades_as_gradescope_would(
 ) -> None:
     """In a fresh folder: source, submission, results, run_autograder beside them, and nothing of this environment.
 
-    Only setup.sh is not run: it asks the package index. What it installs is here already.
+    Only setup.sh is not run: it asks the package index. What it installs is here already; and so are the compiled
+    kernels, each under the digest of all it is made from.
     """
     shutil.copytree(autograder, tmp_path / "source", ignore=shutil.ignore_patterns("*.zip"))
     shutil.copy(autograder / "run_autograder", tmp_path)
@@ -289,6 +291,7 @@ def test_the_zip_grades_as_gradescope_would(
     (tmp_path / "submission" / "whole_state.py").write_text(text)
     patient(tmp_path / "source" / "experiments" / "exercises" / "process" / "sandbox.py")
     bare = {"PATH": os.environ["PATH"], "SPRINGLAB_PYTHON": sys.executable, "HOME": str(tmp_path)}
+    bare["XDG_CACHE_HOME"] = str(cache_folder("kernels").parents[1])
     subprocess.run(["bash", tmp_path / "run_autograder"], env=bare, check=True, cwd=tmp_path)
     document = json.loads((tmp_path / "results" / "results.json").read_text())
     check_results(document)

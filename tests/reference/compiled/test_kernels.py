@@ -41,6 +41,7 @@ def test_loops_are_the_function_to_the_bit_on_a_string(name: str) -> None:
     check_same_bits(find(name), find(name), STRING)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize(("dimension", "threads"), [(3, 1), (2, 2)])
 def test_loops_are_the_function_to_the_bit_on_any_mesh(dimension: int, threads: int) -> None:
     """With fixed masses, by one thread or more."""

@@ -47,9 +47,7 @@ def browser() -> Iterator[Any]:
 
 def opened(browser: Any, file: Path, state: str = "", view: tuple[int, str, str] = VIEWS[0]) -> Shown:
     """The page in a state, its limits computed."""
-    shown = Shown(browser, file, view)
-    if state:
-        shown.page.evaluate("state => { location.hash = state; }", state)
+    shown = Shown(browser, file, view, state, calmly=True)
     until(shown.page, "lab.mode")
     return shown
 

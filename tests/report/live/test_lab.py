@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from reference.errors import InputError
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
+from report.live import stepping
 from report.live.lab import Lab
 from report.live.parameters import PRESETS
 from report.live.status import suggestion
@@ -22,12 +24,13 @@ from tests.report.live.commands import ends
 from tests.report.live.labs import ROUNDING, apart, go_on, move_at_random, open_lab
 
 
+@pytest.mark.usefixtures("by_loops")
 @pytest.mark.parametrize(
     ("scene", "name"),
     [("string", "kick_drift"), ("barrier", "heun"), ("string", "heun_aliased"), ("string", "implicit_midpoint")],
 )
 def test_a_scheme_does_what_a_plain_run_does(labs: list[Lab], scene: str, name: str) -> None:
-    """To the last bit, though loops compiled meanwhile take over. A change one step late is seen: shown to fail."""
+    """To the last bit, though compiled loops take over if they can. A change one step late is seen: shown to fail."""
     lab = open_lab(labs, scene, [name])
     made = move_at_random(lab, 1)
     system, steps = find_scene(scene).system({}), lab.timeline.segment.steps
@@ -35,6 +38,18 @@ def test_a_scheme_does_what_a_plain_run_does(labs: list[Lab], scene: str, name: 
     assert apart(lane.state, simulate(system, find(name), dt, steps * dt, made).states()[-1]) == 0
     late = [replace(change, time=change.time + dt) for change in made]
     assert apart(lane.state, simulate(system, find(name), dt, steps * dt, late).states()[-1]) > 1e-6
+
+
+def test_loops_are_compiled_meanwhile_where_there_are_any() -> None:
+    """They are not waited for, and are there in the end; of a scheme that cannot be compiled nothing is begun."""
+    string, compiled = find_scene("string").system({}), stepping._Compiled()
+    assert not compiled.ready(find("implicit_midpoint"), string)
+    assert compiled._ready == {}
+    assert not compiled.ready(find("kick_drift"), string)
+    deadline = time.monotonic() + 600
+    while not compiled.ready(find("kick_drift"), string):
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
 
 
 def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:

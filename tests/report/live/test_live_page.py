@@ -5,6 +5,7 @@ Every page here has asked for nothing from elsewhere, and had no error in its co
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,28 @@ import viser
 
 from report.live.scenes import names
 from tests.report.live.commands import begins, ends_of
-from tests.report.live.visit import Visitor
+from tests.report.live.visit import Visitor, visit
+
+
+@pytest.fixture(scope="module")
+def only(chromium: Any, address: str) -> Iterator[Visitor]:
+    """One viewer for all tests: most of a visit's time is the page's opening."""
+    with visit(chromium, address) as found:
+        yield found
+
+
+@pytest.fixture
+def visitor(only: Visitor) -> Visitor:
+    """That viewer, at the beginning of the scene that the lab opens with, which plays."""
+    if only.page.get_by_label("lane 1", exact=True).input_value() != "kick_drift":
+        only.choose("lane 1", "kick_drift")
+        only.see("kick_drift")
+    if only.page.get_by_label("scene", exact=True).input_value() == "string":
+        only.choose("scene", "spring")  # and back, as what is open is not opened again
+        only.see("spring, t = ")
+    only.choose("scene", "string")
+    only.see("string, t = ")
+    return only
 
 
 def test_every_scene_opens_and_moves(visitor: Visitor, corpus_part: slice) -> None:

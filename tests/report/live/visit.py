@@ -26,7 +26,7 @@ WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshad
 PATIENCE, FAREWELL = 600_000, 600
 
 #: So many pictures a second, each of so many points to a pixel along each side: the processor alone draws them.
-PICTURES, GRAIN = 10, 0.5
+PICTURES, GRAIN = 5, 0.5
 SLOWLY = f"window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), {1000 // PICTURES})"
 
 #: What viser's own page has to say against itself when something is dragged; nothing comes of it.
