@@ -10,12 +10,19 @@ from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 
 
-def energy(system: MassSpringSystem, state: State) -> float:
+def energy(system: MassSpringSystem, state: State, begin: Array | None = None) -> float:
     """Kinetic, elastic and gravitational energy together [J]: sum m v^2/2 + that of springs and bends - sum m g.x.
 
     A pull F on a mass counts as its weight does: -F.x, among the gravitational.
+
+    Args:
+        begin: places (n, d) [m] that x counts from, in place of the origin: where weights change on the way, energy
+            from the origin jumps by as much as that is far away.
     """
-    return energy_parts(system, state)["total"]
+    total = energy_parts(system, state)["total"]
+    if begin is None:
+        return total
+    return total + float(system.masses @ (begin @ system.gravity) + (system.pulls * begin).sum())
 
 
 def energy_parts(system: MassSpringSystem, state: State) -> dict[str, float]:

@@ -60,6 +60,7 @@ class Preset:
         data = scene_data(setup, summary, slides, self.scene)
         data |= {
             "name": self.name or self.stem,
+            "scene": self.stem,
             "title": self.title,
             "settings": dict(self.settings),
             "magnified": self.magnified,

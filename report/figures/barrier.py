@@ -11,7 +11,7 @@ from experiments.barrier import OWN, STEPS, Slide, predicted
 from experiments.experiment import Result
 from reference.obstacles import Circle
 from reference.state import Trajectory
-from report.figures import Picture, few_ticks, from_nothing, look, new_figure, powers
+from report.figures import COLOURS, Picture, few_ticks, from_nothing, look, new_figure, powers
 from report.figures.filmstrip import Strip, draw_row
 
 #: When the string is drawn [s], and how far a frame reaches to either side of the anchor, below and above it [m].
@@ -30,10 +30,11 @@ def draw(result: Result) -> Picture:
     figure, axes = new_figure(figsize=(11, 9.5), nrows=3, ncols=2, gridspec_kw={"height_ratios": (2.2, 1, 1)})
     angles, depths = axes[0]
     for i, (label, found) in enumerate(_alike(result.data["slides"]).items()):
+        again = {"linestyle": "--" if i >= len(COLOURS) else "-"}  # colours begin anew: so do their lines, in dashes
         last = [np.nan if slide is None else np.degrees(slide.last) for slide in found]
         deep = [np.nan if slide is None else max(slide.depth, FLOOR) for slide in found]
-        angles.plot(STEPS, last, label=label, **look(i))
-        depths.plot(STEPS, deep, **look(i))
+        angles.plot(STEPS, last, label=label, **look(i), **again)
+        depths.plot(STEPS, deep, **look(i), **again)
     for fraction, says in ((2 / 3, "cos = 2/3: true"), (1 / 2, "cos = 1/2: held on")):
         height = np.degrees(predicted(fraction=fraction))
         angles.axhline(height, color="#333333", linewidth=1, linestyle=":")

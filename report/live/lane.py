@@ -14,9 +14,6 @@ from reference.system import MassSpringSystem, Value
 from report.live.prediction import Prediction
 from report.live.stepping import Stepping, Stopped, stepping
 
-#: What is so many times as long, far or fast as it may be is no physics any more, and the eye need not wait for more.
-RATIO = 20.0
-
 
 class Lane:
     """A system under one stepper. One that stops keeps its last good state, and its reason.
@@ -88,8 +85,11 @@ class Lane:
 
     @property
     def energy(self) -> float:
-        """[J]."""
-        return energy(self._stepped, self.state)
+        """[J], with heights from where the scene's masses start: weights may change, as on ground that shakes."""
+        begin = np.zeros_like(self.state.positions)
+        n = len(self._scene.masses)
+        begin[:n] = self._scene.positions[:n]
+        return energy(self._stepped, self.state, begin)
 
     def _stop(self, reason: str, blown_up: bool = False) -> None:
         self.stopped, self.blown_up = reason, blown_up
@@ -99,7 +99,7 @@ class Lane:
         """How a state has left physics behind, or None if it has not."""
         n = len(self._scene.masses)
         now = State(state.time, state.positions[:n], state.velocities[:n])
-        return blow_up(self._scene, Trajectory.of([self._scene.start, now]), RATIO, self._changed())
+        return blow_up(self._scene, Trajectory.of([self._scene.start, now]), changes=self._changed())
 
     def _changed(self) -> list[Change]:
         """What has been changed on the fly, as far as it gives a system more energy."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -216,3 +218,16 @@ def test_energies_of_a_trajectory_are_those_of_its_states() -> None:
         one_by_one = [energy(system, state) for state in trajectory.states()]
         size = max(1.0, float(np.abs(one_by_one).max()))
         np.testing.assert_allclose(energies(system, trajectory), one_by_one, rtol=0, atol=1e-14 * size)
+
+
+def test_energy_from_where_a_motion_begins_is_not_changed_by_weights_that_change_there() -> None:
+    """At the start m g.(x - x0) = 0 whatever g; and it is the energy from the origin but for one constant."""
+    system = moving_string()
+    begin = system.positions + 7.0
+    state = replace(system.start, positions=system.positions + 7.0)
+    turned = system.with_parameter("gravity", (3.0, -2.0))
+    kept = [energy(one, state, begin) for one in (system, turned)]
+    assert kept[0] == pytest.approx(kept[1], rel=1e-12)  # to rounding of m g.x, some ten times as large
+    assert energy(system, state) != pytest.approx(energy(turned, state), rel=0.1)
+    along = system.masses @ (begin @ system.gravity)
+    assert energy(system, system.start, begin) - energy(system, system.start) == pytest.approx(along)

@@ -47,7 +47,8 @@ function showScene() {
   const slides = lab.scene.slides ? ` (${slidesSaid(lab.scene.slides)})` : "";
   $("not-taken").textContent = lab.refused.length ? say("not_taken", {parts: lab.refused.join(", ")}) : "";
   const kinds = Object.keys(lab.scene.system.nonlinear || {}).map(name => say(name));
-  $("summary").textContent = lab.scene.summary + slides + (kinds.length ? ` ${say("kinds", {kinds: kinds.join(", ")})}` : "");
+  const summary = WORDS[language][`scene_${lab.scene.scene}`] || lab.scene.summary;
+  $("summary").textContent = summary + slides + (kinds.length ? ` ${say("kinds", {kinds: kinds.join(", ")})}` : "");
 }
 
 function swatch(k) {
