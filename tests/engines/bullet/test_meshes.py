@@ -216,6 +216,17 @@ def test_a_shape_with_the_rest_lengths_is_found(name: str) -> None:
     assert np.abs(start - system.rest_lengths).max() > 1e-4
 
 
+def test_a_mesh_of_any_size_that_has_its_rest_lengths_is_its_own_shape() -> None:
+    """None is looked for, which on so many masses would be refused."""
+    cloth = find_scene("cloth").system({"rows": 25, "columns": 25})
+    a, b = cloth.springs.T
+    at_rest = replace(cloth, rest_lengths=np.linalg.norm(cloth.positions[b] - cloth.positions[a], axis=1))
+    guess = in_space(cloth.positions)
+    assert rest_shape(at_rest, guess) is guess
+    with pytest.raises(Unsupported, match="more than 600 masses"):
+        rest_shape(replace(cloth, rest_lengths=1.1 * at_rest.rest_lengths), guess)
+
+
 def test_a_shape_that_cannot_be_is_not_found() -> None:
     """A triangle with a side longer than the other two together."""
     triangle = on_springs(PLACES[:3], [[0, 1], [1, 2], [0, 2]], [0])

@@ -12,7 +12,7 @@ from reference.scenes import find, scenes
 from report.browser.changes import drives_data
 from report.browser.presets import PRESETS, Preset
 from report.browser.recordings import Recording, largest_error, quantised, recording_data
-from report.browser.system_data import refuse_beyond, system_data
+from report.browser.system_data import refuse_beyond, scene_data, system_data
 
 
 def test_a_number_that_all_have_is_written_once() -> None:
@@ -21,6 +21,14 @@ def test_a_number_that_all_have_is_written_once() -> None:
     assert (data["masses"], data["stiffness"], data["velocities"]) == (0.5, 40.0, 0.0)
     assert len(data["rest_lengths"]) == data["s"]
     assert len(data["positions"]) == data["n"] * data["d"]
+
+
+def test_a_scene_has_the_command_lines_words_for_it() -> None:
+    """Its name, where no others are given."""
+    setup = find("spring").setup({}, 1e-3, 0.5)
+    assert scene_data(setup)["command"] == "spring"
+    assert scene_data(setup, command="spring --set mass=2")["command"] == "spring --set mass=2"
+    assert (scene_data(setup)["dt"], scene_data(setup)["duration"]) == (1e-3, 0.5)
 
 
 def test_what_the_page_does_not_know_and_what_is_too_large_is_refused() -> None:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
-from experiments.energy import DURATION
+from experiments.energy import DURATION, result_of
 from report.figures import COLOURS
-from report.figures.energy import FLOOR, HIGHEST, LOOKS, LOWEST, SPANS
+from report.figures.energy import FLOOR, HIGHEST, LOOKS, LOWEST, SPANS, draw
 from tests.experiments.canned import energy
 from tests.experiments.canned.reading import records
+from tests.experiments.canned.steppers import Named
 from tests.report.figures.artists import data, marks, text, tick_labels, verticals, words
 from tests.report.figures.shown import result, shown
 
@@ -73,6 +76,16 @@ def test_labels_say_what_was_measured_and_what_was_predicted_where_it_is_not_tha
     diverged = text(above(), "diverged at 4 s")
     assert diverged.get_text().startswith("euler: growing")
     assert diverged.xy == (pytest.approx(energy.TORN), pytest.approx(100.0))
+
+
+def test_labels_of_those_that_diverged_are_to_the_right_of_all_their_ends() -> None:
+    """One tears at 4 s, another at half of that: a label further left would lie over the longer line."""
+    late = energy.torn()
+    many = late.times <= energy.TORN / 2
+    early = replace(late, stepper=Named("tears_early"), alike=None, times=late.times[many], errors=late.errors[many])
+    axes = draw(result_of([*energy.rows(), early])).figure.axes[0]
+    labels = [text(axes, f"diverged at {time:g} s") for time in (energy.TORN, energy.TORN / 2)]
+    assert all(label.get_position()[0] > energy.TORN / DURATION for label in labels)
 
 
 def test_axes_have_units_and_what_is_beyond_them_is_said() -> None:
