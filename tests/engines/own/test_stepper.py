@@ -257,3 +257,17 @@ def test_a_c_file_is_a_stepper(tmp_path: Path) -> None:
     assert outcome.ending == "crashed"
     assert outcome.reason.startswith("bad.c, line 11: ")
     assert own.SUFFIXES == (".py", ".c")
+
+
+def test_who_writes_into_what_was_read_changes_no_run() -> None:
+    """Positions and velocities are handed out as copies, as every engine does."""
+
+    def step(x, v, dt, system):  # type: ignore[no-untyped-def]
+        return x + dt * v, v
+
+    running = stepper_of(step).engine.start(STRING, DT)
+    running.step()
+    before = [array.tolist() for array in running.state()]
+    for array in running.state():
+        array[...] = 99.0
+    assert [array.tolist() for array in running.state()] == before
