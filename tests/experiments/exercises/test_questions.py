@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from experiments.exercises.exercise import Exercise, exercises
+from experiments.exercises.solutions.links import random_string
 from tests.reference.systems import label
 
 
@@ -22,3 +23,18 @@ def test_a_string_of_so_many_masses_has_so_many(exercise: Exercise, hidden: bool
                 *states, string = question.arguments[:3]
                 sizes = {len(array) for array in (*states, *(string[n] for n in ("masses", "stiffness", "damping")))}
                 assert sizes == {int(counted[1])}, question.about
+
+
+def test_random_strings_are_stretched_and_pushed_together_in_all_downward_directions() -> None:
+    """Springs of 1.1 to 1.4 rest lengths, or 0.7 of that; to the left and to the right below what holds them."""
+    positions, _, string = random_string(np.random.default_rng(1), 200)
+    steps = np.diff(positions, axis=0, prepend=string["anchor"][None])
+    ratios = np.linalg.norm(steps, axis=1) / string["rest_lengths"]
+    stretched = (ratios >= 1.1) & (ratios <= 1.4)
+    pushed = (ratios >= 0.77) & (ratios <= 0.98)
+    assert (stretched | pushed).all()
+    assert stretched.any()
+    assert pushed.any()
+    assert (steps[:, 1] < 0).all()
+    assert (steps[:, 0] < 0).any()
+    assert (steps[:, 0] > 0).any()

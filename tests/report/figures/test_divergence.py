@@ -29,6 +29,13 @@ def test_lines_are_the_tables_and_full_is_measured() -> None:
     assert ring.get_color() == measured[0].get_color() != measured[1].get_color()
 
 
+def test_it_is_as_high_as_its_labels_need_and_no_higher() -> None:
+    """At least 5.8 inches; one line of a label is a sixth of an inch."""
+    figure = shown("divergence").figure
+    lines = sum(1 + said.count("\n") for said in words(figure.axes[0]))
+    assert 5.8 <= figure.get_size_inches()[1] <= max(5.8, 0.17 * (lines + 4))
+
+
 def test_axes_have_units_and_zero_is_none() -> None:
     """Logarithmic in metres, over the whole time."""
     axes = shown("divergence").figure.axes[0]

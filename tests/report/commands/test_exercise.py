@@ -1,0 +1,49 @@
+"""Who is a class and who is one submission: what `springlab exercise check` does with what it is given."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from report.commands import exercise
+from report.commands.exercise import check_command
+
+PROGRAM = 'EXERCISE = "euler"\nSEED = "ada"\n\n\ndef step(y, v, dt, spring):\n    return y, v\n'
+
+
+@pytest.fixture
+def checked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Which of the two was done; nothing is run."""
+    done: list[str] = []
+    monkeypatch.setattr(exercise, "_check_class", lambda *given: done.append("class"))
+    monkeypatch.setattr(exercise, "_check_one", lambda *given: done.append("one"))
+    return done
+
+
+@pytest.mark.parametrize(
+    ("files", "options", "expected"),
+    [
+        (("a.py",), (), "one"),
+        (("a.py", "b.py"), (), "class"),
+        (("a.py",), ("--csv", "grades.csv"), "class"),
+        (("a.py", "b.py"), ("--csv", "grades.csv"), "class"),
+        ((".",), (), "class"),
+    ],
+)
+def test_several_files_or_a_table_are_a_class(
+    files: tuple[str, ...],
+    options: tuple[str, ...],
+    expected: str,
+    checked: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """One file is a student's own, who is shown a plot."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("a.py", "b.py"):
+        Path(name).write_text(PROGRAM, encoding="utf-8")
+    ran = CliRunner().invoke(check_command, [*files, *options], catch_exceptions=False)
+    assert ran.exit_code == 0
+    assert checked == [expected]
