@@ -22,7 +22,8 @@ from experiments.exercises.handed_in.parsing import PARSING, parsed
 from experiments.exercises.handed_in.submission import Language
 from experiments.exercises.process import sandbox
 from experiments.exercises.process.sandbox_errors import NotGradedError
-from experiments.exercises.repair.source_edits import Edit, edits_of, without_main
+from experiments.exercises.repair.edit import Edit
+from experiments.exercises.repair.source_edits import edits_of, without_main
 from experiments.exercises.repair.source_search import fields_given
 from experiments.exercises.verdict import findings
 from experiments.exercises.verdict.answer_catalogue import AnswerCatalogue, catalogue_of
@@ -53,7 +54,7 @@ class Effort:
     Where the mistake has a name already no pairs are tried, and single changes for this share of the time.
     """
 
-    singles: float = 1.7
+    singles: float = 1.2
     pairs: float = 0.7
     named: float = 1.0
 
@@ -120,7 +121,7 @@ def look_closer(
     if verdict.outcome in NOT_SEARCHED or any(f.name in NOT_FOR for f in verdict.findings) or not exercise.searched:
         return CloserLook()
     effort = effort or Effort()
-    if verdict.outcome in ("mistake", "mistakes"):
+    if _is_named(verdict):
         effort = Effort(effort.named * effort.singles, 0.0)
     if language == "c":
         return _look_closer_at_c(exercise, source, verdict, limits)
@@ -138,7 +139,7 @@ def look_closer(
         return CloserLook(complete=False)
     if reply.ended != "done" or reply.error is not None:
         return CloserLook(complete=False)
-    seen = looks.seen(reply.answers, source)
+    seen = looks.seen(reply.answers, source, "python")
     with PARSING:
         repairs = [
             r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)
@@ -162,7 +163,12 @@ def _look_closer_at_c(exercise: Exercise, source: str, verdict: Verdict, limits:
         return CloserLook(complete=False)
     if reply.ended != "done" or reply.error is not None:
         return CloserLook(warned)
-    return CloserLook((*warned, *looks.seen(reply.answers, None)))
+    return CloserLook((*warned, *looks.seen(reply.answers, source, "c")))
+
+
+def _is_named(verdict: Verdict) -> bool:
+    """Whether the mistake has a name; that there is no number in some answers says little of why."""
+    return verdict.outcome in ("mistake", "mistakes") and verdict.name != "not_a_number"
 
 
 class _Looks:
@@ -172,7 +178,7 @@ class _Looks:
         runs = verdict.outcome != "error"
         self._catalogue, self._runs = catalogue, runs
         self._line = next((f.line for f in verdict.findings if f.line is not None), None)
-        self._named = verdict.outcome in ("mistake", "mistakes")
+        self._named = _is_named(verdict)
         self._cases = special_cases.cases(catalogue) if runs else []
         self._terms = terms.cases(catalogue) if runs else []
         self._swinging = derived_step.questions(exercise, catalogue.questions) if runs else []
@@ -182,18 +188,18 @@ class _Looks:
         cases = [*(case.question for case in self._cases), *(case.question for case in self._terms)]
         return [question.asked() for question in [*self._catalogue.questions, *cases, *self._swinging]]
 
-    def seen(self, answers: Sequence[Mapping[str, Any]], source: str | None) -> list[Finding]:
-        """What the answers show; the source where its lines can be read."""
+    def seen(self, answers: Sequence[Mapping[str, Any]], source: str, language: Language) -> list[Finding]:
+        """What the answers show."""
         if not self._runs:
-            return parts.of_an_error(source, self._line) if source is not None else []
+            return parts.of_an_error(source, self._line) if language == "python" else []
         rest = list(answers)
         own, cases, of_terms, swinging = (
             [rest.pop(0) for _ in part]
             for part in (self._catalogue.questions, self._cases, self._terms, self._swinging)
         )
         found = special_cases.seen(self._catalogue, self._cases, [*own, *cases]) if self._cases else []
-        found += terms.seen(self._catalogue, self._terms, of_terms, self._named)
-        found += parts.seen(self._catalogue, own, source)
+        found += terms.seen(self._catalogue, self._terms, of_terms, source, self._named)
+        found += parts.seen(self._catalogue, own, source, language)
         return found + derived_step.seen(self._catalogue.exercise, self._swinging, swinging)
 
 

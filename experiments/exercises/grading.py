@@ -127,7 +127,7 @@ def row_of(submission: Submission, given: Grade, key: str | None) -> dict[str, s
         finding=verdict.name,
         words=" ".join(f.words for f in verdict.findings),
         departs=str(verdict.first_difference or ""),
-        seen=" ".join(f.words for f in given.closer.findings),
+        seen=" ".join(f.words for f in (*given.closer.findings, *verdict.remarks)),
         look_at=places(given.closer),
         change="; or: ".join(r.change for r in given.closer.told) if key is not None else "",
         seconds=f"{given.seconds:.2f}",

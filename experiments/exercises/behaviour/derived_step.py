@@ -8,17 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from itertools import product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.verdict.findings import Finding, listed
-from reference.derivation.fit import Samples, formula_of
-from reference.derivation.formula import Formula
-from reference.derivation.oscillators import ASIDE, DT, FEW, ROUNDINGS, samples
-from reference.identification.scale import ROUNDING
 from reference.state import Array
+
+if TYPE_CHECKING:
+    from reference.derivation.fit import Samples
+    from reference.derivation.formula import Formula
 
 #: Fields by which the last argument of a step is told to be one spring, or a string.
 SPRING, STRING = {"mass", "stiffness", "damping"}, {"masses", "stiffness", "drag", "anchor"}
@@ -38,6 +38,8 @@ def questions(exercise: Exercise, asked: Sequence[Question]) -> list[Question]:
     make = next((made for question in asked if (made := _maker(question)) is not None), None)
     if make is None:
         return []
+    from reference.derivation.oscillators import ASIDE, DT  # half a second, which other exercises have no need of
+
     at = _samples()
     cases = list(zip(at.a.tolist(), at.b.tolist(), strict=True))
     return [
@@ -50,6 +52,8 @@ def questions(exercise: Exercise, asked: Sequence[Question]) -> list[Question]:
 
 def _samples() -> Samples:
     """With one kind of damping: a spring's of one mass, or the drag of a string, which act alike on it."""
+    from reference.derivation.oscillators import FEW, samples
+
     return samples(True, False, FEW)
 
 
@@ -88,6 +92,12 @@ def seen(exercise: Exercise, asked: Sequence[Question], answers: Sequence[Mappin
     Args:
         asked: what `questions` made. answers: those of the submission to it.
     """
+    if not asked:
+        return []
+    from reference.derivation.fit import formula_of
+    from reference.derivation.oscillators import FEW, ROUNDINGS
+    from reference.identification.scale import ROUNDING
+
     own = _matrices(asked, [_ends(answer["values"][:1]) for answer in answers])
     right = _matrices(asked, [_ends([exercise.answer(question, {}, 1)[0]]) for question in asked])
     if own is None or right is None:
@@ -138,6 +148,8 @@ def _ends(values: Sequence[Sequence[Any]]) -> tuple[float, float] | None:
 
 def _matrices(asked: Sequence[Question], ends: Sequence[tuple[float, float] | None]) -> Array | None:
     """Step matrices, shape (n, 2, 2); None where an answer is missing, or not finite."""
+    from reference.derivation.oscillators import ASIDE
+
     numbers = np.array([end for end in ends if end is not None])
     if not ends or len(numbers) < len(asked) or not np.isfinite(numbers).all():
         return None

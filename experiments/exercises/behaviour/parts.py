@@ -12,7 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from experiments.exercises.c.text import lines_that_write
 from experiments.exercises.handed_in.parsing import parsed
+from experiments.exercises.handed_in.submission import Language
 from experiments.exercises.verdict.answer_catalogue import AnswerCatalogue
 from experiments.exercises.verdict.findings import Finding, listed
 
@@ -23,11 +25,13 @@ SAME = 1e-9
 MOST_LINES = 3
 
 
-def seen(catalogue: AnswerCatalogue, answers: Sequence[Mapping[str, Any]], source: str | None) -> list[Finding]:
+def seen(
+    catalogue: AnswerCatalogue, answers: Sequence[Mapping[str, Any]], source: str, language: Language = "python"
+) -> list[Finding]:
     """What the answers to the catalogue's questions show.
 
     Args:
-        source: the program's text, where it is in Python.
+        source: the program's text.
     """
     right = _right_parts(catalogue, answers)
     good = [key for key, ok in right.items() if ok]
@@ -35,7 +39,7 @@ def seen(catalogue: AnswerCatalogue, answers: Sequence[Mapping[str, Any]], sourc
     if not good or not bad:
         return []
     parts = {question.function: question.parts for question in catalogue.questions}
-    lines = _lines(source, bad, parts)
+    lines = _lines(source, bad, parts) if language == "python" else _lines_in_c(source, bad, parts)
     words = f"Right in your first answers {_is(good)} {_named(good, parts)}; {_named(bad, parts)} {_is(bad)} not"
     place = f", and {'get their values' if len(bad) > 1 else 'gets its value'} in {_at(lines)}" if lines else ""
     return [Finding("right_and_wrong_parts", f"{words}{place}.", "How is that computed?", lines=tuple(lines))]
@@ -89,10 +93,16 @@ def _same(given: Any, want: Any, tolerance: float) -> bool:
         return bool((np.abs(numbers - others) <= tolerance * max(np.abs(others).max(initial=0.0), 1e-300)).all())
 
 
-def _lines(source: str | None, bad: Sequence[tuple[str, str]], parts: Mapping[str, Sequence[str]]) -> list[int]:
+def _lines_in_c(source: str, bad: Sequence[tuple[str, str]], parts: Mapping[str, Sequence[str]]) -> list[int]:
+    """Where what is wrong is written, if these are few lines."""
+    found = {line for f, part in bad for line in lines_that_write(source, f, list(parts[f]).index(part))}
+    return sorted(found) if len(found) <= MOST_LINES else []
+
+
+def _lines(source: str, bad: Sequence[tuple[str, str]], parts: Mapping[str, Sequence[str]]) -> list[int]:
     """Where what is wrong gets its values, if these are few lines."""
     try:
-        tree = parsed(source or "")
+        tree = parsed(source)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
     found: set[int] = set()
@@ -109,15 +119,34 @@ def lines_of_part(tree: ast.Module, function: str, place: int, count: int) -> It
     [2]
     """
     own = next((n for n in tree.body if isinstance(n, ast.FunctionDef) and n.name == function), None)
+    yield from _lines_of_part(tree, own, place, count, [])
+
+
+def _lines_of_part(
+    tree: ast.Module, own: ast.FunctionDef | None, place: int, count: int, seen: Sequence[ast.FunctionDef]
+) -> Iterator[int]:
+    """The same; where what another function returns is returned, those of that one."""
     for node in ast.walk(own) if own else ():
         if isinstance(node, ast.Return) and node.value is not None:
             value = node.value
+            called = _function_called(tree, value)
+            if called is not None and called not in seen:
+                yield from _lines_of_part(tree, called, place, count, [*seen, called])
+                continue
             if count > 1 and isinstance(value, ast.Tuple | ast.List) and len(value.elts) == count:
                 value = value.elts[place]
             elif count > 1:
                 continue
             assigned = list(_sources(own, value)) if isinstance(value, ast.Name) else []
             yield from assigned or [value.lineno]
+
+
+def _function_called(tree: ast.Module, value: ast.expr) -> ast.FunctionDef | None:
+    """The program's own function or method that a value is the result of, if there is one of that name."""
+    called = value.func if isinstance(value, ast.Call) else None
+    name = called.attr if isinstance(called, ast.Attribute) else called.id if isinstance(called, ast.Name) else None
+    found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == name]
+    return found[0] if len(found) == 1 else None
 
 
 def _sources(function: ast.FunctionDef | None, name: ast.Name) -> Iterator[int]:

@@ -8,6 +8,7 @@ shorter dt: where only its second slope is wrong it comes near the right one as 
 from __future__ import annotations
 
 import inspect
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -23,6 +24,17 @@ SAME = 1e-9
 
 #: A shorter dt, as a part of the question's; and half of it.
 SHORTER = (1 / 64, 1 / 128)
+
+#: The fields that a term is made of.
+MADE_OF = {
+    "the weight": ("gravity",),
+    "the drag": ("drag",),
+    "the damping": ("damping",),
+    "the spring": ("stiffness", "rest_length"),
+}
+
+#: Of more lines than these none is told.
+MOST_LINES = 3
 
 #: By what an error shrinks with half the dt: where the first slope is wrong, and where only the second is.
 OF_THE_FIRST, OF_THE_SECOND = (1.9, 2.1), (3.6, 4.4)
@@ -100,11 +112,16 @@ def _on_one_spring(question: Question, fields: Mapping[str, Any]) -> Iterator[tu
 
 
 def seen(
-    catalogue: AnswerCatalogue, made: Sequence[TermCase], answers: Sequence[Mapping[str, Any]], named: bool = False
+    catalogue: AnswerCatalogue,
+    made: Sequence[TermCase],
+    answers: Sequence[Mapping[str, Any]],
+    source: str = "",
+    named: bool = False,
 ) -> list[Finding]:
     """What the answers to the cases show.
 
     Args:
+        source: the program's text.
         named: whether the mistake has a name, which says more than which slope is wrong.
     """
     exercise = catalogue.exercise
@@ -112,7 +129,7 @@ def seen(
         (case, _numbers(exercise, case.question, answer), exercise.answer(case.question, {}, 1))
         for case, answer in zip(made, answers, strict=True)
     ]
-    of_terms = _of_terms([row for row in rows if row[0].term])
+    of_terms = _of_terms([row for row in rows if row[0].term], source)
     return of_terms if named else [*of_terms, *_of_slopes([row for row in rows if not row[0].term])]
 
 
@@ -144,7 +161,7 @@ def _is_right(row: _Row) -> bool:
     return True
 
 
-def _of_terms(rows: Sequence[_Row]) -> list[Finding]:
+def _of_terms(rows: Sequence[_Row], source: str) -> list[Finding]:
     """Terms that are right in all questions, and terms that are wrong in one; nothing where all are alike."""
     right: dict[str, bool] = {}
     for row in rows:
@@ -153,7 +170,27 @@ def _of_terms(rows: Sequence[_Row]) -> list[Finding]:
     if not good or not bad:
         return []
     words = f"Asked for one term at a time, yours has {listed(good)} right, and {listed(bad)} wrong."
-    return [Finding("right_and_wrong_terms", words, f"Where in your text is {bad[0]}?")]
+    lines = sorted({line for term in bad for name in MADE_OF.get(term, ()) for line in lines_with(source, name)})
+    hint = f"Where in your text is {bad[0]}?"
+    if not lines or len(lines) > MOST_LINES or not all(term in MADE_OF for term in bad):
+        return [Finding("right_and_wrong_terms", words, hint)]
+    words = f"{words} What is read for it stands in line{'s' * (len(lines) > 1)} {listed([str(n) for n in lines])}."
+    return [Finding("right_and_wrong_terms", words, hint, lines=tuple(lines))]
+
+
+def lines_with(source: str, field: str) -> list[int]:
+    r"""Where a field of what is given is read, in Python or C; where it has got a name of its own, that name.
+
+    >>> lines_with("double g = s->gravity;\nf[1] = -m * g;\nf[0] = 0;", "gravity")
+    [2]
+    """
+    text = re.sub(r"//.*|#.*", "", source).split("\n")
+    read = [i for i, line in enumerate(text, 1) if re.search(rf"(\.|->)\s*{field}\b", line)]
+    named = [re.search(rf"\b(\w+)\s*=\s*\w+(\.|->){field}\s*[;,]?\s*$", text[i - 1]) for i in read]
+    if len(read) != 1 or named[0] is None:
+        return read
+    own = named[0][1]
+    return [i for i, line in enumerate(text, 1) if i not in read and re.search(rf"(?<![\w.]){own}\b", line)]
 
 
 def _of_slopes(rows: Sequence[_Row]) -> list[Finding]:

@@ -43,6 +43,27 @@ def whole_divisions(source: str) -> list[tuple[int, str]]:
     return [(text.count("\n", 0, m.start()) + 1, f"{a} / {b}") for m, a, b in divided if b == 0 or a % b]
 
 
+def lines_that_write(source: str, function: str, place: int) -> list[int]:
+    r"""The lines on which a function writes into an array that it is given, or where a pointer leads.
+
+    Args:
+        place: which one, of those that it may write into.
+
+    >>> lines_that_write("void step(double *y, double *v)\n{\n    *y += *v;\n    *v = 0;\n}", "step", 1)
+    [4]
+    """
+    text = SILENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), source)
+    begin = re.search(rf"\b{function}\s*\(([^){{;]*)\)\s*{{", text)
+    given = [p for p in begin[1].split(",") if re.search(r"[*\[]", p) and "const" not in p] if begin else []
+    if begin is None or place >= len(given):
+        return []
+    name = re.findall(r"\w+(?=\s*(?:\[[^]]*\]\s*)*$)", given[place].strip())
+    end = re.compile(r"^}", re.MULTILINE).search(text, begin.end())
+    written = rf"(?<![\w.>])(?:\*\s*)?{name[-1] if name else '-'}\s*(?:\[[^]]*\]\s*)*[-+*/]?=(?!=)"
+    found = re.finditer(written, text[: end.start() if end else len(text)])
+    return sorted({text.count("\n", 0, m.start()) + 1 for m in found if m.start() > begin.end()})
+
+
 def told_by_overflow(
     exercise: Exercise, questions: Sequence[Question], answers: Sequence[Mapping[str, Any]]
 ) -> Mistake | None:

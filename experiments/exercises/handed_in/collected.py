@@ -23,6 +23,9 @@ from reference.errors import InputError
 #: How many files a zip may have, and how much [bytes] is taken out of it at most.
 MOST_FILES, MOST_BYTES = 10_000, 2**28
 
+#: What students hand in beside programs, and teachers have no lists in.
+DOCUMENTS = (".pdf", ".doc", ".docx", ".odt", ".rtf", ".png", ".jpg", ".jpeg", ".html")
+
 MOODLE = re.compile(r"^(?P<name>.+?)_(?P<id>\d+)_assignsubmission_\w+$")
 BRIGHTSPACE = re.compile(r"^(?P<id>\d+-\d+) - (?P<name>.+?) - .+$")
 CANVAS = re.compile(r"^(?P<name>[a-z0-9-]+?)(_LATE)?_(?P<id>\d+)_\d+_.+$", re.IGNORECASE)
@@ -62,6 +65,8 @@ def student_of(name: str) -> str:
 def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
     """All programs and notebooks in a folder or a zip, in zips within it, and in zips in these.
 
+    Of a student who has handed in none of these, the newest of what there is: it gets a row that says so.
+
     Args:
         unpacked: an empty folder to unpack zips into.
 
@@ -72,6 +77,7 @@ def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
         raise InputError(f"{folder}: expected a folder, or a zip")
     files = [folder] if folder.is_file() else sorted(p for p in folder.rglob("*") if p.is_file() and not p.is_symlink())
     found: list[HandedIn] = []
+    others: list[HandedIn] = []
     for path in files:
         name = path.name if path == folder else path.relative_to(folder).as_posix()
         if any(part.startswith((".", "__")) for part in PurePosixPath(name).parts):
@@ -80,11 +86,30 @@ def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
             # the whole class in one zip has students inside; a student's own zip is the student's
             prefix = "" if path == folder else f"{PurePosixPath(name).with_suffix('')}/"
             found += _of_zip(path, name, prefix, unpacked / f"zip{len(found)}")
-        elif path.suffix.lower() in SUFFIXES:
-            found.append(HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime)))
-    if not found:
+        elif path.suffix.lower() in SUFFIXES or _is_a_students(name):
+            to = found if path.suffix.lower() in SUFFIXES else others
+            to.append(HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime)))
+    programs = [file for file in found if file.path.suffix.lower() in (*SUFFIXES, ".zip")]
+    if not programs:
         raise InputError(f"{folder}: expected Python or C files, notebooks or zips in it")
-    return found
+    others += [file for file in found if file not in programs]
+    return [*programs, *_of_those_without(programs, others)]
+
+
+def _is_a_students(name: str) -> bool:
+    """Whether a file that is no program was handed in by somebody: it is in a folder, or what nobody has but students.
+
+    >>> [_is_a_students(name) for name in ("eve/plot.png", "lovelaceada_12_3_report.docx", "eve.pdf", "students.csv")]
+    [True, True, True, False]
+    """
+    return "/" in name or CANVAS.match(name) is not None or PurePosixPath(name).suffix.lower() in DOCUMENTS
+
+
+def _of_those_without(programs: Sequence[HandedIn], others: Sequence[HandedIn]) -> list[HandedIn]:
+    """The newest of what is no program, of each student who has handed in nothing else."""
+    there = {file.student for file in programs}
+    newest = {file.student: file for file in sorted(others, key=lambda file: file.when) if file.student not in there}
+    return list(newest.values())
 
 
 def files_in(paths: Sequence[Path], unpacked: Path) -> list[tuple[Path, str]]:
@@ -135,6 +160,12 @@ def _out_of_zip(path: Path, prefix: str, into: Path, inner: bool) -> Iterator[Ha
                 hidden = any(part.startswith((".", "__")) for part in inside.parts) or inside.is_absolute()
                 zipped = inside.suffix.lower() == ".zip" and not inner and not entry.is_dir()
                 program = inside.suffix.lower() in SUFFIXES and entry.file_size <= LARGEST
+                if not (hidden or zipped or program or entry.is_dir() or prefix) and _is_a_students(str(inside)):
+                    # no program, and whose it is is told: it is not unpacked
+                    when = datetime(*entry.date_time)
+                    yield HandedIn(
+                        into / f"{i}{inside.suffix.lower() or '.none'}", str(inside), student_of(str(inside)), when
+                    )
                 if hidden or not (zipped or program):
                     continue
                 taken += entry.file_size

@@ -29,7 +29,11 @@ MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM
 SAYS_ITS_ENCODING = re.compile(rb"^[ \t\f]*#.*?coding[:=]")
 
 #: What programs and notebooks are called.
-NOTEBOOK, IN_C, SUFFIXES = ".ipynb", ".c", (".py", ".ipynb", ".c")
+NOTEBOOK, IN_C = ".ipynb", (".c", ".cpp", ".cc", ".cxx")
+SUFFIXES = (".py", NOTEBOOK, *IN_C)
+
+#: What else may hold a program, where a file is named by itself.
+PLAIN = ("", ".txt")
 
 #: What they are written in.
 Language = Literal["python", "c"]
@@ -83,7 +87,7 @@ def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = 
         InputError: for a file that is not a submission, by name.
     """
     source = source_of(path, name)
-    in_c = path.suffix.lower() == IN_C
+    in_c = path.suffix.lower() in IN_C
     says = header_in_c(source) if in_c else header(source)
     if exercise is None and says.get("EXERCISE") is None:
         line = "#define EXERCISE 4" if in_c else "EXERCISE = 4"
@@ -101,10 +105,12 @@ def read(path: Path, name: str, exercise: Exercise | None = None, keyed: bool = 
 
 def source_of(path: Path, name: str) -> str:
     """The text of a program, or that of a notebook's code cells. Raises InputError where there is none."""
-    if path.is_symlink() or not path.is_file():
-        raise InputError(f"{name}: expected a file")
     if path.suffix.lower() == ".zip":
         raise InputError(f"{name}: expected a Python or C file or a notebook, or a zip of such that can be read")
+    if path.suffix.lower() not in (*SUFFIXES, *PLAIN):
+        raise InputError(f"{name} is no program: expected a Python or C file, or a notebook")
+    if path.is_symlink() or not path.is_file():
+        raise InputError(f"{name}: expected a file")
     if path.stat().st_size > LARGEST:
         raise InputError(f"{name} has {path.stat().st_size} bytes: expected at most {LARGEST}")
     text = decoded(path.read_bytes(), name)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import ast
 import time
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from typing import Any
@@ -17,7 +16,9 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.process.returned import parts_of
-from experiments.exercises.repair.source_edits import Edit, edits_of, without_main
+from experiments.exercises.repair.edit import Edit
+from experiments.exercises.repair.program import FAILS, Program
+from experiments.exercises.repair.source_edits import edits_of, without_main
 
 #: A question, with its right answer; see `Search`.
 Question = Mapping[str, Any]
@@ -25,26 +26,9 @@ Question = Mapping[str, Any]
 #: How near a program comes: questions that it answers rightly, and the share of right numbers.
 Nearness = tuple[int, float]
 
-#: How often loops may go round in one call, all together.
-MOST_ROUNDS = 20_000
-
 #: How many single changes are gone on from in pairs; how many repairs are enough; how much dearer than the cheapest
 #: repair a change may be that is still tried.
 STEMS, ENOUGH, DEARER = 12, 12, 0.5
-
-
-class TooLongError(BaseException):
-    """A loop goes round too often."""
-
-
-class _Counter(ast.NodeTransformer):
-    """Counts the rounds of loops that may not end."""
-
-    def visit_While(self, node: ast.While) -> ast.While:
-        self.generic_visit(node)
-        tick = ast.Expr(ast.Call(ast.Name("__tick__", ast.Load()), [], []))
-        node.body = [ast.fix_missing_locations(ast.copy_location(tick, node)), *node.body]
-        return node
 
 
 class Search:
@@ -58,65 +42,48 @@ class Search:
         changed: Callable[..., bool],
     ) -> None:
         """Questions have function, arguments, parts, steps; of the right answer right, scales, tolerance, pairs."""
-        self.tree = _Counter().visit(without_main(ast.parse(source)))
-        self.edits = edits_of(self.tree, fields_given(questions))
+        tree = without_main(ast.parse(source))
+        self.edits = edits_of(tree, fields_given(questions))
+        self._program = Program(tree)
         self._questions = list(questions)
         self._fresh, self._changed = fresh, changed
-        self._rounds = 0
         self.tried = 0
+        self._least = 0.0
+        self._mattering: list[int] = []
 
-    def _tick(self) -> None:
-        self._rounds += 1
-        if self._rounds > MOST_ROUNDS:
-            raise TooLongError
-
-    def _module(self) -> dict[str, Any] | None:
-        """The program as its tree is now; None where it cannot be read."""
-        names: dict[str, Any] = {"__name__": "submission", "__tick__": self._tick, "__file__": "submission.py"}
-        self._rounds = 0
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")
-                code = compile(self.tree, "<submission>", "exec")
-            exec(code, names)
-        except (Exception, TooLongError, SystemExit):
-            return None
-        return names
-
-    def nearness(self, names: Mapping[str, Any], questions: Sequence[Question], steps: int) -> tuple[int, float]:
-        """How many questions are answered rightly, and the share of right numbers in the others."""
-        right, share = 0, 0.0
-        for question in questions:
-            part = self._share(names, question, steps)
-            right += part >= 1.0
-            share += part
-        return right, share
-
-    def _share(self, names: Mapping[str, Any], question: Mapping[str, Any], steps: int) -> float:
+    def _share(self, names: Mapping[str, Any], question: Question, steps: int) -> float:
         """The share of right numbers in an answer; 1 where all are, and nothing was changed beside."""
-        self._rounds = 0
+        self._program.begin_call()
         arguments = first = question["arguments"]
-        found: list[float] = []
         try:
             function = names[question["function"]]
-            for _ in range(max(1, min(steps, question["steps"]))):
+            for step in range(max(1, min(steps, question["steps"]))):
                 given = [self._fresh(a) for a in arguments]
                 values = parts_of(function(*given), question["parts"])
+                share = _right_share(values, question, step)
+                if share < 1.0:
+                    return share
                 if any(self._changed(g, a) for g, a in zip(given, arguments, strict=True)):
-                    return 0.5 * _right_share(values, question, 0)
-                found.append(_right_share(values, question, len(found)))
-                if found[-1] < 1.0:
-                    break
+                    return 0.5
                 if question["steps"]:
                     fed = [v if np.ndim(a) else v.item() for v, a in zip(values, arguments, strict=False)]
                     arguments = [*fed, *first[len(fed) :]]
-        except (Exception, TooLongError, SystemExit):
+        except FAILS:
             return 0.0
-        return min(found)
+        return 1.0
+
+    def _nearness(self, names: Mapping[str, Any], asked: Sequence[Question], least: float = 0.0) -> Nearness | None:
+        """How near first steps are; None if the first answer is farther off than that of the text as it is."""
+        shares: list[float] = []
+        for question in asked:
+            shares.append(self._share(names, question, 1))
+            if shares[0] < least:
+                return None
+        return sum(share >= 1.0 for share in shares), sum(shares)
 
     def _is_right(self) -> bool:
         """Whether all questions are answered rightly, all steps, twice over in a fresh module."""
-        names = self._module()
+        names = self._program.anew()
         if names is None:
             return False
         return all(self._share(names, q, 10**6) >= 1.0 for q in self._questions) and all(
@@ -125,17 +92,22 @@ class Search:
 
     def run(self, seconds: float, pair_seconds: float) -> dict[str, Any]:
         """Search until the time is used up; what was found, by numbers of edits, and whether all was tried."""
-        names = self._module()
+        names = self._program.anew()
         begin = time.process_time()
-        wrong = [q for q in self._questions if names is None or self._share(names, q, 10**6) < 1.0]
+        with self._program.reached() as reached:
+            wrong = [q for q in self._questions if names is None or self._share(names, q, 10**6) < 1.0]
         if not wrong:
             return {"repairs": [], "tried": 0, "singles_done": True, "pairs_done": True}
-        asked = wrong[:3]
-        base = self.nearness(names, asked, 1) if names is not None else (0, 0.0)
+        wrong.sort(key=_size)
+        asked = [wrong[0], *wrong[1:-1][len(wrong) // 2 - 1 :][:1], *wrong[1:][-1:]]
+        base = self._nearness(names, asked) if names is not None else None
+        self._least = self._share(names, asked[0], 1) - 1e-12 if names is not None else 0.0
+        self._mattering = [i for i, e in enumerate(self.edits) if names is None or self._program.can_matter(e, reached)]
         singles: list[list[int]] = []
         stems: list[tuple[Nearness, int]] = []
         done = True
-        for i, edit in enumerate(self.edits):
+        for i in self._mattering:
+            edit = self.edits[i]
             if len(singles) >= ENOUGH or (singles and edit.cost > self.edits[singles[0][0]].cost + DEARER):
                 break
             if time.process_time() - begin > seconds:
@@ -144,7 +116,7 @@ class Search:
             near = self._try([edit], asked)
             if near is not None and near[0] == len(asked) and self._holds([edit]):
                 singles.append([i])
-            elif near is not None and near > base:
+            elif near is not None and (base is None or near > base):
                 stems.append((near, i))
         if singles or pair_seconds <= 0:
             return {"repairs": singles, "tried": self.tried, "singles_done": done, "pairs_done": False}
@@ -158,11 +130,12 @@ class Search:
         begin = time.process_time()
         found: list[list[int]] = []
         for _, i in sorted(stems, key=lambda stem: (-stem[0][0], -stem[0][1], stem[1]))[:STEMS]:
-            for j, other in enumerate(self.edits):
+            for j in self._mattering:
                 if time.process_time() - begin > seconds:
                     return found, False
-                near = self._try([self.edits[i], other], asked) if i != j else None
-                if near is not None and near[0] == len(asked) and self._holds([self.edits[i], other]):
+                both = [self.edits[i], self.edits[j]]
+                near = self._try(both, asked) if i != j else None
+                if near is not None and near[0] == len(asked) and self._holds(both):
                     found.append([i, j])
                     if len(found) >= 3:
                         return found, False
@@ -171,12 +144,13 @@ class Search:
     def _try(self, edits: Sequence[Edit], asked: Sequence[Question]) -> Nearness | None:
         """How near the program comes with these changes, by first steps; None where it cannot be read."""
         self.tried += 1
-        with _all_applied(edits):
-            names = self._module()
-            return None if names is None else self.nearness(names, asked, 1)
+        with self._program.changed(edits) as names:
+            return None if names is None else self._nearness(names, asked, self._least)
 
     def _holds(self, edits: Sequence[Edit]) -> bool:
-        with _all_applied(edits):
+        with ExitStack() as stack:
+            for edit in edits:
+                stack.enter_context(edit.applied())
             return self._is_right()
 
 
@@ -189,11 +163,10 @@ def fields_given(questions: Sequence[Question]) -> dict[str, list[str]]:
     }
 
 
-def _all_applied(edits: Sequence[Edit]) -> ExitStack:
-    stack = ExitStack()
-    for edit in edits:
-        stack.enter_context(edit.applied())
-    return stack
+def _size(question: Question) -> int:
+    """How many numbers a question has: of those with fewer an answer comes sooner."""
+    fields = [v for a in question["arguments"] for v in (a.values() if isinstance(a, Mapping) else [a])]
+    return int(sum(np.size(value) for value in fields))
 
 
 def _right_share(values: Sequence[Any], question: Mapping[str, Any], step: int) -> float:

@@ -157,7 +157,7 @@ def _digest(path: Path) -> str:
     """
     try:
         source = source_of(path, path.name)
-        if path.suffix.lower() == IN_C:
+        if path.suffix.lower() in IN_C:
             return hashlib.sha256("".join(without_comments(source).split()).encode()).hexdigest()
         tree = parsed(source)
     except (InputError, OSError, SyntaxError, ValueError, RecursionError, MemoryError):

@@ -28,7 +28,7 @@ def hand_out(exercise: Exercise, folder: Path, seed: str, key: str | None, langu
     if starter is None:
         able = ", ".join(str(n) for n, e in exercises().items() if e.starter_in_c is not None)
         raise InputError(f"exercise {exercise.number} cannot be done in C: expected one of {able}")
-    own = folder / f"{exercise.name}{'.py' if language == 'python' else IN_C}"
+    own = folder / f"{exercise.name}{'.py' if language == 'python' else IN_C[0]}"
     if own.exists():
         raise InputError(f"{own} is there already: expected another folder")
     keyed = exercise.keyed and key is not None

@@ -64,7 +64,7 @@ def paragraphs(submission: Submission, given: Grade) -> list[str]:
     said += [why] if why else []
     if verdict.first_difference is not None:
         said.append(f"First difference: {verdict.first_difference}.")
-    said += [f"- {finding.words} ({finding.hint})" for finding in given.closer.findings]
+    said += [f"- {finding.words} ({finding.hint})" for finding in (*given.closer.findings, *verdict.remarks)]
     return [*said, *_of_the_text(given.closer)]
 
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice, permutations
 from typing import Any
 
@@ -110,18 +111,38 @@ def of_the_end(word: str, reason: str) -> Finding:
 def of_compiler(line: int | None, words: str) -> Finding:
     """What a compiler refused."""
     said = f"{f'line {line}: ' if line else ''}the compiler says: {clean(words).rstrip('.')}."
-    return Finding("does_not_compile", said, "Look at that line, and at the one before it.", line)
+    is_other = re.search(r"\b(iostream|vector|cmath|std|using|namespace|class|template)\b", words)
+    hint = "Is it C++? It is compiled as C." if is_other else "Look at that line, and at the one before it."
+    return Finding("does_not_compile", said, hint, line)
 
 
 def of_warning(line: int, words: str) -> Finding:
-    """What a compiler warns of, in a program that is wrong."""
-    return Finding("compiler_warns", f"line {line}: the compiler warns: {clean(words)}.", "It compiles, and may be it.")
+    """What a compiler warns of, in a program that it takes."""
+    hint = "It compiles; is it what you mean?"
+    return Finding("compiler_warns", f"line {line}: the compiler warns: {clean(words)}.", hint, lines=(line,))
+
+
+#: Words for students who return something, and for those who write into arrays.
+IN_C = (
+    ("How far is your return indented?", "Where does your return stand?"),
+    ("returns the state", "leaves the state"),
+    ("to be returned", "to be written"),
+    ("ou return", "ou write"),
+)
+
+
+def in_c(finding: Finding) -> Finding:
+    """The same, in words for a C program: there nothing is returned, arrays are written into."""
+    words, hint = finding.words, finding.hint
+    for python, c in IN_C:
+        words, hint = words.replace(python, c), hint.replace(python, c)
+    return replace(finding, words=words, hint=hint)
 
 
 def of_whole_division(line: int, words: str) -> Finding:
     """Two whole numbers of the text, one divided by the other with a remainder."""
     said = f"line {line}: {words} is a division of whole numbers, what comes after the point is cut off."
-    return Finding("whole_division", said, "How is a number written that is none of the whole ones?")
+    return Finding("whole_division", said, "How is a number written that is none of the whole ones?", lines=(line,))
 
 
 def not_written(functions: Sequence[str]) -> Finding:

@@ -45,6 +45,7 @@ class Verdict:
         right_error: how far from the right ones; None where there are no numbers.
         first_difference: the first number that is not the right one.
         lines: for a plot of where they differ.
+        remarks: what is worth a look although it passes.
         layers: of the sandbox, those that were active.
     """
 
@@ -55,6 +56,7 @@ class Verdict:
     right_error: float | None = None
     first_difference: FirstDifference | None = None
     lines: Lines | None = None
+    remarks: tuple[Finding, ...] = ()
     layers: tuple[str, ...] = ()
 
     @property
@@ -135,7 +137,10 @@ def _judge_c(
 
     verdict = _verdict_of_runs(catalogue, run)
     other = told_by_overflow(exercise, aside, later) if verdict.right else None
-    return verdict if other is None else _another(verdict, other)
+    if other is not None:
+        return _another(verdict, other)
+    remarks = tuple(findings.of_warning(line, words) for line, words in made.warnings if verdict.right)
+    return replace(verdict, remarks=remarks, findings=tuple(findings.in_c(f) for f in verdict.findings))
 
 
 def not_asked(exercise: Exercise, seed: str, key: str | None, before: Verdict) -> Verdict:
@@ -238,6 +243,8 @@ def _verdict_on_answers(
     finding = finding or findings.of_the_exercise(catalogue, given)
     if missing:
         return _verdict_on_the_rest(catalogue, given, missing, passed, found)
+    if finding is not None and finding.name == "not_a_number":
+        return _verdict_where_finite(catalogue, given, finding, passed, found)
     if finding is not None:
         return Verdict("mistake", (finding,), passed, **found)
     return _verdict_on_numbers(catalogue, reply, given, passed, found)
@@ -256,6 +263,30 @@ def _verdict_on_the_rest(
     explained = identify(rest, answers)
     named = [Finding(m.name, m.words, m.hint) for m in explained.mistakes] if explained else []
     return Verdict("mistakes" if named else "mistake", (unwritten_yet, *named), passed, **found)
+
+
+def _verdict_where_finite(
+    catalogue: AnswerCatalogue,
+    given: list[Answer],
+    finding: Finding,
+    passed: tuple[bool, ...],
+    found: Mapping[str, Any],
+) -> Verdict:
+    """The verdict where some answers are not finite: that is told, and what is wrong in those that are."""
+    rows = zip(catalogue.questions, given, strict=True)
+    finite = [(q, a) for q, a in rows if all(np.isfinite(part).all() for part in a[0] if part.dtype.kind == "f")]
+    rest, answers = AnswerCatalogue(catalogue.exercise, [q for q, _ in finite]), [a for _, a in finite]
+    different, lines = first_difference(rest, answers, max(catalogue.exercise.tolerance, TOLERANCE))
+    if different is None:
+        return Verdict("mistake", (finding,), passed, **found)
+    explained = identify(rest, answers)
+    named = [Finding(m.name, m.words, m.hint) for m in explained.mistakes] if explained else []
+    if not named:
+        finding = replace(
+            finding, words=f"{finding.words} Where your answers are numbers they are not all right either."
+        )
+    found = {**found, "first_difference": different, "lines": lines}
+    return Verdict("mistakes" if named else "mistake", (finding, *named), passed, **found)
 
 
 def _verdict_on_numbers(

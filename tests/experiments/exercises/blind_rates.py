@@ -85,10 +85,12 @@ def way(given: Grade) -> str:
 
 def way_and_line(program: Program, given: Grade) -> str:
     """The same; where the line of the mistake is known, whether it is the one that is told."""
-    found = way(given)
+    found, led = way(given), set(program.lines) & set(given.closer.lines)
+    if found == "behaviour" and led:
+        return "line of its mistake by behaviour"
     if found != "line of its text" or not program.lines:
         return found
-    return "line of its mistake" if set(program.lines) & set(given.closer.lines) else "another line of its text"
+    return "line of its mistake" if led else "another line of its text"
 
 
 def rates(sample: str) -> dict[str, Counter[str]]:

@@ -10,12 +10,16 @@ from typing import Any
 
 import pytest
 
+from experiments.exercises.behaviour import parts, terms
+from experiments.exercises.c import text as c_text
 from experiments.exercises.closer_look import SECOND, CloserLook, Effort, _groups, _told, look_closer
 from experiments.exercises.exercise import find
 from experiments.exercises.grading import Grade, grade, row_of
+from experiments.exercises.handed_in import collected
 from experiments.exercises.handed_in.submission import Submission
 from experiments.exercises.process import sandbox
-from experiments.exercises.repair import expression_edits, source_edits
+from experiments.exercises.repair import source_edits
+from experiments.exercises.repair.edit import Edit
 from experiments.exercises.repair.source_edits import edits_of, without_main
 from experiments.exercises.repair.source_search import fields_given
 from experiments.exercises.teaching.words import paragraphs
@@ -186,6 +190,23 @@ def test_which_part_is_wrong_is_told_with_the_lines_it_comes_from(trusted: None)
     assert line in told.lines
 
 
+def test_the_part_of_another_function_is_followed(trusted: None) -> None:
+    """What is returned is what another function returns: its lines are told."""
+    text = solution("loops", 2).replace("dt * (k1v + k2v) / 2", "dt * (k1v + k2v) / 3").replace("def step", "def own")
+    text = text.split("if __name__")[0] + "def step(y, v, dt, spring):\n    return own(y, v, dt, spring)\n"
+    found = looked(2, text, Effort(0.0, 0.0))
+    (told,) = (f for f in found.findings if f.name == "right_and_wrong_parts")
+    assert text[: text.index("/ 3")].count("\n") + 1 in told.lines
+
+
+def test_a_wrong_term_is_told_with_the_lines_that_read_it(trusted: None) -> None:
+    """The weight is wrong, and gravity stands on one line; where the drag is wrong another one is told."""
+    for old, new in (("string.masses *", "0.9 * string.masses *"), ("- string.drag * v", "- string.drag * v**2")):
+        line, text = changed(3, old, new)
+        found = looked(3, text, Effort(0.0, 0.0)).findings
+        assert [f.lines for f in found if f.name == "right_and_wrong_terms"] == [(line,)]
+
+
 def test_a_cap_is_told_as_a_cap(trusted: None) -> None:
     """Without time nothing is tried, and that is not told as nothing found."""
     line, text = changed(3, "axis=1", "axis=0")
@@ -216,7 +237,9 @@ def test_right_programs_are_not_looked_at(trusted: None, monkeypatch: pytest.Mon
     assert looked_at == []
 
 
-@pytest.mark.parametrize("module", [source_edits, expression_edits], ids=lambda m: m.__name__.split(".")[-1])
+@pytest.mark.parametrize(
+    "module", [source_edits, parts, terms, c_text, collected], ids=lambda m: ".".join(m.__name__.split(".")[-2:])
+)
 def test_the_worked_examples_are_true(module: Any) -> None:
     """What the docstrings show is what comes out."""
     assert doctest.testmod(module).failed == 0
@@ -226,7 +249,7 @@ def test_a_tree_is_what_it_was_after_every_change() -> None:
     """Each change is taken back, so that thousands can be tried on one tree; each has a line of the text."""
     tree = ast.parse(solution("loops", 3))
     before = ast.dump(tree, include_attributes=True)
-    edits: Sequence[source_edits.Edit] = edits_of(tree)
+    edits: Sequence[Edit] = edits_of(tree)
     assert len(edits) > 500
     for edit in edits:
         with edit.applied():

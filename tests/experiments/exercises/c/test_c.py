@@ -16,6 +16,7 @@ from experiments.exercises.process.sandbox import Limits
 from experiments.exercises.process.sandbox_errors import NotGradedError
 from experiments.exercises.teaching.gradescope import grade_folder
 from experiments.exercises.teaching.handout import hand_out
+from experiments.exercises.teaching.words import paragraphs
 from experiments.exercises.verdict.judge import judge
 from reference.errors import InputError
 
@@ -151,3 +152,37 @@ def test_without_a_compiler_nothing_is_graded(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(compiler, "compiler_found", lambda: None)
     with pytest.raises(NotGradedError, match="gcc"):
         compiled(1, "int other_than_before;")
+
+
+#: A right step of exercise 1 in C, up to its last line.
+STEP = (
+    '#define EXERCISE 1\n#include "exercise.h"\nvoid step(double *y, double *v, double dt, const struct spring *s)\n{\n'
+    "    double a = (s->stiffness * (-*y - s->rest_length) - s->damping * *v) / s->mass - s->gravity;\n"
+    "    *y += dt * *v;\n"
+)
+
+
+def test_what_the_compiler_warns_of_is_told_of_a_program_that_passes_too() -> None:
+    """It passes all the same, and has no remark where the compiler has none."""
+    quiet, warned = f"{STEP}    *v += dt * a;\n}}\n", f"{STEP}    int n = 1.0e3 + dt;\n    *v += dt * a + 0 * n;\n}}\n"
+    assert judge(find("1"), quiet, language="c").remarks == ()
+    given = grade(Submission("own.c", warned, find("1"), language="c"))
+    assert given.verdict.name == "right"
+    assert "line 7: the compiler warns" in "\n".join(paragraphs(Submission("own.c", warned, find("1")), given))
+
+
+def test_in_c_nothing_is_returned() -> None:
+    """What is told of a C program speaks of what it writes; of the lines that do; C++ is told as such."""
+    still = judge(find("1"), f"{STEP.split('    double')[0]}    if (dt < 0) *y = 0;\n}}\n", language="c")
+    assert still.name == "nothing_moves"
+    assert "return" not in still.findings[0].words + still.findings[0].hint
+    given = grade(Submission("own.c", f"{STEP}    *v += dt * a * a;\n}}\n", find("1"), language="c"))
+    assert [f.lines for f in given.closer.findings if f.name == "right_and_wrong_parts"] == [(7,)]
+    other = judge(find("1"), f"#include <iostream>\n{STEP}}}\n", language="c")
+    assert (other.name, other.findings[0].hint) == ("does_not_compile", "Is it C++? It is compiled as C.")
+
+
+def test_a_file_with_the_ending_of_another_language_is_taken_as_c(tmp_path: Path) -> None:
+    """Many write C into files of that name; it passes if it compiles as C."""
+    (tmp_path / "euler.cpp").write_text(f"{STEP}    *v += dt * a;\n}}\n", encoding="utf-8")
+    assert grade(read(tmp_path / "euler.cpp", "euler.cpp")).verdict.name == "right"

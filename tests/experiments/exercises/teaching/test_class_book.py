@@ -56,7 +56,8 @@ def a_class(tmp_path: Path) -> Path:
         ("Ada Lovelace_1_assignsubmission_file_/euler_new.py", RIGHT),
         ("Bob Noyce_2_assignsubmission_file_/euler.ipynb", as_notebook(RIGHT)),
         ("hopper_3_4_euler.py", "# mine\n" + WRONG),
-        ("empty/notes.txt", "nothing"),
+        ("empty/report.pdf", "%PDF"),
+        ("students.csv", "name"),
     ):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
@@ -86,7 +87,9 @@ def test_each_student_has_one_row_and_the_newest_file_counts(a_class: Path, tmp_
         "hopper": ("mistake", "0.0"),
         "eve": ("mistake", "0.0"),
         "Max": ("missing", "0.0"),
+        "empty": ("error", "0.0"),
     }
+    assert "report.pdf is no program: expected a Python or C file" in found["empty"]["words"]
     ada, eve = found["Ada Lovelace"], found["eve"]
     assert (ada["days_late"], ada["earlier_files"], eve["days_late"]) == ("2", "1", "0")
     assert (eve["same_program_as"], found["hopper"]["same_program_as"]) == ("hopper", "eve")

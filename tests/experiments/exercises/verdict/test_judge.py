@@ -214,3 +214,20 @@ def test_a_score_is_half_for_public_and_half_for_hidden_questions(
     given = Grade(verdict(public), None if hidden is None else verdict(hidden), 1.0)
     assert given.score == score
     assert given.verdict is getattr(given, told)
+
+
+def test_what_is_no_number_in_one_answer_hides_no_other_mistake(here: None) -> None:
+    """Of one mass it makes NaN: that is told, and what is wrong elsewhere, by name and with a plot."""
+    text = solution("arrays", 3)
+    one = f"{text.split('if __name__')[0]}\ninner = forces\ndef forces(x, v, string):\n    f = inner(x, v, string)\n"
+    end = "    return f * np.nan if len(x) == 1 else f\n"
+    alone = judge(find("3"), one + end)
+    assert (alone.name, alone.outcome) == ("not_a_number", "mistake")
+    assert "either" not in alone.findings[0].words
+    named = judge(find("3"), f"{one}    f = f + 2 * np.outer(string.masses, [0, string.gravity])\n{end}")
+    assert (named.name, named.outcome) == ("not_a_number + gravity_sign", "mistakes")
+    assert named.lines is not None
+    assert np.isfinite(named.lines.given).all()
+    unnamed = judge(find("3"), f"{one}    f = f * 1.5\n{end}")
+    assert unnamed.name == "not_a_number"
+    assert "either" in unnamed.findings[0].words
