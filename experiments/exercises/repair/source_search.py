@@ -72,7 +72,7 @@ class Search:
             return 0.0
         return 1.0
 
-    def _nearness(self, names: Mapping[str, Any], asked: Sequence[Question], least: float = 0.0) -> Nearness | None:
+    def nearness(self, names: Mapping[str, Any], asked: Sequence[Question], least: float = 0.0) -> Nearness | None:
         """How near first steps are; None if the first answer is farther off than that of the text as it is."""
         shares: list[float] = []
         for question in asked:
@@ -100,7 +100,7 @@ class Search:
             return {"repairs": [], "tried": 0, "singles_done": True, "pairs_done": True}
         wrong.sort(key=_size)
         asked = [wrong[0], *wrong[1:-1][len(wrong) // 2 - 1 :][:1], *wrong[1:][-1:]]
-        base = self._nearness(names, asked) if names is not None else None
+        base = self.nearness(names, asked) if names is not None else None
         self._least = self._share(names, asked[0], 1) - 1e-12 if names is not None else 0.0
         self._mattering = [i for i, e in enumerate(self.edits) if names is None or self._program.can_matter(e, reached)]
         singles: list[list[int]] = []
@@ -145,7 +145,7 @@ class Search:
         """How near the program comes with these changes, by first steps; None where it cannot be read."""
         self.tried += 1
         with self._program.changed(edits) as names:
-            return None if names is None else self._nearness(names, asked, self._least)
+            return None if names is None else self.nearness(names, asked, self._least)
 
     def _holds(self, edits: Sequence[Edit]) -> bool:
         with ExitStack() as stack:

@@ -59,5 +59,5 @@ def test_a_program_comes_as_near_as_its_share_of_right_numbers(
 ) -> None:
     """Of three numbers. One that is off by 1e-3 has three right digits, an eighth each; a changed input halves all."""
     search = Search("", [QUESTION], np.copy, lambda a, b: not np.array_equal(a, b))
-    found = search.nearness({"step": program}, [QUESTION], 1)
+    found = search.nearness({"step": program}, [QUESTION])
     assert found == (right, pytest.approx(share, rel=1e-6))
