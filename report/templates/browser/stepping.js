@@ -1,6 +1,7 @@
 // A system under way by one scheme: steps, what changes on the way, and when it has left physics behind.
 
-// How many times its length a spring is, and how many times what it was given the energy is, when a run has blown up.
+// How many times its length a spring is, or as far as it could have come a mass, when a run has blown up, as
+// reference/outcome.py has it; of the energy it is the square.
 const RATIO = 100;
 
 function startWorld(system, scheme, dt, changes = [], drives = []) {
@@ -10,12 +11,34 @@ function startWorld(system, scheme, dt, changes = [], drives = []) {
   // what breaks, now or later, may then be of any length, and so may what only pushes
   world.breaks = Uint8Array.from({length: system.s}, (_, j) => mayBreak(memory, j) || named.includes(j) ? 1 : 0);
   world.natural = lengthsOf(memory).map((length, j) => world.breaks[j] || F[at.compression_only + j] ? Infinity : Math.max(F[at.rest_lengths + j], length));
+  world.reach = sizeOf(system, memory) + world.natural.reduce((sum, length) => length < Infinity ? sum + length : sum, 0) || 1;
+  world.fastest = 0; world.pull = 0;
+  for (let i = 0; i < system.n; i++) world.fastest = Math.max(world.fastest, Math.hypot(...F.subarray(at.v + at.d * i, at.v + at.d * (i + 1))));
   world.start = memory.F.slice(memory.at.x, memory.at.x + system.n * system.d);
   const {kinetic, elastic} = energies(world);
   world.given = kinetic + elastic;
   for (let j = 0; j < system.s; j++) world.given += energyOf(memory, j, world.natural[j] < Infinity ? world.natural[j] : F[at.rest_lengths + j]);
   world.changes = changes.slice().sort((a, b) => a.time - b.time);
   return world;
+}
+
+// The widest extent, or the longest spring's rest length [m].
+function sizeOf({n, s, d}, {F, at}) {
+  let size = 0;
+  for (let j = 0; j < s; j++) size = Math.max(size, F[at.rest_lengths + j]);
+  for (let axis = 0; axis < d; axis++) {
+    let low = Infinity, high = -Infinity;
+    for (let e = axis; e < n * d; e += d) { low = Math.min(low, F[at.x + e]); high = Math.max(high, F[at.x + e]); }
+    size = Math.max(size, high - low);
+  }
+  return size;
+}
+
+// How far a mass may have come from its start [m]: as it flies and falls, and as all springs end to end allow.
+function allowedDistance(world) {
+  const {F, at} = world.memory, time = timeOf(world);
+  world.pull = Math.max(world.pull, Math.hypot(...F.subarray(at.gravity, at.gravity + at.d)));
+  return world.reach + world.fastest * time + world.pull * time * time / 2;
 }
 
 const timeOf = ({origin, steps, dt}) => origin.time + (steps - origin.steps) * dt;
@@ -88,21 +111,27 @@ function breakNow({memory}) {
 // When and how a run has left physics behind, or null: {what, which}. Looked at in every step.
 function blowUp(world) {
   const {memory, natural, breaks, given, start} = world, {F, at} = memory, {n, s, d, x, v, masses, rest_lengths} = at;
-  let kinetic = 0;
+  const furthest = (RATIO * allowedDistance(world)) ** 2;
+  let kinetic = 0, flown = null;
   for (let i = 0; i < n; i++) {
-    let away = 0, speed = 0;
-    for (let e = d * i; e < d * (i + 1); e++) { away += Math.abs(F[x + e] - start[e]); speed += F[v + e] * F[v + e]; }
+    let away = 0, squares = 0, speed = 0;
+    for (let e = d * i; e < d * (i + 1); e++) {
+      const moved = F[x + e] - start[e];
+      away += Math.abs(moved); squares += moved * moved; speed += F[v + e] * F[v + e];
+    }
     if (!(away < Infinity)) return {what: "position", which: i};
     if (!(speed < Infinity)) return {what: "velocity", which: i};
+    if (squares > furthest && !flown) flown = {what: "distance", which: i};
     kinetic += 0.5 * F[masses + i] * speed;
   }
-  if (isNear(world, kinetic)) return null;
+  if (isNear(world, kinetic)) return flown;
   const lengths = lengthsOf(memory);
   let energy = kinetic;
   for (let j = 0; j < s; j++) {
     if (lengths[j] > RATIO * natural[j]) return {what: "spring", which: j};
     if (!breaks[j]) energy += energyOf(memory, j, lengths[j] - F[rest_lengths + j]);
   }
+  if (flown) return flown;
   const allowed = given + givenByGravity(world);
   return energy > RATIO * RATIO * allowed && allowed > 0 ? {what: "energy", which: 0} : null;
 }

@@ -111,6 +111,22 @@ def test_when_and_where_it_blows_up_hangs_on_no_number_of_steps_at_once() -> Non
     assert answers == [{"steps": frame, "what": "spring", "which": which}] * 4
 
 
+def test_random_systems_blow_up_at_the_reference_s_steps() -> None:
+    """The first frame that `blow_up` tells of, in long steps, with springs of all kinds: the same, or none in both."""
+    asked, expected = [], []
+    for seed in (*range(30), 87, 103, 168):  # of the last three a mass is flung away
+        system = with_random_kinds(random_system(seed)[0], seed)
+        dt = float(np.random.default_rng(seed).uniform(0.02, 0.3))
+        run = simulate(system, find("heun"), dt, STEPS * dt)
+        frame = first_blown_up_frame(system, run)
+        expected.append(frame if frame < len(run) else STEPS)
+        question = {"ask": "blown", "system": system_data(system), "scheme": "heun", "dt": dt, "steps": STEPS}
+        asked.append({**question, "at_once": STEPS})
+    answers = ask(asked)
+    assert [answer["steps"] for answer in answers] == expected
+    assert {answer.get("what") for answer in answers} >= {None, "spring", "distance", "energy"}
+
+
 def test_changes_on_the_fly_act_on_the_same_steps() -> None:
     """Each of the parameters, one number for all, and masses that are held and let go (slide 12)."""
     system, _ = random_system(3)
