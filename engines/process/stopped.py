@@ -12,6 +12,7 @@ import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import forkserver
+from typing import Any
 
 #: Looks at it [s], and how many of them, one after the other, have to find it stopped.
 LOOK, LOOKS = 0.1, 50
@@ -42,7 +43,27 @@ def _watch(done: threading.Event) -> None:
 
 def server_pid() -> int | None:
     """The number of the process that forks; None where there is none. The standard library tells nobody."""
-    return getattr(forkserver._forkserver, "_forkserver_pid", None)
+    if not forked_by_server():
+        return getattr(forkserver._forkserver, "_forkserver_pid", None)
+    parent = os.getppid()
+    return parent if _serves(parent) else None
+
+
+def forked_by_server() -> bool:
+    """Whether this process was forked by a server that it can ask for more; CPython 3.14 keeps its key to itself."""
+    server: Any = forkserver._forkserver
+    known = server._forkserver_pid is None and server._forkserver_address is not None
+    return known and getattr(server, "_forkserver_authkey", b"") is not None
+
+
+def _serves(pid: int) -> bool:
+    """Whether it is a server: once that has gone, somebody else is a process's parent."""
+    import psutil
+
+    try:
+        return any("multiprocessing.forkserver" in word for word in psutil.Process(pid).cmdline())
+    except psutil.Error:
+        return False
 
 
 def is_stopped(pid: int) -> bool:

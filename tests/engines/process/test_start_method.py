@@ -5,9 +5,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from multiprocessing import forkserver
 from pathlib import Path
 
 import pytest
+
+from engines.process.isolation import isolated
+from engines.process.stopped import server_pid
+from tests.engines.process import used
 
 ROOT = Path(__file__).parents[3]
 
@@ -55,3 +60,14 @@ def test_the_server_imports_nothing_of_the_folder_it_is_called_in(tmp_path: Path
     (tmp_path / "reference.py").write_text("print('of the folder')", encoding="utf-8")
     program = f"import sys; sys.path.remove(''); exec({PROGRAM!r})"
     assert run("", tmp_path, "-c", program)[:2] == ["begun", "done"]
+
+
+def test_a_process_asks_the_server_that_forked_it_for_its_own() -> None:
+    """Which has imported all that runs need; where that server is no more, one of its own is started."""
+    if getattr(forkserver._forkserver, "_forkserver_authkey", None) is not None:
+        pytest.skip("CPython 3.14 keeps a server's key from what it forks")
+    theirs, ours = isolated(used.parents, False)
+    assert theirs == ours == server_pid()
+    theirs, ours = isolated(used.parents, True)
+    assert ours == server_pid()
+    assert theirs not in (ours, server_pid())

@@ -6,12 +6,14 @@ import os
 import signal
 import sys
 import time
+from multiprocessing import forkserver
 from pathlib import Path
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import numpy as np
 
 from engines.process.isolation import isolated
+from engines.process.supervisor import Supervisor
 from tests.engines.process import misbehaving
 
 #: Whether this process has been used by a task that leaves a mark.
@@ -101,6 +103,22 @@ def hears_interrupts() -> bool:
 def have_it_done(file: Path) -> object:
     """Let a process of this one's own note itself and hang."""
     return isolated(wait_at_first, file, 2, time_limit=600.0)
+
+
+def parent() -> int:
+    """Say which process has forked this one."""
+    return os.getppid()
+
+
+def parents(server_is_gone: bool) -> tuple[object, int]:
+    """Who has forked a process of this one's own, and this one; perhaps after its server cannot be found any more."""
+    if server_is_gone:
+        server: Any = forkserver._forkserver
+        server._forkserver_address = str(Path("nobody").absolute())
+    own = Supervisor()
+    theirs = own.run(parent, (), 600.0, 4 * 2**30)
+    own.stop()
+    return theirs, parent()
 
 
 def prefix() -> str:
