@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 
 from experiments.experiment import Experiment, Result, Table
-from experiments.limits.limit_rows import Row, stability_rows
+from experiments.limits.limit_rows import Row, stability_rows_of
 from experiments.runs.progress import Progress
 from experiments.runs.steppers import steppers_here
 from reference.scenes import find
@@ -21,10 +21,8 @@ def run(progress: Progress) -> Result:
     Engines' own schemes are left out: their limits are what the engines' are predicted to be.
     """
     steppers = [s for s in steppers_here().values() if s.kind in ("scheme", "in_place", "engine")]
-    rows = []
-    for case in CASES:
-        rows += stability_rows(find("string").system(case), steppers, partial(_tell, progress, _label(case)))
-    return result_of(rows)
+    systems = [find("string").system(case) for case in CASES]
+    return result_of(stability_rows_of(systems, steppers, [partial(_tell, progress, _label(case)) for case in CASES]))
 
 
 def _label(case: Mapping[str, float]) -> str:

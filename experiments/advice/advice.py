@@ -119,7 +119,8 @@ def advise(setup: Setup, engines: Sequence[EngineStepper], progress: Progress) -
         able = [engine for engine in engines if own[engine.name].ending != "unsupported"]
         predictions = Predictions(replace(setup.system, obstacles=()), rest)
         progress("identification")
-        identified = predictions.identified(able, IDENTIFYING_STEPS)
+        runs = pool.map(lambda engine: predictions.identifying_run(engine, IDENTIFYING_STEPS), able)
+        identified = predictions.identified(zip(able, runs, strict=True), IDENTIFYING_STEPS)
         for name, found in identified.items():
             progress(f"predicted limit of {name}")
             predictions.of_engine(found)

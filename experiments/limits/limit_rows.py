@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -71,43 +72,78 @@ class Row:
 
 
 def stability_rows(system: MassSpringSystem, steppers: Sequence[Stepper], progress: Progress) -> list[Row]:
-    """Predicted and measured limits of schemes and engines on one system, about its equilibrium.
+    """The rows of one system: see `stability_rows_of`."""
+    return stability_rows_of([system], steppers, [progress])
+
+
+def stability_rows_of(
+    systems: Sequence[MassSpringSystem], steppers: Sequence[Stepper], progress: Sequence[Progress]
+) -> list[Row]:
+    """Predicted and measured limits of schemes and engines on systems, about their equilibria, system by system.
 
     Of a system with obstacles those of schemes are about its rest on them, where that is found; those of engines, whose
     contacts are their own, of its springs and masses alone. The rows say which.
 
     What an engine's limit should be is predicted from the scheme it is identified with, on this very system. Engines
-    are measured in parallel, in processes of their own, while schemes are worked on here.
+    are at work in processes of their own, with the next systems too, while schemes are worked on here.
+
+    Args:
+        progress: told of each system's steppers.
 
     Raises:
-        SolverError: if the system has no equilibrium.
+        SolverError: if a system has no equilibrium.
     """
-    alone = replace(system, obstacles=())
-    predictions = Predictions(alone, spring_equilibrium(alone))
-    of_schemes, about = predictions, ""
-    if system.obstacles:
-        rest, about = equilibrium_on_obstacles(system)
-        of_schemes = Predictions(system, rest)
-    engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
-    identified = predictions.identified(engines)
-    predicted = {name: predictions.of_engine(found) for name, found in identified.items()}
-    rows = []
     with current().threads() as pool:
-        measured = {
-            e.name: pool.submit(measure_engine, e, predictions, named(identified[e.name]), predicted[e.name])
-            for e in engines
-        }
-        for stepper in steppers:
+        begun = [_AtWork(system, steppers, pool) for system in systems]
+        of_schemes = [at_work.rows_of_schemes(tell) for at_work, tell in zip(begun, progress, strict=True)]
+        return [row for at_work, rows in zip(begun, of_schemes, strict=True) for row in at_work.all_rows(rows)]
+
+
+class _AtWork:
+    """One system, whose engines are at work in the threads of a pool."""
+
+    def __init__(self, system: MassSpringSystem, steppers: Sequence[Stepper], pool: ThreadPoolExecutor) -> None:
+        self._system, self._steppers, self._pool = system, steppers, pool
+        alone = replace(system, obstacles=())
+        self._alone = Predictions(alone, spring_equilibrium(alone))
+        engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
+        self._identifying = [(engine, pool.submit(self._alone.identifying_run, engine)) for engine in engines]
+        self._measuring: dict[str, tuple[Limit, Future[Limit | Outcome]]] = {}
+
+    def rows_of_schemes(self, progress: Progress) -> dict[str, Row]:
+        """By name; meanwhile engines, now that it is known what they are, are measured."""
+        self._begin_to_measure()
+        on_obstacles, about = self._alone, ""
+        if self._system.obstacles:
+            rest, about = equilibrium_on_obstacles(self._system)
+            on_obstacles = Predictions(self._system, rest)
+        rows = {}
+        for stepper in self._steppers:
             progress(stepper.name)
             if isinstance(stepper, SchemeStepper):
-                rows.append(_scheme_row_about(stepper, system, of_schemes, predictions, about))
-            elif isinstance(stepper, EngineStepper):
-                row = _engine_row(stepper, system, predicted[stepper.name], measured[stepper.name].result())
-                rows.append(replace(row, about="of the scene without its obstacles" if system.obstacles else ""))
+                rows[stepper.name] = _scheme_row_about(stepper, self._system, on_obstacles, self._alone, about)
+        return rows
+
+    def all_rows(self, of_schemes: Mapping[str, Row]) -> Iterator[Row]:
+        """In the steppers' order, once all engines are measured."""
+        for stepper in self._steppers:
+            if stepper.name in of_schemes:
+                yield of_schemes[stepper.name]
+            elif stepper.name in self._measuring:
+                predicted, measured = self._measuring[stepper.name]
+                row = _engine_row(stepper, self._system, predicted, measured.result())
+                yield replace(row, about="of the scene without its obstacles" if self._system.obstacles else "")
             else:
                 none = Limit(None, "stability is of schemes and engines; identify says which scheme this is")
-                rows.append(Row(stepper.name, stepper.kind, system, none, none, "unsupported"))
-    return rows
+                yield Row(stepper.name, stepper.kind, self._system, none, none, "unsupported")
+
+    def _begin_to_measure(self) -> None:
+        identified = self._alone.identified((engine, run.result()) for engine, run in self._identifying)
+        for engine, _ in self._identifying:
+            found = identified[engine.name]
+            predicted = self._alone.of_engine(found)
+            measured = self._pool.submit(measure_engine, engine, self._alone, named(found), predicted)
+            self._measuring[engine.name] = predicted, measured
 
 
 def _scheme_row_about(
@@ -129,7 +165,7 @@ def _scheme_row(stepper: SchemeStepper, system: MassSpringSystem, predictions: P
     return Row(stepper.name, stepper.kind, system, predicted, measured)
 
 
-def _engine_row(stepper: EngineStepper, system: MassSpringSystem, predicted: Limit, measured: Limit | Outcome) -> Row:
+def _engine_row(stepper: Stepper, system: MassSpringSystem, predicted: Limit, measured: Limit | Outcome) -> Row:
     if isinstance(measured, Outcome):
         reason = Limit(None, measured.reason)
         return Row(stepper.name, stepper.kind, system, predicted, reason, measured.ending)

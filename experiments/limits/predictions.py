@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 
 from engines.process.isolation import EngineStepper
 from experiments.limits.perturbed import rest_of_scheme
-from experiments.runs.runner import current
 from reference.identification import Identification, identify_all
 from reference.limit import Limit
+from reference.outcome import Outcome
 from reference.stepper import SchemeStepper, stepper_named
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium
@@ -57,14 +57,15 @@ class Predictions:
         scheme = named(found)
         return Limit(None, f"not identified; {found.reason}") if scheme is None else self.of(scheme)
 
+    def identifying_run(self, engine: EngineStepper, steps: int = IDENTIFYING_STEPS) -> Outcome:
+        """A run of an engine on the system in short steps."""
+        return engine.run(self.system, 0.1 * self.unit, steps)
+
     def identified(
-        self, engines: Sequence[EngineStepper], steps: int = IDENTIFYING_STEPS
+        self, runs: Iterable[tuple[EngineStepper, Outcome]], steps: int = IDENTIFYING_STEPS
     ) -> Mapping[str, Identification]:
-        """Which scheme each engine is, from a run on the system in short steps."""
-        dt = 0.1 * self.unit
-        with current().threads() as pool:
-            runs = list(pool.map(lambda engine: engine.run(self.system, dt, steps), engines))
-        found = identify_all(list(zip(engines, runs, strict=True)), self.system, dt, steps)
+        """Which scheme each engine is, by name, from its `identifying_run`."""
+        found = identify_all(list(runs), self.system, 0.1 * self.unit, steps)
         return {each.stepper: each for each in found.each}
 
 

@@ -58,17 +58,15 @@ def stability_command(
 
 def _limits(scene: str, settings: Mapping[str, str], names: Sequence[str]) -> list[Row]:
     """The limits of steppers of these names, or of all that theory knows on springs."""
-    from experiments.limits.limit_rows import stability_rows
+    from experiments.limits.limit_rows import stability_rows_of
     from experiments.runs.steppers import find_steppers, steppers_here
     from reference.files.setup import setup_for
 
     known = steppers_here().values()
     steppers = find_steppers(names) if names else [s for s in known if s.kind not in ("lecture", "pendulum")]
-    rows = []
+    systems = [setup_for(scene, settings={**settings, **case}).system for case in cases(scene, settings)]
     with progress("stability") as tell:
-        for case in cases(scene, settings):
-            rows += stability_rows(setup_for(scene, settings={**settings, **case}).system, steppers, tell)
-    return rows
+        return stability_rows_of(systems, steppers, [tell] * len(systems))
 
 
 def cases(scene: str, settings: Mapping[str, str]) -> list[dict[str, str]]:
