@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+import numpy as np
 
 from engines.process.isolation import EngineStepper
 from experiments.limits.perturbed import rest_of_scheme
+from experiments.runs.task import digest
 from reference.identification import Identification, identify_all
 from reference.limit import Limit
 from reference.outcome import Outcome
@@ -17,6 +21,10 @@ from reference.theory.rates import Rates, rates
 
 #: An engine is identified from this many steps, at a tenth of what the fastest mode allows.
 IDENTIFYING_STEPS = 200
+
+
+#: Of schemes on rods, by the digest of all they were found from.
+_LIMITS_ON_RODS: dict[tuple[SchemeStepper, str], Limit] = {}
 
 
 class Predictions:
@@ -47,10 +55,21 @@ class Predictions:
     def of(self, stepper: SchemeStepper) -> Limit:
         """A scheme's."""
         if stepper.name not in self._limits:
-            about = self.about(stepper)
-            limit = about if isinstance(about, Limit) else stability_limit(stepper.scheme, *about)
-            self._limits[stepper.name] = limit
+            self._limits[stepper.name] = self._limit_on_rods(stepper) if stepper.on_rods else self._limit(stepper)
         return self._limits[stepper.name]
+
+    def _limit(self, stepper: SchemeStepper) -> Limit:
+        about = self.about(stepper)
+        return about if isinstance(about, Limit) else stability_limit(stepper.scheme, *about)
+
+    def _limit_on_rods(self, stepper: SchemeStepper) -> Limit:
+        """Rods have neither stiffness nor damping: of systems that differ in these only it is found once."""
+        rods = replace(self.system, stiffness=np.array(1.0), damping=np.array(0.0))
+        key = stepper, digest(rods)
+        if key not in _LIMITS_ON_RODS:
+            rest = rest_of_scheme(stepper, rods, self.rest)
+            _LIMITS_ON_RODS[key] = rest if isinstance(rest, Limit) else stability_limit(stepper.scheme, rest)
+        return _LIMITS_ON_RODS[key]
 
     def of_engine(self, found: Identification) -> Limit:
         """That of the scheme an engine was identified with."""

@@ -43,7 +43,7 @@ class Layout:
 
     def state(self, z: Array, about: State) -> State:
         """The state z away from another one; z is one vector, or many as columns."""
-        of_masses, of_springs = np.split(z, [self.size - self.of_springs])
+        of_masses, of_springs = z[: self.size - self.of_springs], z[self.size - self.of_springs :]
         parts = of_masses.reshape(2 + self.remembered, *self.rest.state.positions[self.rest.free].shape, *z.shape[1:])
         whole = [np.array(q) for q in (about.positions, about.velocities, *about.memory)]
         for array, part, unit in zip(whole[: 2 + self.remembered], parts, self._units, strict=True):
