@@ -32,6 +32,7 @@ class Registry(Generic[T]):
         self.kind = kind
         self._files = files
         self._entries: dict[str, tuple[str, T]] = {}
+        self._in_order: dict[tuple[str, ...], Mapping[str, T]] = {}  # by the files, until something is entered
 
     def enter(self, name: str, entry: T, module: str) -> None:
         """Enter a thing under a name that nothing has yet.
@@ -48,16 +49,20 @@ class Registry(Generic[T]):
         if owner is not None and not owner == module == "__main__":
             raise InputError(f"{self.kind} {name!r} is taken by {owner}: expected another name")
         self._entries[name] = (module, entry)
+        self._in_order.clear()
 
     def all(self) -> Mapping[str, T]:
         """Everything there is, by name."""
-        files = list(self._files() if callable(self._files) else self._files)
+        files = tuple(self._files() if callable(self._files) else self._files)
+        if files in self._in_order:
+            return self._in_order[files]
         for file in files:
             imported(file)
         place = {file: i for i, file in enumerate(files)}
         # By file, whichever was imported first: sorting is stable, and keeps the order within each.
         entries = sorted(self._entries.items(), key=lambda item: place.get(item[1][0], len(files)))
-        return MappingProxyType({name: entry for name, (_, entry) in entries})
+        self._in_order[files] = MappingProxyType({name: entry for name, (_, entry) in entries})
+        return self._in_order[files]
 
     def find(self, name: str) -> T:
         """The thing of that name. Raises InputError, with a suggestion, where there is none."""
@@ -80,6 +85,7 @@ class Registry(Generic[T]):
             yield
         finally:
             self._entries = before
+            self._in_order.clear()
 
 
 #: What installed packages add, by what it is: entry points name the modules that enter it.

@@ -17,6 +17,7 @@ from reference.schemes import catalogue
 from reference.schemes.catalogue import Scheme
 from reference.schemes.constrained import ROPE_KICK_DRIFT
 from reference.simulate import simulate
+from reference.state import Trajectory
 from reference.system import MassSpringSystem
 
 #: What a system is taken for: springs, the angles of the rods they become, and the masses on those rods.
@@ -81,17 +82,28 @@ class SchemeStepper:
 
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """See Stepper."""
+        left = self._left(system, dt, steps, changes)
+        return left if isinstance(left, Outcome) else outcome_of(system, left, changes)
+
+    def trajectory(
+        self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()
+    ) -> Trajectory | None:
+        """The trajectory that a run leaves, if any: for those who do not ask whether it has blown up on the way."""
+        left = self._left(system, dt, steps, changes)
+        return left.trajectory if isinstance(left, Outcome) else left
+
+    def _left(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change]) -> Trajectory | Outcome:
+        """What a run leaves: its trajectory, or why there is none."""
         reason = why_no_pendulum(system) if self.equations is PendulumMotion else None
         if reason:
             return Outcome("unsupported", reason)
         try:
-            trajectory = simulate(system, self.scheme, dt, dt * steps, changes, self.equations)
+            return simulate(system, self.scheme, dt, dt * steps, changes, self.equations)
         except SolverError as error:
             return Outcome("diverged", str(error))
         except (InputError, Unsupported) as error:
             # Only a change on the fly can still be wrong here: a rod's length cannot change while it swings.
             return Outcome("unsupported", str(error))
-        return outcome_of(system, trajectory, changes)
 
 
 def catalogued() -> Mapping[str, SchemeStepper]:
@@ -113,10 +125,9 @@ def stepper_named(name: str) -> SchemeStepper:
     Raises:
         InputError: with a suggestion, where there is none; for a parameter that its scheme does not have.
     """
-    known = catalogued()
-    if name in known:
-        return known[name]
-    if name.startswith(ON_PENDULUM):
+    if name == ROPE_KICK_DRIFT.name:
+        return SchemeStepper(ROPE_KICK_DRIFT, RopeMotion)
+    if name.startswith(ON_PENDULUM) and name not in catalogue.schemes():
         scheme = catalogue.find(name.removeprefix(ON_PENDULUM))
         if scheme.needs != "accelerations":
             raise InputError(

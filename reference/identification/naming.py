@@ -86,7 +86,7 @@ def identify_all(
     whole = dict(known.whole)
     for name in {found.identified_as for found in each} - {None, *whole}:
         # named by single steps, though no run followed it
-        trajectory = stepper_named(str(name)).run(system, dt, steps, changes).trajectory
+        trajectory = stepper_named(str(name)).trajectory(system, dt, steps, changes)
         whole |= {} if trajectory is None else {str(name): trajectory}
     return Identified(each, whole)
 
@@ -167,7 +167,7 @@ class _Naming:
             known = stepper_named(claim)
             if not known.scheme.parameters.get("single"):
                 continue
-            found = known.run(self._system, self._dt, self._steps, self._changes).trajectory
+            found = known.trajectory(self._system, self._dt, self._steps, self._changes)
             if found is not None and len(run) > 1 and same_bits(found, run):
                 return Identification(stepper.name, (Match(claim, 0.0, 0.0, len(run) - 1),), 0.0, compared=BITS)
         return None
@@ -237,7 +237,7 @@ class _Naming:
         return self._pushed[key]
 
     def _run(self, push: Push, name: str) -> Trajectory | None:
-        return stepper_named(name).run(push.system, push.dt, self._few).trajectory
+        return stepper_named(name).trajectory(push.system, push.dt, self._few)
 
     def _cannot_be_told(self, names: Sequence[str]) -> bool:
         """Whether these schemes do the same when the system is pushed, too."""

@@ -33,10 +33,10 @@ def candidates(
     Args:
         claims: schemes with parameters, by name, that are to be among them: what an engine says it is.
     """
-    outcomes = {
-        name: stepper.run(system, dt, steps, changes) for name, stepper in catalogue_with(claims, system).items()
+    left = {
+        name: stepper.trajectory(system, dt, steps, changes) for name, stepper in catalogue_with(claims, system).items()
     }
-    return {name: outcome.trajectory for name, outcome in outcomes.items() if outcome.trajectory is not None}
+    return {name: trajectory for name, trajectory in left.items() if trajectory is not None}
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def candidates_for(
     def make(name: str, n: int) -> Trajectory | None:
         if name in own:
             return own[name] if n == steps else own[name].frames(slice(n + 1))
-        return catalogue[name].run(system, dt, n, changes).trajectory
+        return catalogue[name].trajectory(system, dt, n, changes)
 
     search = _Search(system, steps, list(catalogue), make)
     search.try_first_steps(unknown)
