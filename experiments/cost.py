@@ -17,6 +17,7 @@ import numpy as np
 
 from engines.engine import absence
 from engines.process.isolation import EngineStepper, isolated
+from engines.process.worker import FOR_SCHEMES, import_beforehand
 from experiments.benchmark.timing import Speeds, Timing, engine_cost, least, seconds_per_step
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.claims import claimed
@@ -107,6 +108,7 @@ def run(progress: Progress) -> Result:
 
 def compile_kernels() -> None:
     """All kernels, side by side in processes of their own: from the disk this one then has them in no time."""
+    import_beforehand(FOR_SCHEMES)
     compilable = [s.scheme.name for s in steppers() if isinstance(s, SchemeStepper) and not why_not_compiled(s.scheme)]
     with current().threads() as pool:
         each = [(name, masses) for masses in COMPILED_FOR for name in compilable]

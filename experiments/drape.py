@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from engines.engine import Engine, demands, registry, version
+from engines.process.worker import FOR_SCHEMES, import_beforehand
 from experiments.experiment import Experiment, Result, Table
 from experiments.runs.progress import Progress
 from experiments.runs.runner import answer, current
@@ -144,6 +145,7 @@ def able(system: MassSpringSystem) -> list[Engine]:
 
 def run(progress: Progress) -> Result:
     """All cloths, beside one another as the cores allow."""
+    import_beforehand(FOR_SCHEMES)
     cases: list[tuple[Any, ...]] = [(hung, c, SPACING, i) for c in LENGTHS for i in range(SAMPLES)]
     cases += [(hung, c, a, i) for c in OTHER_LENGTHS for a in OTHERS for i in range(SAMPLES)]
     cases += [(hung, c, COARSE, 0) for c in ENGINE_LENGTHS]

@@ -13,12 +13,16 @@ import pytest
 
 from engines.engine import Engine, find, registry, version
 from engines.process.packages import APART
+from engines.process.worker import FOR_SCHEMES, import_beforehand
 from reference.errors import InputError
 from tests.parts import PARTS, kept, part, todays
 
 # How long an example takes is a matter of what else the machine does.
 hypothesis.settings.register_profile("lab", deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow])
 hypothesis.settings.load_profile("lab")
+
+# One server forks the processes of all tests.
+import_beforehand(FOR_SCHEMES)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

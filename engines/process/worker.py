@@ -49,8 +49,11 @@ LONGEST_PATH = 40
 UNSEEN = 255
 
 
-#: What the server that forks processes imports before it forks any, and so each of them has.
-_IMPORTED = ["engines.process.isolation", "reference.compiled.preload"]
+#: What the server that forks processes imports before it forks any, and so each of them has: what engines need.
+_IMPORTED = ["engines.process.isolation"]
+
+#: What processes that run schemes need besides, and import most of a second for.
+FOR_SCHEMES = "reference.compiled.preload"
 
 
 def import_beforehand(*modules: str) -> None:

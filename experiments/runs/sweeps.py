@@ -13,6 +13,7 @@ import numpy as np
 
 from engines.engine import Engine
 from engines.process.isolation import MEMORY_LIMIT, TIME_LIMIT, EngineStepper
+from engines.process.worker import FOR_SCHEMES, import_beforehand
 from experiments.runs.task import Task
 from reference.changes import Change, whole_steps
 from reference.errors import InputError
@@ -68,6 +69,7 @@ class ParameterSweep:
 
     def tasks(self) -> Iterator[Task]:
         """A task for every run. Raises InputError for a point of the grid that makes no sense."""
+        import_beforehand(FOR_SCHEMES)
         for values in product(*self.axes.values()):
             point = dict(zip(self.axes, values, strict=True))
             settings = {**self.settings, **{name: f"{value:.17g}" for name, value in point.items() if name != "dt"}}

@@ -13,7 +13,7 @@ from pathlib import Path
 from time import perf_counter
 
 from engines.process.isolation import isolated
-from engines.process.worker import import_beforehand
+from engines.process.worker import FOR_SCHEMES, import_beforehand
 from experiments.advice.own_scene import experiments_of
 from experiments.experiment import Experiment, find, write_tables
 from experiments.runs.progress import Progress
@@ -27,8 +27,8 @@ from report.page.section_cache import cache_section, cached_section
 #: These take longest, and begin first, in this order: no core is to wait for the last of them.
 LONGEST = ("scenes", "stability", "maps", "energy", "numbering", "drape", "order")
 
-#: What every experiment's process draws with.
-DRAWN_WITH = ("matplotlib.figure", "matplotlib.backends.backend_svg", "report.page.sections")
+#: What every experiment's process computes and draws with.
+MADE_WITH = (FOR_SCHEMES, "matplotlib.figure", "matplotlib.backends.backend_svg", "report.page.sections")
 
 #: How long an experiment may take [s], and how much memory its process [bytes].
 TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
@@ -81,7 +81,7 @@ def all_sections(
     alone = [experiment for experiment in missing if experiment.timed]
     make = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
 
-    import_beforehand(*DRAWN_WITH)
+    import_beforehand(*MADE_WITH)
 
     def when_made(made: Section, seconds: float) -> None:
         cache = current().store
