@@ -152,6 +152,7 @@ KINDS = {
 }
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", KINDS)
 def test_energy_is_of_the_kind_that_theory_says(name: str, on: Bench) -> None:
     """Bounded for symplectic schemes; the others gain or lose."""

@@ -41,12 +41,14 @@ def check_order(stepper: SchemeStepper, benches: list[Bench]) -> None:
     assert abs(row.off) <= NEAR == 0.05
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("stepper", catalogued().values(), ids=lambda s: s.name)
 def test_slopes_are_as_theory_says(stepper: SchemeStepper, benches: list[Bench]) -> None:
     """Every scheme, on springs and on rods; those written in place have order 1."""
     check_order(stepper, benches)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "scheme",
     [

@@ -98,6 +98,7 @@ def test_truncated_damping_keeps_momentum_to_its_solvers_tolerance() -> None:
     check_momentum(TRUNCATED, 0.0)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("damping", DAMPINGS)
 @pytest.mark.parametrize("scheme", KEEP_ANGULAR_MOMENTUM, ids=label)
 def test_schemes_that_keep_angular_momentum(scheme: Scheme, damping: float) -> None:
@@ -168,6 +169,7 @@ def check_energy_stays(scheme: Scheme) -> None:
     assert abs(last.mean() - first.mean()) < 0.1 * np.ptp(first)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("scheme", SYMPLECTIC, ids=label)
 def test_symplectic_schemes_keep_energy_near_for_ever(scheme: Scheme) -> None:
     """The energy error is bounded and has no trend."""

@@ -56,6 +56,7 @@ def check_identified(scheme: Scheme, case: str, expected: str) -> None:
 TEXTBOOK = [s.name for s in schemes().values() if s.step.__module__ in catalogue.FIRST]
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("case", PARAMETERS)
 @pytest.mark.parametrize("name", TEXTBOOK)
 def test_every_scheme_is_identified_as_itself_or_its_equal(name: str, case: str) -> None:
@@ -115,6 +116,7 @@ def known_at_rest(masses: int, case: str) -> tuple[MassSpringSystem, dict[str, T
     return system, candidates(system, DT, 30)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("masses", [2, 10])
 @pytest.mark.parametrize("case", PARAMETERS)
 @pytest.mark.parametrize("scheme", IN_PLACE, ids=label)

@@ -42,6 +42,7 @@ def run(program: str, folder: Path, *words: str) -> list[str]:
     return done.stdout.splitlines()
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("by", ["file", "input"])
 def test_a_program_without_a_guard_is_run_once(by: str, tmp_path: Path) -> None:
     """Its processes do not run it again; a function that stands in it is refused by name, and no engine is blamed."""

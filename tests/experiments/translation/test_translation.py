@@ -89,6 +89,7 @@ def test_an_engine_has_the_promised_frequency_and_damping(
     check_promise(row, spring.effective_mass)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("case", BACKWARD, ids=lambda case: f"{case[0]}-{next(iter(case[1].values())):g}")
 def test_what_was_typed_means_what_the_engine_does(case: tuple[str, Settings, float, float]) -> None:
     """The nominal k and c by the engine's own formulas; what the step makes of them is as promised."""

@@ -27,6 +27,7 @@ WRITTEN = {
 }
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("scheme", [s for s in schemes().values() if s.linear], ids=label)
 def test_formulas_are_those_of_the_linearised_step(scheme: Scheme) -> None:
     """Of x'' = -k/m x - (c + Cd)/m x': the formulas at other a, b and d against the scheme's own function on matrices.

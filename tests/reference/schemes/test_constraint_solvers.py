@@ -171,6 +171,7 @@ def test_one_that_kicks_twice_is_not_of_first_order() -> None:
     assert nearer_at_half_the_step(kick_drift_kicked_twice) < 1.3
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("known", constraint_schemes().values(), ids=label)
 def test_in_single_precision_every_number_is_single(known: Scheme) -> None:
     """Each position and velocity after a step is one of single precision, and off the double's by its rounding."""

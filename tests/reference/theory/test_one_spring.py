@@ -85,6 +85,7 @@ def test_exponential_damping_with_its_window(ratio: float) -> None:
         assert limit.windows == ()
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("ratio", RATIOS[::4])
 def test_sequential_damping_of_one_spring_is_exponential(ratio: float) -> None:
     """One spring is damped by one impulse; its Jacobian is differenced, to 1e-8 of growth in a step."""
@@ -96,6 +97,7 @@ def test_sequential_damping_of_one_spring_is_exponential(ratio: float) -> None:
         assert one == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_rk4(ratio: float) -> None:
     """|R(h mu)| = 1 with mu = w (-zeta + sqrt(zeta^2 - 1)), the other root too, and the pendulum's i w'."""

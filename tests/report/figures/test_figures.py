@@ -43,6 +43,7 @@ def test_every_experiment_has_a_figure_and_a_result_to_draw_it_of() -> None:
         assert callable(importlib.import_module(f"report.figures.{name}").draw)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(("name", "case"), ALL)
 def test_it_is_drawn_with_what_there_is_and_has_words_that_stand_for_it(name: str, case: str) -> None:
     """However little that is."""
@@ -117,6 +118,7 @@ def labels(axes: Axes) -> list[str]:
     return [] if axes.get_legend() is None else [*legend(axes)]
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", RESULTS)
 def test_the_same_result_is_drawn_in_the_same_way_and_another_in_another(name: str) -> None:
     """To the last number."""

@@ -7,13 +7,20 @@ import subprocess
 import sys
 import time
 import urllib.request
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import pytest
 
 from tests.report.commands.terminal import springlab
 from tests.report.live.visit import ROOT, command_line, server
 from tests.soak.guests import Guest
+
+
+@pytest.fixture(scope="module")
+def plain() -> Iterator[tuple[str, subprocess.Popen[str]]]:
+    """One that was told nothing: its address, and its process."""
+    with server() as found:
+        yield found
 
 
 def refused(words: Sequence[str]) -> str:
@@ -59,12 +66,12 @@ def test_open_to_all_it_says_what_that_means() -> None:
             assert b"<html" in answer.read().lower()
 
 
-def test_on_loopback_alone_nothing_is_said_and_nobody_else_gets_in() -> None:
+def test_on_loopback_alone_nothing_is_said_and_nobody_else_gets_in(plain: tuple[str, subprocess.Popen[str]]) -> None:
     """127.0.0.2 is this machine's, too, but not the address that it listens at."""
-    with server() as (address, process):
-        assert process.said == []  # type: ignore[attr-defined]
-        with pytest.raises(ConnectionRefusedError):
-            socket.create_connection(("127.0.0.2", int(address.rpartition(":")[2])), timeout=600)
+    address, process = plain
+    assert process.said == []  # type: ignore[attr-defined]
+    with pytest.raises(ConnectionRefusedError):
+        socket.create_connection(("127.0.0.2", int(address.rpartition(":")[2])), timeout=600)
 
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere there always is one")
@@ -75,17 +82,17 @@ def test_without_a_browser_the_address_is_said() -> None:
         assert process.stdout.readline().startswith("no browser found here: open http://localhost:")
 
 
-def test_viewers_who_vanish_in_the_middle_of_a_frame_are_no_news() -> None:
+def test_viewers_who_vanish_in_the_middle_of_a_frame_are_no_news(plain: tuple[str, subprocess.Popen[str]]) -> None:
     """Neither to the others nor to whoever started it: the server's output has nothing more (see `server`)."""
-    with server() as (address, _):
-        stays = Guest(address)
-        for _ in range(6):
-            guest = Guest(address)
-            guest.leave(politely=False)
+    address, _ = plain
+    stays = Guest(address)
+    for _ in range(6):
         guest = Guest(address)
-        before, deadline = stays.messages, time.monotonic() + 600
-        while min(stays.messages - before, guest.messages) < 30 and time.monotonic() < deadline:
-            time.sleep(0.02)
-        assert min(stays.messages - before, guest.messages) >= 30
-        stays.leave()
         guest.leave(politely=False)
+    guest = Guest(address)
+    before, deadline = stays.messages, time.monotonic() + 600
+    while min(stays.messages - before, guest.messages) < 30 and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert min(stays.messages - before, guest.messages) >= 30
+    stays.leave()
+    guest.leave(politely=False)
