@@ -58,7 +58,12 @@ def _in_step(places: Sequence[Sequence[Site]], names: Names) -> Iterator[Edit]:
         return
     for sites in zip(*places, strict=True):
         nodes = [what_stands_at(site) for site in sites]
-        if any(isinstance(node, ast.Name) or isinstance(getattr(node, "ctx", None), ast.Store) for node in nodes):
+        if any(isinstance(getattr(node, "ctx", None), ast.Store) for node in nodes):
+            continue
+        if any(isinstance(node, ast.Name) for node in nodes):
+            if len({ast.dump(node) for node in nodes}) == 1:  # other names are changed otherwise in each
+                for name in names.own:
+                    yield _edit(sites, [Replacement("name", 1.9, expression(name, node)) for node in nodes])
             continue
         found = [list(replacements(node, names, site[0])) for node, site in zip(nodes, sites, strict=True)]
         if len({len(changes) for changes in found}) == 1:

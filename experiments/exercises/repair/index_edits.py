@@ -9,7 +9,7 @@ import ast
 from collections.abc import Iterator
 
 from experiments.exercises.repair.names import Names
-from experiments.exercises.repair.nodes import Replacement, at_place, expression, moved, renewed
+from experiments.exercises.repair.nodes import Replacement, at_place, binary, expression, moved, renewed
 from experiments.exercises.repair.value_edits import given_instead
 
 #: Ranges that are taken for each other.
@@ -28,9 +28,20 @@ def of_subscript(node: ast.Subscript, names: Names, holder: ast.AST) -> Iterator
     if isinstance(node.ctx, ast.Load):
         yield Replacement("index", 2.2, node.value)
         yield from given_instead(node, names, 2.3)
+        yield from _with_another_at_the_end(node, names)
         if isinstance(holder, ast.Assign):
             method = ast.copy_location(ast.Attribute(node, "copy", ast.Load()), node)
             yield Replacement("copy", 1.6, ast.copy_location(ast.Call(method, [], []), node))
+
+
+def _with_another_at_the_end(node: ast.Subscript, names: Names) -> Iterator[Replacement]:
+    """What is above the first mass: a field of what is given, or nothing that moves."""
+    index = node.slice
+    if isinstance(index, ast.BinOp) and isinstance(index.op, ast.Sub) and isinstance(index.left, ast.Name):
+        test = expression(f"{index.left.id} > 0", node)
+        nothing = binary(expression("0", node), ast.Mult(), node)
+        for other in (nothing, *(expression(text, node) for text in names.values)):
+            yield Replacement("condition", 2.2, ast.copy_location(ast.IfExp(test, node, other), node))
 
 
 def with_index(node: ast.Subscript, place: int, new: ast.expr) -> ast.Subscript:

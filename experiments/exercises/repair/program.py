@@ -15,13 +15,16 @@ from contextlib import ExitStack, contextmanager
 from types import FrameType
 from typing import Any
 
-from experiments.exercises.repair.edit import Edit
+from experiments.exercises.repair.edit import Edit, what_stands_at
 
 #: What the text is called, and what the program calls itself.
 NAME, MODULE = "<submission>", "submission"
 
 #: How often loops may go round in one call, all together.
 MOST_ROUNDS = 20_000
+
+#: A value is a number, an array of so many axes, or of another type; a name may stand for several.
+Kinds = dict[str, set[str]]
 
 #: A function that can be compiled by itself: at the top, or a method with its class.
 Unit = tuple[ast.FunctionDef, "ast.ClassDef | None"]
@@ -51,9 +54,10 @@ class Program:
     def __init__(self, tree: ast.Module) -> None:
         self.tree = tree
         self._rounds = 0
-        #: First lines of the functions that are called while the module is made.
+        #: First lines of the functions that are called while the module is made; of which kind names in them are.
         self._entered: set[int] = set()
-        with _noting(self._entered):
+        self._kinds: Kinds = {}
+        with _noting(self._entered, self._kinds):
             self._names = self.anew()
         self._units = dict(_units(tree, self._entered))
 
@@ -68,15 +72,23 @@ class Program:
 
     @contextmanager
     def reached(self) -> Iterator[set[int]]:
-        """The first lines of all functions that are called meanwhile, or were while the module was made."""
+        """The first lines of all functions that are called meanwhile, or were while the module was made.
+
+        Of which kind the names in them are is kept, too.
+        """
         lines = set(self._entered)
-        with _noting(lines):
+        with _noting(lines, self._kinds):
             yield lines
 
     def can_matter(self, edit: Edit, reached: Collection[int]) -> bool:
-        """Whether a change is in a function that begins on one of these lines, or in none that is known."""
+        """Whether a change can make a difference that is wanted.
+
+        It is in a function that begins on one of these lines, or in none that is known; and a name is put in the place
+        of one of its kind, or reckoned with if it is a number or an array.
+        """
         units = self._of([edit])
-        return units is None or any(_first_line(function) in reached for function, _ in units)
+        called = units is None or any(_first_line(function) in reached for function, _ in units)
+        return called and all(_fits(what_stands_at(site), new, self._kinds) for site, new in edit.sites)
 
     @contextmanager
     def changed(self, edits: Sequence[Edit]) -> Iterator[Mapping[str, Any] | None]:
@@ -181,13 +193,36 @@ def _first_line(function: ast.FunctionDef) -> int:
     return min([function.lineno, *(decorator.lineno for decorator in function.decorator_list)])
 
 
+def _fits(old: Any, new: Any, kinds: Kinds) -> bool:
+    """Whether a name may stand in place of another, or beside a value, as far as their kinds are known."""
+    if isinstance(old, ast.Name) and isinstance(new, ast.Name):
+        before, then = kinds.get(old.id), kinds.get(new.id)
+        return not before or not then or bool(before & then)
+    if isinstance(new, ast.BinOp) and new.left is old and isinstance(new.right, ast.Name):
+        return any(kind.startswith("number") for kind in kinds.get(new.right.id, {"number"}))
+    return True
+
+
+def kind_of(value: object) -> str:
+    """Of which kind a value is.
+
+    >>> [kind_of(value) for value in (1, 2.5, "a", [1])]
+    ['number', 'number', 'str', 'list']
+    """
+    axes = getattr(value, "ndim", 0 if isinstance(value, int | float) else None)
+    return type(value).__name__ if axes is None else "number" + f" of {axes} axes" * bool(axes)
+
+
 @contextmanager
-def _noting(lines: set[int]) -> Iterator[None]:
-    """Adds the first lines of those functions of the program that are called meanwhile."""
+def _noting(lines: set[int], kinds: Kinds) -> Iterator[None]:
+    """Adds the first lines of those functions of the program that are called meanwhile, and what their names are."""
 
     def note(frame: FrameType, event: str, _: object) -> None:
-        if event == "call" and frame.f_code.co_filename == NAME:
+        if frame.f_code.co_filename == NAME and event == "call":
             lines.add(frame.f_code.co_firstlineno)
+        if frame.f_code.co_filename == NAME and event == "return":
+            for name, value in frame.f_locals.items():
+                kinds.setdefault(name, set()).add(kind_of(value))
 
     sys.setprofile(note)
     try:

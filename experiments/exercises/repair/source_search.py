@@ -28,7 +28,7 @@ Nearness = tuple[int, float]
 
 #: How many single changes are gone on from in pairs; how many repairs are enough; how much dearer than the cheapest
 #: repair a change may be that is still tried.
-STEMS, ENOUGH, DEARER = 12, 12, 0.5
+STEMS, ENOUGH, DEARER = 12, 12, 0.3
 
 
 class Search:

@@ -52,10 +52,32 @@ def _of_block(holder: ast.AST, name: str, block: Sequence[ast.stmt]) -> Iterator
             yield from _of_values_before(place, before, one, after)
         for extra in _left_out_after(one):
             yield Edit(one.lineno, "left out", 2.2, ((place, [*before, one, extra, *after]),))
+        if isinstance(one, ast.For):
+            yield from _across_the_edge(place, before, one, after)
         if isinstance(holder, ast.For) and isinstance(holder.target, ast.Name) and not isinstance(one, ast.If):
-            for test in (f"{holder.target.id} > 0", f"{holder.target.id} == 0"):
+            for test in _ends_of(holder.target.id, holder.iter):
                 guarded = ast.copy_location(ast.If(expression(test, one), [one], []), one)
                 yield Edit(one.lineno, "condition", 2.0, ((place, [*before, guarded, *after]),))
+
+
+def _across_the_edge(
+    place: Site, before: Sequence[ast.stmt], loop: ast.For, after: Sequence[ast.stmt]
+) -> Iterator[Edit]:
+    """What is done once in place of each time, and the other way: a sum that begins at 0 too often, or too seldom."""
+    if before:
+        inside = renewed(loop, body=[before[-1], *loop.body])
+        yield Edit(before[-1].lineno, "order", 2.0, ((place, [*before[:-1], inside, *after]),))
+    if len(loop.body) > 1:
+        rest = renewed(loop, body=loop.body[1:])
+        yield Edit(loop.body[0].lineno, "order", 2.0, ((place, [*before, loop.body[0], rest, *after]),))
+
+
+def _ends_of(name: str, over: ast.expr) -> Iterator[str]:
+    """Conditions on what a loop counts, by which its first or last round is another one."""
+    yield from (f"{name} > 0", f"{name} == 0")
+    if isinstance(over, ast.Call) and function_name(over) == "range":
+        bound = ast.unparse(over.args[min(1, len(over.args) - 1)]) if over.args else "0"
+        yield from (f"{name} < {bound} - 1", f"{name} == {bound} - 1")
 
 
 def _moved_down(place: Site, before: Sequence[ast.stmt], one: ast.stmt, after: Sequence[ast.stmt]) -> Iterator[Edit]:

@@ -45,6 +45,12 @@ def of_value(node: ast.expr, names: Names, holder: ast.AST) -> Iterator[Replacem
         yield from _with_another(node, names)
     if in_product or is_whole:
         yield from _functions_of(node, names, is_whole)
+    if in_product and isinstance(node, ast.Name | ast.BinOp | ast.Attribute):
+        yield Replacement("left out", 2.2, binary(node, ast.Pow(), expression("0.5", node)))
+    if isinstance(holder, ast.Call) and isinstance(node, ast.Name | ast.BinOp):
+        yield Replacement("left out", 2.2, called("np.abs" if names.has_numpy else "abs", node))
+    if is_whole and isinstance(node, ast.BinOp | ast.Call):
+        yield from _projected(node, names)
     if in_product and isinstance(node, ast.Name) and "dt" in names.own:
         yield from _averaged(node, names)
 
@@ -65,6 +71,16 @@ def _averaged(node: ast.Name, names: Names) -> Iterator[Replacement]:
     for name in names.own:
         if name not in (*MODULES, *SCALARS, *names.loops, node.id):
             yield Replacement("left out", 2.3, expression(f"(({node.id} + {name}) / 2)", node))
+
+
+def _projected(node: ast.expr, names: Names) -> Iterator[Replacement]:
+    """A product of two vectors by the square of the length of one of them, by its own name or that of its length."""
+    for name in dict.fromkeys(inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)):
+        if name not in MODULES:
+            yield Replacement("left out", 2.5, binary(node, ast.Div(), expression(f"({name} @ {name})", node)))
+    for name in names.own:
+        if name not in (*MODULES, *SCALARS, *names.loops):
+            yield Replacement("left out", 2.5, binary(node, ast.Div(), expression(f"{name} ** 2", node)))
 
 
 def _functions_of(node: ast.expr, names: Names, is_whole: bool) -> Iterator[Replacement]:

@@ -18,7 +18,7 @@ from experiments.exercises.grading import Grade, grade, row_of
 from experiments.exercises.handed_in import collected
 from experiments.exercises.handed_in.submission import Submission
 from experiments.exercises.process import sandbox
-from experiments.exercises.repair import source_edits
+from experiments.exercises.repair import program, source_edits
 from experiments.exercises.repair.edit import Edit
 from experiments.exercises.repair.source_edits import edits_of, without_main
 from experiments.exercises.repair.source_search import fields_given
@@ -238,7 +238,9 @@ def test_right_programs_are_not_looked_at(trusted: None, monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize(
-    "module", [source_edits, parts, terms, c_text, collected], ids=lambda m: ".".join(m.__name__.split(".")[-2:])
+    "module",
+    [source_edits, program, parts, terms, c_text, collected],
+    ids=lambda m: ".".join(m.__name__.split(".")[-2:]),
 )
 def test_the_worked_examples_are_true(module: Any) -> None:
     """What the docstrings show is what comes out."""

@@ -31,6 +31,25 @@ SLIPS = {
     "only inwards": ("w = v @ n\nreturn w", "w = np.minimum(v @ n, 0.0)\nreturn w"),
     "no root": ("l = x @ x\nreturn l", "l = np.sqrt(x @ x)\nreturn l"),
     "two lines too early": ("x = a\nb = x\nc = x\nreturn b, c", "b = x\nc = x\nx = a\nreturn b, c"),
+    "the same name in both": (
+        "f += t * x / a1\ng += t * v / a1\nreturn f, g",
+        "f += t * x / d\ng += t * v / d\nreturn f, g",
+    ),
+    "above the first": (
+        "for i in r:\n    up = x[i - 1]\nreturn s.centre",
+        "for i in r:\n    up = x[i - 1] if i > 0 else s.centre\nreturn s.centre",
+    ),
+    "below the last": (
+        "for i in range(n):\n    f(x[i + 1])",
+        "for i in range(n):\n    if i < n - 1:\n        f(x[i + 1])",
+    ),
+    "projected twice as long": ("c = np.dot(v, d)\nreturn c", "c = np.dot(v, d) / (d @ d)\nreturn c"),
+    "a sum of all before": (
+        "t = 0\nfor i in r:\n    t += i\n    f(t)",
+        "for i in r:\n    t = 0\n    t += i\n    f(t)",
+    ),
+    "the largest of all signs": ("return np.argmax(v)", "return np.argmax(np.abs(v))"),
+    "no root in a product": ("return 2 / (a1 / d)", "return 2 / (a1 / d) ** 0.5"),
     "that of the first": ("for i in r:\n    f(m[0])", "for i in r:\n    f(m[i])"),
 }
 
