@@ -11,16 +11,14 @@ from pathlib import Path
 
 import numpy as np
 
-from engines.translation.translation import Spring, Stepping, translations
+from engines.translation.translation import Stepping, translations
+from experiments.translation.free_spring import SPRING, STEPS, told
 from experiments.translation.rows import fitting, forward
 from reference.outcome import Outcome
 from reference.scenes import find
 from reference.stepper import stepper_named
 
 PAGE = Path(__file__).parent / "docs" / "players-springs.md"
-
-#: The spring: 1 kg that swings 4 times a second, with no damping at all; at the steps of a game and of a robot [s].
-SPRING, STEPS = Spring(1.0, 0.0, 1.0).with_oscillation(4.0, 0.0), (1 / 60, 1 / 240)
 
 #: Sub-steps of XPBD in a step of a millisecond; how long the string swings [s].
 SUBSTEPS, SWUNG = (1, 5, 20), 0.5
@@ -48,11 +46,7 @@ def damping_table(measure: bool = True) -> list[list[str]]:
 
 def _told(found: tuple[float, float] | None) -> list[str]:
     """A spring's frequency and damping ratio, in words."""
-    if found is None:
-        return ["-", "-"]
-    stiffness, damping = found
-    omega = np.sqrt(stiffness / SPRING.effective_mass)
-    return [f"{omega / (2 * np.pi):.3f}", f"{abs(damping) / (2 * SPRING.effective_mass * omega):.4f}"]
+    return ["-", "-"] if found is None else [*told(*found)]
 
 
 def substep_table() -> list[list[str]]:

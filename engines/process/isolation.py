@@ -58,16 +58,15 @@ def isolated(
         python: an interpreter that can import `engines` and NumPy; left out, that of the environment that is kept for
             the engine among the arguments, or this one.
     """
-    if python is None:
-        python = interpreter_for(arguments)
-        late = None if python is None else _started_up(arguments, python, memory_limit)
-        if late is not None:
-            return late
+    python = python or interpreter_for(arguments)
+    late = None if python is None else _started_up(arguments, python, memory_limit)
+    if late is not None:
+        return late
     return supervisor(python).run(function, arguments, time_limit, memory_limit)
 
 
-#: The engines, of environments of their own, that have made their first step once, by name.
-_STARTED: set[str] = set()
+#: The engines, of environments of their own, that have made their first step once, by name and interpreter.
+_STARTED: set[tuple[str, Path]] = set()
 
 
 def _started_up(arguments: Sequence[Any], python: Path, memory_limit: float) -> Outcome | None:
@@ -78,12 +77,14 @@ def _started_up(arguments: Sequence[Any], python: Path, memory_limit: float) -> 
     """
     for argument in arguments:
         package, start = getattr(argument, "package", None), getattr(argument, "start", None)
-        if not isinstance(package, str) or package not in APART or not callable(start) or argument.name in _STARTED:
+        if not isinstance(package, str) or package not in APART or not callable(start):
+            continue
+        if (argument.name, python) in _STARTED:
             continue
         ended = supervisor(python).run(first_step, (argument,), APART[package].start_up, memory_limit)
         if isinstance(ended, Outcome):
             return Outcome(ended.ending, f"starting {package}: {ended.reason}")
-        _STARTED.add(argument.name)
+        _STARTED.add((argument.name, python))
     return None
 
 

@@ -19,6 +19,7 @@ from engines.process.isolation import EngineStepper, isolated
 from engines.process.supervisor import supervisor
 from experiments.engine_versions.conformance import Value, measure
 from experiments.runs.progress import Progress
+from experiments.translation import free_spring
 from reference.errors import InputError, unknown_name
 
 #: What was measured of a version: by engine (crash cases by package), by measure.
@@ -137,6 +138,9 @@ def _measure(subject: Subject, pythons: Mapping[str, Path], progress: Progress) 
             tasks[version, engine.name, "conformance"] = partial(measure, stepper)
         if subject.whole:
             tasks[version, subject.package, "NumPy"] = partial(_numpy, python)
+            for translation in free_spring.of_package(subject.package):
+                own = partial(free_spring.measured, translation, python)
+                tasks[version, subject.package, translation.name] = own
             for case in crash_cases(subject.package).values():
                 tasks[version, subject.package, case.name] = partial(_break, case, python)
     answers = {}

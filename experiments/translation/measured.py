@@ -6,6 +6,8 @@ such that the spring turns by about a radian, where rounding of single precision
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 from engines.process.available import interpreter
@@ -31,9 +33,16 @@ def steps_to_watch(spring: Spring, dt: float) -> int:
     return int(np.clip(round(2 * slow / dt), 40, 3000))
 
 
-def measured_spring(translation: Translation, snippet: str, spring: Spring, dt: float) -> tuple[float, float] | str:
-    """The k [N/m] and c [N s/m] of the first spring in a snippet that is run; or why there are none."""
-    python = interpreter(translation.package) if translation.package else None
+def measured_spring(
+    translation: Translation, snippet: str, spring: Spring, dt: float, python: Path | None = None
+) -> tuple[float, float] | str:
+    """The k [N/m] and c [N s/m] of the first spring in a snippet that is run; or why there are none.
+
+    Args:
+        python: of an environment with the engine; left out, that of the one which is kept, or the lab's own.
+    """
+    if python is None and translation.package:
+        python = interpreter(translation.package)
     answer = isolated(translation.run, snippet, python=python, time_limit=TIME_LIMIT)
     if isinstance(answer, Outcome):
         return f"the snippet {answer.ending}: {answer.reason}"

@@ -12,7 +12,10 @@ from typing import Any
 
 import pytest
 
-from engines.process.isolation import TIME_LIMIT, EngineStepper, isolated
+from engines.engine import find as find_engine
+from engines.process import isolation
+from engines.process.isolation import TIME_LIMIT, EngineStepper, first_step, isolated
+from engines.process.packages import APART
 from reference.outcome import Outcome
 from reference.scenes import find
 from tests.engines.process import misbehaving
@@ -148,3 +151,27 @@ def test_a_process_whose_numba_has_threads_leaves_nothing_to_complain_of() -> No
     said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, env=environment, cwd=root)
     assert int(said.stdout) >= 1
     assert said.stderr == ""
+
+
+def test_the_first_step_in_each_environment_has_a_limit_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """That of its package, as kernels compile: once in every environment, of other versions too; others have none."""
+    asked: list[tuple[str, str, float]] = []
+
+    class Supervisor:
+        def __init__(self, python: Path | None) -> None:
+            self.python = str(python)
+
+        def run(self, function: Callable[..., Any], arguments: tuple[Any, ...], time_limit: float, _: float) -> float:
+            asked.append((self.python, function.__name__, time_limit))
+            return 0.0
+
+    monkeypatch.setattr(isolation, "supervisor", Supervisor)
+    monkeypatch.setattr(isolation, "_STARTED", set())
+    newton, tendons = find_engine("newton_vbd"), find_engine("mujoco_tendons")
+    for engine, python in ((newton, "1.7"), (newton, "1.7"), (newton, "1.8"), (tendons, "3.2")):
+        isolated(misbehaving.leave, engine, python=Path(python))
+    own = APART["newton"].start_up
+    assert own > TIME_LIMIT
+    runs = [(python, "leave", TIME_LIMIT) for python in ("1.7", "1.7", "1.8", "3.2")]
+    started = [("1.7", first_step.__name__, own), ("1.8", first_step.__name__, own)]
+    assert asked == [started[0], runs[0], runs[1], started[1], *runs[2:]]
