@@ -91,6 +91,14 @@ def _new_process(fds: list[int]) -> tuple[int, int]:
         raise
 
 
+def start_server(preloaded: list[str]) -> None:
+    """Start a server of this process's own, unless it has one, which imports some modules and then forks."""
+    if not forked_by_server():
+        forkserver.set_forkserver_preload(preloaded)
+        with _looking_nowhere_else():
+            forkserver.ensure_running()
+
+
 @contextmanager
 def _looking_nowhere_else() -> Iterator[None]:
     """A server that is started meanwhile imports from where Python's packages are, not from the working folder."""

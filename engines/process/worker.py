@@ -61,6 +61,16 @@ def import_beforehand(*modules: str) -> None:
     _IMPORTED.extend(module for module in modules if module not in _IMPORTED)
 
 
+def start_beforehand() -> None:
+    """Start the server that forks processes: while it imports what they begin with, there is other work to be done."""
+    if sys.platform != "win32":
+        from engines.process.start_method import start_server
+
+        _own_temporary_folder()
+        with _deaf_to_interrupts():
+            start_server(_IMPORTED)
+
+
 class NoAnswerError(Exception):
     """A task did not answer.
 

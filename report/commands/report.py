@@ -34,6 +34,10 @@ def report_command(
     """
     if scene is not None and (names or full):
         raise InputError("--only and --full are of experiments: expected no SCENE with them")
+    if scene is None and not store.exists():  # nothing is kept: processes will be needed
+        from report.page.processes import prepare_processes
+
+        prepare_processes(at_once=True)
     from report.page.written import write_page, write_scene_page
 
     with chosen_runner(resume, store), progress("report") as tell:

@@ -13,7 +13,6 @@ from pathlib import Path
 from time import perf_counter
 
 from engines.process.isolation import isolated
-from engines.process.worker import FOR_SCHEMES, import_beforehand
 from experiments.advice.own_scene import experiments_of
 from experiments.experiment import Experiment, find, write_tables
 from experiments.runs.progress import Progress
@@ -21,14 +20,12 @@ from experiments.runs.runner import LocalExecutor, Runner, current, using
 from experiments.runs.store import Store, StoreError
 from reference.scenes import Setup
 from report.figures import animate, draw
+from report.page.processes import prepare_processes
 from report.page.section import Section
 from report.page.section_cache import cache_section, cached_section
 
 #: These take longest, and begin first, in this order: no core is to wait for the last of them.
-LONGEST = ("scenes", "stability", "maps", "energy", "numbering", "drape", "order")
-
-#: What every experiment's process computes and draws with.
-MADE_WITH = (FOR_SCHEMES, "matplotlib.figure", "matplotlib.backends.backend_svg", "report.page.sections")
+LONGEST = ("scenes", "stability", "maps", "drape", "energy", "order", "numbering")
 
 #: How long an experiment may take [s], and how much memory its process [bytes].
 TIME_LIMIT, MEMORY_LIMIT = 900.0, 16 * 2**30
@@ -81,7 +78,7 @@ def all_sections(
     alone = [experiment for experiment in missing if experiment.timed]
     make = partial(_isolated_section, folder=folder, store=store, fresh=fresh, full=full)
 
-    import_beforehand(*MADE_WITH)
+    prepare_processes()
 
     def when_made(made: Section, seconds: float) -> None:
         cache = current().store

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from experiments.experiment import NAMES, Experiment, find
 from experiments.runs.progress import Progress
+from experiments.runs.runner import current
 from reference.files.setup import setup_for
 from report.browser.beside import BESIDE, scenes_beside
 from report.browser.lab_page import lab_page
@@ -43,12 +44,19 @@ def write_page(
     """
     wanted = _wanted(names, full)
     folder.mkdir(parents=True, exist_ok=True)
-    sections = all_sections(wanted, folder, progress, store, fresh=fresh, full=full)
-    lab = LAB if any(section.experiment.name in BESIDE for section in sections) else ""
-    if lab:
-        presets = [preset for preset in PRESETS if (preset.name or preset.scene) in scenes_beside()]
-        (folder / lab).write_text(lab_page(presets), encoding="utf-8")
+    lab = LAB if any(experiment.name in BESIDE for experiment in wanted) else ""
+    with current().threads(1) as beside:
+        written = beside.submit(_write_lab, folder / lab) if lab else None
+        sections = all_sections(wanted, folder, progress, store, fresh=fresh, full=full)
+        if written is not None:
+            written.result()
     return _written(folder, page(sections, lab), sections)
+
+
+def _write_lab(file: Path) -> None:
+    """The lab in a browser, in states that show the experiments; while these run in processes of their own."""
+    presets = [preset for preset in PRESETS if (preset.name or preset.scene) in scenes_beside()]
+    file.write_text(lab_page(presets), encoding="utf-8")
 
 
 def write_scene_page(scene: str, folder: Path, progress: Progress) -> Written:
