@@ -21,7 +21,7 @@ PROJECT = Path(__file__).parents[2]
 
 #: What is computed and drawn with: folders with all they hold, and the files that make sections of results.
 FOLDERS = ("reference", "engines", "experiments", "report/figures", "report/film")
-FILES = ("report/page/section.py", "report/page/section_cache.py", "report/page/sections.py")
+FILES = tuple(f"report/page/{name}.py" for name in ("processes", "section", "section_cache", "sections"))
 
 
 def cached_section(experiment: Experiment, full: bool, store: Store, folder: Path) -> Section | None:
