@@ -9,7 +9,7 @@ mass, and one (2 d, 2 d) block says it all.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ import numpy as np
 from reference.errors import SolverError
 from reference.jit import compiled
 from reference.lengths import divisors
+from reference.springs.angular import AngularSprings
 from reference.springs.angular_law import derivatives
 from reference.springs.linear_law import force_by_rate, spring_force
 from reference.springs.nonlinear_law import damping_at, secant_stiffness, stretches, tangent_stiffness
@@ -125,24 +126,24 @@ def assemble(system: MassSpringSystem, blocks: Blocks, sparse: bool | None = Non
     size = int((~system.fixed).sum()) * d
     pattern = _small_pattern(system) if size <= DENSE_UP_TO else _pattern(system)
     own = blocks.masses[pattern.free, None, None] * np.eye(d)
-    values = [blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own, _of_three(system, blocks.angles)]
+    values = [blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own]
+    if system.angular_springs is not None:
+        values.append(_of_three(system.angular_springs, blocks.angles, d))
     entries = np.concatenate(values)[pattern.kept].ravel()
     if sparse if sparse is not None else size > DENSE_UP_TO:
         from scipy.sparse import coo_array
 
         return coo_array((entries, (pattern.rows, pattern.columns)), shape=(size, size)).tocsc()
     # entries of one place are added in their order
-    return np.bincount(pattern.rows * size + pattern.columns, entries, size**2).reshape(size, size)
+    return np.bincount(pattern.places, entries, size**2).reshape(size, size)
 
 
-def _of_three(system: MassSpringSystem, angles: Array) -> Array:
+def _of_three(springs: AngularSprings, angles: Array, d: int) -> Array:
     """Blocks of angular springs over their arms, as blocks between their masses a, b, c, row by row: shape (9 k, d, d).
 
     A move of b shortens both arms, and the force on b is what is left of the other two.
     """
-    if system.angular_springs is None:
-        return np.zeros((0, system.dimension, system.dimension))
-    k, d = len(system.angular_springs.masses), system.dimension
+    k = len(springs.masses)
     arms = np.kron([[1.0, -1.0, 0.0], [0.0, -1.0, 1.0]], np.eye(d))
     whole = arms.T @ np.broadcast_to(angles, (k, 2 * d, 2 * d)) @ arms
     return whole.reshape(k, 3, d, 3, d).transpose(0, 1, 3, 2, 4).reshape(-1, d, d)
@@ -157,12 +158,19 @@ class _Pattern:
         kept: which of the blocks (at (a, b), (b, a), (a, a), (b, b), then each mass's own, then the nine of every
             angular spring) are of free masses.
         rows, columns: of all entries of those, block after block.
+        size: how many of either there are.
     """
 
     free: IntArray
     kept: BoolArray
     rows: IntArray
     columns: IntArray
+    size: int
+
+    @cached_property
+    def places(self) -> IntArray:
+        """Of the same entries, row after row."""
+        return self.rows * self.size + self.columns
 
 
 def _pattern(system: MassSpringSystem) -> _Pattern:
@@ -178,7 +186,7 @@ def _pattern(system: MassSpringSystem) -> _Pattern:
     axes = np.arange(d)
     rows = np.broadcast_to((i[kept, None] * d + axes)[:, :, None], (kept.sum(), d, d)).ravel()
     columns = np.broadcast_to((j[kept, None] * d + axes)[:, None, :], (kept.sum(), d, d)).ravel()
-    return _Pattern(free, kept, rows, columns)
+    return _Pattern(free, kept, rows, columns, len(free) * d)
 
 
 @lru_cache(maxsize=16)
@@ -209,7 +217,8 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
     momentum = (mass * right[free].reshape(len(mass), -1).T).T
     result = np.zeros_like(right)
     if isinstance(matrix, np.ndarray):
-        matrix[np.diag_indices_from(matrix)] += mass
+        diagonal = np.einsum("ii->i", matrix)  # a view
+        diagonal += mass
         try:
             solution = np.linalg.solve(matrix, momentum)
         except np.linalg.LinAlgError:

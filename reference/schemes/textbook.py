@@ -76,7 +76,7 @@ def backward_euler(motion: MotionOfSprings, state: State, dt: float) -> State:
     Raises:
         SolverError: if Newton's method finds no solution at this dt.
     """
-    end = state.drift(dt)
+    end, rounding = state.drift(dt), 1e-13 * motion.system.size / abs(dt)
     for _ in range(50):
         by_position, by_velocity = motion.jacobians(end)
         missing = state.velocities + dt * motion.acceleration(end) - end.velocities
@@ -85,7 +85,7 @@ def backward_euler(motion: MotionOfSprings, state: State, dt: float) -> State:
         end = State(end.time, state.positions + dt * velocities, velocities)
         # Newton's error squares at each round: below 1e-9 of the velocities, the next change is rounding. Of a state
         # at rest the velocities themselves are rounding: there, masses moving by 1e-13 of the size are good enough.
-        if np.abs(change).max() <= 1e-9 * np.abs(velocities).max() + 1e-13 * motion.system.size / abs(dt):
+        if np.abs(change).max() <= 1e-9 * np.abs(velocities).max() + rounding:
             return end
     raise SolverError(f"backward Euler found no solution at t = {state.time:.6g} s with dt = {dt:g} s")
 
