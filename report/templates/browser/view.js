@@ -61,9 +61,10 @@ function fitView() {
       for (const sign of [-1, 1]) points.push(values.slice(0, d).map(value => value + sign * radius));
     }
   }
-  if (d === 2 && system.fixed.length === 1) {  // what hangs on one mass swings to both sides
-    const about = system.positions[2 * system.fixed[0]];
-    points.push(...points.map(([x, y]) => [2 * about - x, y]));
+  const {fixed} = system;
+  if (d > 1 && fixed.length > 0 && fixed.length < 3) {  // what hangs on a mass or two swings to both sides
+    const about = axis => fixed.reduce((sum, i) => sum + system.positions[d * i + axis], 0) / fixed.length;
+    points.push(...points.map(point => point.map((value, axis) => axis === 1 ? value : 2 * about(axis) - value)));
   }
   const low = [], high = [];
   for (let axis = 0; axis < d; axis++) {
@@ -77,7 +78,8 @@ function fitView() {
   view.selected = null;
 }
 
-const canvas = document.getElementById("stage"), paper = canvas.getContext("2d");
+// Paper that nothing shines through is put together with the page in two thirds of the time, and saved as it is seen.
+const canvas = document.getElementById("stage"), paper = canvas.getContext("2d", {alpha: false});
 
 // How large canvases are on the page, told by the browser when it changes, for the same reason.
 const sizes = new Map(), resized = new ResizeObserver(all => { for (const {target} of all) sizes.set(target, sizeOnPage(target)); });
@@ -102,7 +104,7 @@ function boxes(width, height) {
 
 function draw() {
   const [width, height] = sizeCanvas(canvas);
-  paper.clearRect(0, 0, width, height);
+  paper.fillStyle = sheet(); paper.fillRect(0, 0, width, height);
   view.boxes = boxes(width, height);
   const [, , w, h] = view.boxes[0];
   view.scale = view.zoom * Math.min(w / view.width, h / view.height);
