@@ -25,7 +25,7 @@ report: $(READY)  ## Run the lab's main job: every experiment, on one page in re
 	$(BIN)/springlab report
 
 test: $(READY)  ## Run all tests, with formatting and types
-	$(BIN)/python -m pytest --numprocesses auto --dist loadfile
+	$(BIN)/python -m pytest --numprocesses auto --dist loadfile --no-loadscope-reorder
 
 docs: $(READY)  ## Write the documentation as a site, results/docs/index.html
 	$(BIN)/python -m report.site

@@ -15,7 +15,7 @@ from engines.engine import Engine, find, registry, version
 from engines.process.packages import APART
 from engines.process.worker import FOR_SCHEMES, import_beforehand
 from reference.errors import InputError
-from tests.parts import PARTS, kept, part, todays
+from tests.parts import LONGEST, PARTS, kept, part, todays
 
 # How long an example takes is a matter of what else the machine does.
 hypothesis.settings.register_profile("lab", deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow])
@@ -38,6 +38,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         "--full",
         action="store_true",
         help="Run the soak tests, the fuzz test and the live page in full: 2,000 runs, 20 kills; 1,000 files.",
+    )
+    parser.addoption(
+        "--all-cases",
+        action="store_true",
+        help="Run the cases marked `rotating` of all days; what --full makes larger stays as small.",
     )
     parser.addoption(
         "--part",
@@ -80,11 +85,13 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave out the `rotating` tests and cases whose day it is not; none with --full, nor where one is named.
+    """Leave out the `rotating` tests and cases whose day it is not; none with --full, --all-cases, or named by `::`.
 
     All tests of a file begin with the same day: what they share is made on that day only, and files have other days.
+    What takes longest comes first.
     """
-    if config.option.full or any("::" in argument for argument in config.args):
+    items.sort(key=lambda item: not item.nodeid.startswith(LONGEST))
+    if config.option.full or config.option.all_cases or any("::" in argument for argument in config.args):
         return
     seen: Counter[str] = Counter()
     left_out = []

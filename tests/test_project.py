@@ -18,6 +18,7 @@ from reference.lecture.listings import listings
 from reference.scenes import scenes
 from reference.schemes.catalogue import schemes
 from tests.import_graph import ROOMS, circles, import_graph, modules, modules_imported, modules_named
+from tests.parts import LONGEST
 
 ROOT = Path(__file__).parents[1]
 
@@ -164,6 +165,11 @@ def test_style_and_types(words: str) -> None:
         pytest.skip("types are checked with Python 3.11: the NumPy that is locked for later ones types them otherwise")
     done = subprocess.run([sys.executable, "-m", *words.split()], capture_output=True, text=True, cwd=ROOT)
     assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]
+
+
+def test_what_is_tested_first_is_there() -> None:
+    """The files that take longest, by their names."""
+    assert [file for file in LONGEST if not (ROOT / file).is_file()] == []
 
 
 def locked() -> dict[str, str]:

@@ -35,6 +35,7 @@ def check_leaves(found: Slide, dt: float, fraction: float = 2 / 3) -> None:
     assert abs(found.angle - angle) <= 2 * dt * np.sqrt(2 * 9.81 * (np.cos(START) - np.cos(angle)))
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("dt", [4e-3, 1e-3, 2.5e-4])
 @pytest.mark.parametrize("scheme", ["heun", "rk4", "kick_drift"])
 def test_it_leaves_where_it_should(scheme: str, dt: float) -> None:

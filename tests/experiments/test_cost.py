@@ -57,6 +57,7 @@ def test_errors_fall_with_dt_as_the_order_says(name: str) -> None:
     check_order(find(name))
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "scheme",
     [

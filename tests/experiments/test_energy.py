@@ -297,6 +297,7 @@ def test_symplectic_schemes_keep_angular_momentum(name: str, on: Bench) -> None:
     check_angular_momentum(find(name), on)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "scheme", [*(find(n) for n in ("euler", "heun", "rk4", "backward_euler")), *IN_PLACE, TURNED_SIDEWAYS], ids=label
 )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import importlib
 import math
+from contextlib import chdir
 from dataclasses import replace
 from pathlib import Path
 
@@ -25,7 +26,7 @@ from tests.conformance import doctored
 from tests.conformance.doctored import Doctored
 from tests.engines.process import misbehaving
 from tests.engines.process.misbehaving import Misbehaving
-from tests.report.commands.terminal import python
+from tests.report.commands.terminal import springlab
 
 SETUP = Setup("string", find_scene("string").system({"masses": 3}), 1e-3, 0.05)
 
@@ -147,7 +148,8 @@ def test_every_experiment_is_a_question_with_a_name(name: str) -> None:
 def errata(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], float]:
     """What `springlab run errata` writes into results of its working folder, by slide and measurement."""
     folder = tmp_path_factory.mktemp("errata")
-    said = python("-m", "report.commands.main", "run", "errata", folder=folder)
+    with chdir(folder):
+        said = springlab("run", "errata")
     assert said.code == 0, said.err
     assert find("errata").question in " ".join(said.out.split())
     with (folder / "results" / "errata" / "errata.csv").open(newline="") as opened:

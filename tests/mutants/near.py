@@ -50,7 +50,8 @@ class Imports:
                 found.append((distance, test.parent != home, test))
         own = [entry for entry in found if entry[-1].parts[1] in (path.parts[0], *[CONFORMANCE] * bool(entered))]
         near = [test.as_posix() for *_, test in sorted(own or found)]
-        return [*near[:1], OF_ALL, *near[1:]]
+        of_all = [OF_ALL] if (self.root / OF_ALL).exists() else []
+        return [*near[:1], *of_all, *near[1:]]
 
     @cached_property
     def _tests(self) -> list[Path]:

@@ -44,6 +44,12 @@ def test_steps():
     assert steps(0.5, 0.1) == 5
 """
 
+#: The option that cases which take turns are all run with.
+CONFTEST = """
+def pytest_addoption(parser):
+    parser.addoption("--all-cases", action="store_true")
+"""
+
 
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
@@ -54,6 +60,7 @@ def project(tmp_path: Path) -> Path:
     (tmp_path / "reference" / "__init__.py").touch()
     (tmp_path / "reference" / "springs.py").write_text(SOURCE)
     (tmp_path / "tests" / "reference" / "test_springs.py").write_text(TEST)
+    (tmp_path / "tests" / "conftest.py").write_text(CONFTEST)
     (tmp_path / "engines" / "alone.py").write_text("answer = 6 * 7\n")
     return tmp_path
 

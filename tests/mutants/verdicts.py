@@ -66,8 +66,11 @@ class Judge:
                     raise
 
     def _verdict(self, copy: ProjectCopy, mutant: Mutant, near: Sequence[str]) -> Verdict:
-        """The nearest test first: what a test does without the mutant is asked only where it fails with it."""
-        options = tuple(f"--engine={name}" for name in engines_of(mutant.file))
+        """The nearest test first: what a test does without the mutant is asked only where it fails with it.
+
+        Cases that take turns are all run: what kills a mutant kills it on every day.
+        """
+        options = ("--all-cases", *(f"--engine={name}" for name in engines_of(mutant.file)))
         verdict: Verdict = "not covered"
         left = ALL
         for test in near:

@@ -73,6 +73,7 @@ def check_angular_momentum(scheme: Scheme, damping: float) -> None:
     assert angular_momentum_error(scheme, damping) < 5e-14
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("damping", DAMPINGS)
 @pytest.mark.parametrize("scheme", [s for s in SOLVED if s is not TRUNCATED], ids=label)
 def test_whole_state_schemes_keep_momentum_to_rounding(scheme: Scheme, damping: float) -> None:

@@ -64,6 +64,7 @@ def test_every_scheme_is_identified_as_itself_or_its_equal(name: str, case: str)
     check_identified(find(name), case, SAME_AS[case].get(name, name))
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("case", PARAMETERS)
 @pytest.mark.parametrize("scheme", schemes().values(), ids=label)
 def test_every_scheme_is_among_those_that_match_its_run(scheme: Scheme, case: str) -> None:

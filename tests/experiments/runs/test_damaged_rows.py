@@ -93,6 +93,7 @@ def test_the_command_shows_the_others_and_says_what_to_do(three: Path) -> None:
     ]
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("column", COLUMN_TYPES)
 def test_a_store_without_a_column_is_one_line(three: Path, column: str) -> None:
     """For reading and for writing; with what to do, which does it where the column is one that can be left out."""

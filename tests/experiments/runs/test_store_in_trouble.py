@@ -102,6 +102,7 @@ store.keep(task(2), ended("done"), 0.0)
 """
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "moment",
     ["BEGIN", "arrays are written", "arrays are put in place", "UPDATE runs", "INSERT INTO runs", "COMMIT"],
@@ -143,6 +144,7 @@ store.Store(Path(sys.argv[1]))
 """
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "moment", ["user_version", "journal_mode", "environments (", "runs (", "INDEX", "user_version =", "OR IGNORE"]
 )

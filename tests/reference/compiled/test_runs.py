@@ -82,6 +82,7 @@ def check_same_bits(system: MassSpringSystem, scheme: str, threads: int, kind: t
     assert velocities.tolist() == end.velocities[-1].tolist()
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.usefixtures("by_python")
 @pytest.mark.parametrize("threads", [1, 2])
 @pytest.mark.parametrize("scheme", ["euler", "kick_drift", "velocity_verlet", "heun", "rk4"])

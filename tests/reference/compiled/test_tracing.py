@@ -54,6 +54,7 @@ def test_the_textbooks_schemes_of_accelerations_are_traced() -> None:
     assert {"euler", "heun", "kick_drift", "drift_kick", "velocity_verlet", "rk4"} <= {s.name for s in TRACEABLE}
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("scheme", TRACEABLE, ids=label)
 def test_every_scheme_of_accelerations_is_traced_to_the_bit(scheme: Scheme) -> None:
     """The catalogue's own."""

@@ -117,6 +117,7 @@ def test_each_keeps_momentum_and_does_not_mind_numbering(scheme: Scheme) -> None
     np.testing.assert_allclose(moved.positions, run.positions[:, order], atol=1e-11)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("scheme", WIDE, ids=label)
 def test_each_is_named(scheme: Scheme) -> None:
     """On a string with damping and drag, where no scheme is another's; of two alike the simplest is named."""

@@ -63,6 +63,7 @@ def test_the_page_asks_for_nothing(report: Report) -> None:
     check_self_contained(report.html)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "asks",
     [

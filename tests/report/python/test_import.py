@@ -40,6 +40,7 @@ def test_a_program_without_a_guard_runs_once_engines_included(words: list[str], 
     assert done.stderr == ""
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("own", ["report.py", "reference.py", "engines/__init__.py", "experiments/own.py"])
 def test_a_file_that_hides_one_of_ours_is_named_with_a_way_out(own: str, tmp_path: Path) -> None:
     """In the last line; `python -P` is a way out, and a folder without an __init__.py hides nothing."""
