@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 #: What the letters of a step matrix mean.
 LETTERS = "a = h^2 k/m, b = h c/m, d = h Cd/m, E = exp(-b), D = exp(-d)"
 
+#: Steps in a row that are told, as they are more than a few.
+MANY_STEPS = 100
+
 #: So many intervals of stability above the first are told.
 TOLD = 3
 
@@ -171,9 +174,11 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
         if not past.deterministic:
             yield "The same step twice is not the same"
         elif past.one_step is False:
-            yield f"It remembers earlier steps: begun anew, a step is {past.apart:.2g} of the displacement off"
+            after = f" after {past.steps - 1} others" if past.steps > MANY_STEPS else ""
+            yield f"It remembers earlier steps: begun anew, a step{after} is {past.apart:.2g} of the displacement off"
         else:
-            yield "One step: it depends on positions and velocities alone"
+            many = f", as far as {past.steps} steps in a row show" if past.steps > MANY_STEPS else ""
+            yield f"One step: it depends on positions and velocities alone{many}"
     if explanation.held is not None and explanation.held.same and not explanation.held.other:
         yield str(explanation.held)
     if explanation.explicit is not None:
@@ -192,7 +197,9 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
 def _order(explanation: Explanation) -> Iterator[str]:
     order = explanation.order_of_one_mass
     if explanation.tableau is not None and explanation.tableau.fails:
-        yield f"Order {order}, by the conditions on its tableau: {explanation.tableau.fails}"
+        nearly = explanation.tableau.nearly
+        digits = f"; to six digits it is of order {nearly}" if nearly > explanation.tableau.order else ""
+        yield f"Order {order}, by the conditions on its tableau: {explanation.tableau.fails}{digits}"
     elif explanation.seen.multistep is not None:
         yield f"Order {order}, by its coefficients"
     elif order is not None:
@@ -202,11 +209,18 @@ def _order(explanation: Explanation) -> Iterator[str]:
         left_out = ", as drag is not in it" if matrix and matrix.dragged and not matrix.asks("d") else ""
         if follows is not None and explanation.of_one_step:
             where = "small swings" if matrix and matrix.of_swings else "the oscillator"
-            known.append(f"{follows.undamped_order} on {where}, {follows.order} with damping and drag{left_out}")
+            seen = (
+                [word for word, there in (("damping", matrix.damped), ("drag", matrix.dragged)) if there]
+                if matrix
+                else []
+            )
+            resisted = f", {follows.order} with {' and '.join(seen)}{left_out}" if seen else ""
+            known.append(f"{follows.undamped_order} on {where}{resisted}")
         elif of_one_mass is not None:
             known.append(f"{of_one_mass} on the oscillator, by its difference equation")
         if explanation.nonlinear_order is not None:
-            known.append(f"{explanation.nonlinear_order} measured on a spring that turns, without damping")
+            begun = "" if explanation.of_one_step else ", its first steps included"
+            known.append(f"{explanation.nonlinear_order} measured on a spring that turns, without damping{begun}")
         yield f"Order {order} without damping: {'; '.join(known)}"
     if explanation.lower_among_masses:
         yield (
@@ -217,6 +231,11 @@ def _order(explanation: Explanation) -> Iterator[str]:
 
 def _stability(explanation: Explanation) -> Iterator[str]:
     imaginary, real = explanation.limits
+    if explanation.tableau is not None and explanation.follows is None and explanation.of_one_step:
+        solved = "" if explanation.explicit else ", where its equations are solved"
+        yield stability("h w", imaginary or (), "damping") + solved
+        yield stability("h c/m", real or (), "stiffness") + solved
+        return
     if imaginary is not None:
         yield stability("h w", imaginary, "damping")
     if real is not None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,9 +15,10 @@ from reference.derivation.nonlinear_order import nonlinear_order, order_of_two_m
 from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_of
 from reference.derivation.oscillators import DT as OSCILLATOR_DT
 from reference.derivation.over_dts import OverDts, over_dts
-from reference.derivation.pasts import Pasts, pasts
+from reference.derivation.pasts import Pasts, after_many, pasts
 from reference.derivation.recording import LENGTHS
 from reference.derivation.seen import NOTHING, Seen, beside_steps, forces_of, slopes_of, tried
+from reference.derivation.step_matrix import SOFTER as STEP_SOFTER
 from reference.derivation.step_matrix import StepMatrix, step_matrix
 from reference.derivation.tableau import Tableau
 from reference.derivation.updates import Updates
@@ -43,6 +44,16 @@ SWAPPED = "no step matrix: velocity stands where position is, as if they were re
 
 #: Of one whose matrix is another at another h.
 ONLY_AT = f"h stands in its step matrix by itself, beside a, b and d: it is this at h = {OSCILLATOR_DT:g} s only"
+
+#: Of one whose tableau has roots in it.
+BY_TABLEAU = "its step matrix is not written out: it is that of its tableau, whose numbers are not all fractions"
+
+#: Of one whose formulas were seen in part.
+SOFTER = (
+    f"its step matrix was seen with a up to {2 * STEP_SOFTER:g}, b and d up to {STEP_SOFTER:g} only: with stiffer "
+    "springs it has no formulas, as where iterations do not converge"
+)
+COARSER = "its step matrix is this to about 1e-9 only: something in it is differenced, or solved to few digits"
 
 #: Of one that returns nothing finer.
 IN_SINGLE = "it computes in single precision: rounding is about 6e-08 of its numbers, which hides finer things"
@@ -161,7 +172,9 @@ class Explanation:
     def limits(self) -> tuple[Windows | None, Windows | None]:
         """In which intervals of h w, and of h c/m or h Cd/m, oscillators do not grow; None of what is not known."""
         found = self.follows if self.of_one_step else self.difference
-        return (found.imaginary_axis, found.real_axis) if found else (None, None)
+        if found is not None:
+            return found.imaginary_axis, found.real_axis
+        return (self.tableau.stable_along(1j), self.tableau.stable_along(-1)) if self.tableau else (None, None)
 
     @property
     def symplectic(self) -> bool | None:
@@ -239,6 +252,10 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if swapped:
         reasons.append(SWAPPED)
         matrix = None
+    if matrix is not None and matrix.softer < 1:
+        reasons.append(SOFTER)
+    if matrix is not None and matrix.coarser > 1:
+        reasons.append(COARSER)
     if matrix is not None and matrix.only_at is not None:
         reasons.append(f"{ONLY_AT}: no limits of stability follow")
     tell("its past")
@@ -251,6 +268,12 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     tell("its slopes and forces")
     of_slopes: list[str] = []
     seen = beside_steps(slopes_of(stepper, of_slopes), runs, of_slopes)
+    if past is not None and past.one_step and seen.updates is not None and getattr(stepper, "kind", "") == "own":
+        short = past
+        past = tried(lambda: after_many(runs, precision, short), reasons, "") or short
+    if matrix is None and seen.tableau is not None and not seen.tableau.exact:
+        reasons[:] = [reason for reason in reasons if not reason.startswith("no step matrix: no small")]
+        reasons.append(BY_TABLEAU)
     of_one_step = past is not None and past.one_step and precision == "double"
     if seen == NOTHING and of_one_step and matrix is not None and matrix.only_at is None and not on_rods:
         seen = forces_of(runs, matrix, of_slopes)
@@ -267,6 +290,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         tell("over which dt it has that name")
         string = _string(damped, dragged)
         held = over_dts(runs, name, string, precision, lambda dt: identify(stepper, string, dt, STEPS).identified_as)
+        held = replace(held, iterates=seen.iterates)
         reasons += [str(held)] if held.other else []
     if identification.identified_as is None:
         reasons.append(f"not identified by its motion: {identification.reason}")
@@ -279,7 +303,8 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if past is not None and past.one_step is False:
         reasons.append("it remembers earlier steps: its step matrix is that of a first step")
         difference = tried(lambda: difference_equation(runs, precision), reasons, "no difference equation: ")
-    follows = consequences(matrix) if matrix and matrix.only_at is None else None
+    # formulas of solved equations tell nothing of where these are not solved
+    follows = consequences(matrix) if matrix and matrix.only_at is None and matrix.softer == 1 else None
     return Explanation(
         stepper.name,
         identification,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, partial
 from itertools import combinations
 
 import numpy as np
@@ -47,18 +47,26 @@ KNOWN_TO = 1e-7
 
 
 def tableau_by_points(
-    start: Array, end: Array, h: float, points: Sequence[Array], slopes: Sequence[Array]
+    start: Array,
+    end: Array,
+    h: float,
+    points: Sequence[Array],
+    slopes: Sequence[Array],
+    parts: Sequence[float] | None = None,
 ) -> Tableau | None:
     """The tableau of the fewest stages that a step satisfies; None where it satisfies none.
 
     Args:
         start: y0, all unknowns in a row; end: y1.
         points: all P that it asked at, in order; slopes: f there.
+        parts: at what parts of h it said that it asked, where it says so: else they follow from a.
     """
     groups = _groups(points)
     # iterates that have all but converged look like a Jacobian's differences: the better of the two ways is taken
     unvaried = [next((i for i in reversed(group) if not _differenced(points, i)), None) for group in groups]
-    ways = [i for i in unvaried if i is not None][-LAST:], [group[-1] for group in groups][-LAST:]
+    found_last = [i for i in unvaried if i is not None], [group[-1] for group in groups]
+    # the slope at the start may be asked for once only, before all others
+    ways = [[*way[:-LAST][:1], *way[-LAST:]] for way in found_last]
     for stages in range(1, MOST_STAGES + 1):
         found: list[tuple[float, Tableau]] = []
         for kept in ways:
@@ -67,7 +75,8 @@ def tableau_by_points(
                 changes = np.stack([end, *(points[i] for i in chosen)], axis=1) - start[:, None]
                 coefficients: Array = np.asarray(np.linalg.lstsq(matrix, changes, rcond=None)[0])
                 left = float(np.abs(matrix @ coefficients - changes).max() / np.abs(matrix).max())
-                tableau = _tableau(coefficients.T) if left <= LEFT else None
+                told = [_told(parts, groups, i) for i in chosen] if parts is not None else None
+                tableau = _tableau(coefficients.T, told) if left <= LEFT else None
                 if tableau is not None:
                     found.append((left, tableau))
         if found:
@@ -75,12 +84,24 @@ def tableau_by_points(
     return None
 
 
-def _tableau(rows: Array) -> Tableau | None:
-    """Of b and the rows of a; None where a coefficient is a solver's noise."""
+def _told(parts: Sequence[float], groups: Sequence[Sequence[int]], i: int) -> list[float]:
+    """At which parts of h it was asked at the stage of a point: an end of one solve may be where another begins."""
+    return [parts[j] for group in groups if i in group for j in group]
+
+
+def _off(on: float, part: float) -> float:
+    return abs(part - on)
+
+
+def _tableau(rows: Array, told: Sequence[Sequence[float]] | None) -> Tableau | None:
+    """Of b and the rows of a, and the parts of h it told; None where a coefficient is a solver's noise."""
     b, *a = [tuple(fraction_or_itself(c, OFF) for c in row) for row in rows]
     if any(c and abs(float(c)) < GHOST for row in (b, *a) for c in row):
         return None
     c: list[Number] = [sum(row, start=Fraction(0)) for row in a]
+    if told is not None:
+        nearest = [min(of_one, key=partial(_off, float(on))) for of_one, on in zip(told, c, strict=True)]
+        c = [fraction_or_itself(part, OFF) for part in nearest]
     return Tableau(tuple(a), b, tuple(c), KNOWN_TO)
 
 

@@ -33,6 +33,9 @@ SHORT = 1e-4
 #: What is said there of one that has no name.
 UNNAMED = "was not identified, as rounding probably hides which scheme it is"
 
+#: What is said of one that iterates.
+ITERATES = "it is not the same at every dt, as its iterations do not converge, or its own steps do not suffice, at all"
+
 #: How fast masses move at most [m/s], along each axis.
 SPEED = 0.5
 
@@ -46,12 +49,14 @@ class OverDts:
         same: at which dt of DTS a step is the scheme's [s].
         other: at which it is not [s].
         named_there: what it is at each of these, by `identify`; None where it has no name.
+        iterates: whether it solves equations by iterations, or makes steps of its own.
     """
 
     scheme: str
     same: tuple[float, ...]
     other: tuple[float, ...] = ()
     named_there: tuple[str | None, ...] = ()
+    iterates: bool = False
 
     def __str__(self) -> str:
         """In a sentence without its stop."""
@@ -63,7 +68,8 @@ class OverDts:
         )
         same = f" and at {_listed(self.same)} s" if self.same else ""
         holds = f"it is {self.scheme} at the dt that named it{same}"
-        return f"it changes its rule with dt: {holds}, but not at {'; '.join(there)}"
+        why = ITERATES if self.iterates else "it changes its rule with dt"
+        return f"{why}: {holds}, but not at {'; '.join(there)}"
 
 
 def _listed(dts: tuple[float, ...]) -> str:

@@ -15,6 +15,10 @@ from reference.state import Array, State, Trajectory
 #: Steps in a row; and after which of them it is begun anew from where it came to.
 STEPS = 5
 
+#: Steps in a row after which a step is looked at again, of what steps fast; and the oscillator's a then, so that what
+#: grows does not grow far.
+MANY, SLOW = 1000, 1e-4
+
 #: a, b and d of the oscillator.
 WHERE = (0.3, 0.1, 0.1)
 
@@ -30,11 +34,13 @@ class Pasts:
         one_step: whether from a state with a past it steps as from the same state without; None where it is random.
         deterministic: whether it does the same twice.
         apart: how far the steps with a past and without are apart, as a part of the displacement.
+        steps: how many in a row were looked at.
     """
 
     one_step: bool | None
     deterministic: bool
     apart: float
+    steps: int = STEPS
 
 
 def pasts(runs: Runs, precision: Precision, damped: bool, dragged: bool, of_swings: bool = False) -> Pasts:
@@ -67,6 +73,27 @@ def pasts(runs: Runs, precision: Precision, damped: bool, dragged: bool, of_swin
         for i, end in enumerate(ends, start=2)
     )
     return Pasts(apart <= ROUNDINGS * ROUNDING[precision] if same else None, same, apart / ASIDE)
+
+
+def after_many(runs: Runs, precision: Precision, found: Pasts) -> Pasts:
+    """The same after a step that follows MANY others, where that is told from one that follows none.
+
+    Raises:
+        Unsupported: where the stepper cannot, with its reason.
+    """
+    system = oscillator(SLOW, 0.0, 0.0, ASIDE)
+    (outcome,) = runs([Run(system, DT, MANY)])
+    row = _trajectory(outcome.trajectory, outcome.reason)
+    if len(row) <= MANY or not np.abs(row.positions[-2] + [[0.0], [1.0]]).max() < 1.0:
+        return found
+    (outcome,) = runs([Run(system.at(State(0.0, row.positions[-2], row.velocities[-2])), DT)])
+    again = _trajectory(outcome.trajectory, outcome.reason)
+    off = max(
+        float(np.abs(again.positions[1] - row.positions[-1]).max()),
+        DT * float(np.abs(again.velocities[1] - row.velocities[-1]).max()),
+    )
+    same = off <= ROUNDINGS * ROUNDING[precision]
+    return Pasts(same, True, found.apart if same else off / ASIDE, MANY)
 
 
 def _trajectory(run: Trajectory | None, reason: str) -> Trajectory:

@@ -101,6 +101,8 @@ class Solved:
         slopes: what it was answered.
         states: y0, and y after each of a row of steps from there.
         rates: the slopes at these.
+        parts: at what parts of h the step said that it asked, in order.
+        calls: how often it asked; and how often a step asks whose slopes are a thousandth of these.
     """
 
     h: float
@@ -110,6 +112,8 @@ class Solved:
     slopes: tuple[Array, ...]
     states: tuple[Array, ...]
     rates: tuple[Array, ...]
+    parts: tuple[float, ...] = ()
+    calls: tuple[int, int] = (0, 0)
 
 
 @dataclass(frozen=True)
@@ -148,7 +152,7 @@ def record(advance: Callable[[], Advance], timed: bool = True) -> Recording:
         unit = tuple(_unit_steps(advance(), h) for h in LENGTHS)
         dense = tuple(_dense_steps(advance(), size) for size in (1.0, 1e3))
     except TooManyCalls:
-        return Recording(solved=_solved(advance()), timed=timed)
+        return Recording(solved=_solved(advance(), advance()), timed=timed)
     return Recording(unit, dense, timed=timed)
 
 
@@ -192,7 +196,7 @@ def _dense_steps(advance: Advance, size: float) -> tuple[Step, ...]:
     return tuple(steps)
 
 
-def _solved(advance: Advance) -> Solved:
+def _solved(advance: Advance, another: Advance) -> Solved:
     """Steps of equations of which every unknown is its own: l y + m cos(2 y) + n + sin(3 y)/3, with its own numbers."""
     random = np.random.default_rng(11)
     size, h = 12, LENGTHS[0]
@@ -209,8 +213,17 @@ def _solved(advance: Advance) -> Solved:
     states.append(step.take(advance, answer, state, MOST_SOLVING))
     while len(states) <= ROW:
         states.append(Step(h).take(advance, answer, states[-1], MOST_SOLVING))
+    gentle = Step(h)
+
+    def gently(time: float, x: Array, v: Array) -> tuple[Array, Array]:
+        slope_x, slope_v = answer(time, x, v)
+        return slope_x / 1024, slope_v / 1024
+
+    gentle.take(another, gently, state, MOST_SOLVING)
     ys = [np.concatenate([s.positions, s.velocities]) for s in states]
     rates = [np.concatenate(answer(s.time, s.positions, s.velocities)) for s in states]
     row = [np.concatenate(pair) for pair in (step.start, step.end)]
     points, slopes = (tuple(map(np.concatenate, pairs)) for pairs in (step.points, step.answers))
-    return Solved(h, row[0], row[1], points, slopes, tuple(ys), tuple(rates))
+    parts = tuple((time - step.begun_at) / h for time in step.times)
+    calls = len(step.times), len(gentle.times)
+    return Solved(h, row[0], row[1], points, slopes, tuple(ys), tuple(rates), parts, calls)

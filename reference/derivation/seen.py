@@ -7,6 +7,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from reference.derivation.fit import Samples
 from reference.derivation.force_jumps import Taken, forces_taken
 from reference.derivation.implicit import implicit_multistep, implicit_tableau, tableau_by_points
 from reference.derivation.multistep import Multistep, multistep_of
@@ -14,7 +15,7 @@ from reference.derivation.of_schemes import updates_of_scheme
 from reference.derivation.oscillators import FEW, Runs, matrices_at, samples
 from reference.derivation.recording import Recording, Solved
 from reference.derivation.stages import tableau_by_jumps
-from reference.derivation.step_matrix import StepMatrix
+from reference.derivation.step_matrix import SOFTER, StepMatrix
 from reference.derivation.tableau import SAME, Tableau, tableau_of
 from reference.derivation.updates import Updates, updates_of
 from reference.errors import Unsupported
@@ -24,6 +25,9 @@ T = TypeVar("T")
 
 #: How near steps have to be to those that a tableau makes, in their step matrices' entries.
 AS_STEPS = 1e-5
+
+#: A step that asks at more times than this makes steps of its own.
+MOST_TIMES = 8
 
 
 class Seen(NamedTuple):
@@ -35,6 +39,7 @@ class Seen(NamedTuple):
         multistep: its coefficients, where it solves equations and looks back.
         taken: where it takes forces, where it asks for no slopes, but only steps.
         remarks: what it does that a stepper should not.
+        iterates: whether it asks more often than any explicit method: it solves equations, or makes steps of its own.
     """
 
     updates: Updates | None = None
@@ -42,6 +47,7 @@ class Seen(NamedTuple):
     multistep: Multistep | None = None
     taken: tuple[Taken, ...] = ()
     remarks: tuple[str, ...] = ()
+    iterates: bool = False
 
 
 #: Of what neither asks for slopes, nor was looked at from outside.
@@ -73,7 +79,8 @@ def slopes_of(stepper: Stepper, reasons: list[str]) -> Seen:
         return NOTHING
     remarks: tuple[str, ...] = ("it writes into the state it is given",) if recording.overwrites else ()
     if recording.solved is not None:
-        return _of_solved(recording.solved, reasons)._replace(remarks=remarks)
+        found = _of_solved(recording.solved, recording.timed, reasons)
+        return found._replace(remarks=(*remarks, *found.remarks), iterates=True)
     updates = tried(lambda: updates_of(recording), reasons, "no update formulas: ")
     tableau = tableau_of(updates, recording.timed) if updates else None
     if tableau is not None and tableau.times_at_odds:
@@ -81,22 +88,31 @@ def slopes_of(stepper: Stepper, reasons: list[str]) -> Seen:
     return Seen(updates, tableau, remarks=remarks)
 
 
-def _of_solved(solved: Solved, reasons: list[str]) -> Seen:
+def _of_solved(solved: Solved, timed: bool, reasons: list[str]) -> Seen:
     multistep = multistep_of(solved.h, solved.states, solved.rates)
     if multistep is not None:
         return Seen(multistep=multistep)
-    found = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes)
+    times = len({round(part, 9) for part in solved.parts}) if timed else 0
+    if times > MOST_TIMES:
+        more, fewer = solved.calls
+        depends = f", or {fewer} where slopes are a thousandth: it adapts its steps" if fewer != more else ""
+        reasons.append(f"no tableau: it makes steps of its own; in one step it asks {more} times{depends}")
+        return NOTHING
+    parts = solved.parts if timed else None
+    found = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes, parts)
     if found is None:
         reasons.append("no tableau: it iterates, and its stages were not found among the points that it asks at")
-    return Seen(tableau=found)
+        return NOTHING
+    return Seen(tableau=found, remarks=(found.times_at_odds,) if found.times_at_odds else ())
 
 
 def beside_steps(seen: Seen, runs: Runs, reasons: list[str]) -> Seen:
-    """Without a tableau that was found among points, where steps of oscillators are not as it has them."""
+    """Without a tableau that was found among points, where steps of soft oscillators are not as it has them."""
     tableau = seen.tableau
     if tableau is None or tableau.within == SAME:
         return seen
-    at = samples(False, False, FEW)
+    few = samples(False, False, FEW)
+    at = Samples(few.a * SOFTER, few.b, few.d)
     measured = tried(lambda: matrices_at(runs, at), reasons, "its tableau was not held against its steps: ")
     if measured is None or np.abs(tableau.step_matrices(at.a) - measured).max() < AS_STEPS:
         return seen

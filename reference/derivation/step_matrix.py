@@ -32,6 +32,16 @@ from reference.state import Array
 #: What is tried, the most first: damping and drag, one of the two, neither.
 VARIANTS = ((True, True), (True, False), (False, True), (False, False))
 
+#: Under gravity, where nothing else can be done; and when formulas are looked for again, as that may take long.
+LAST = ((False, False), (by_difference, FEW))
+BOTH_OR_NONE, AGAIN = ((True, True), (False, False)), ((one_by_one, FEW),)
+
+#: Where nothing is found, oscillators are taken so much softer; or values to be off by so many times rounding.
+SOFTER, COARSER = 1 / 8, 1e5
+
+#: Steps that multiply by more diverge; and nearer than this a step is the true motion.
+HUGE, TRUE = 1e3, 1e-5
+
 #: What is said where there is nothing else.
 RODS = "a step does not depend on the springs' stiffness: springs are rods to it"
 
@@ -52,6 +62,8 @@ class StepMatrix:
         only_at: the h [s] it is seen at, where it is another at another h and the same a, b and d; else None.
         substeps: of how many equal ones a step is made.
         of_swings: whether it is that of the small swings of a rod, with a = h^2 g/L, x an angle and v its rate.
+        softer: of what part of the usual a, b and d it was seen, as it has no formula with all.
+        coarser: how many times rounding its values are off.
     """
 
     entries: Entries
@@ -62,6 +74,8 @@ class StepMatrix:
     only_at: float | None = None
     substeps: int = 1
     of_swings: bool = False
+    softer: float = 1.0
+    coarser: float = 1.0
 
     @property
     def exact(self) -> bool:
@@ -93,39 +107,83 @@ class StepMatrix:
 def step_matrix(runs: Runs, precision: Precision = "double") -> StepMatrix:
     """Found from single steps of many oscillators, with damping and drag where the stepper can do them.
 
-    Of a stepper to which springs are rods it is that of small swings.
+    Where that gives nothing, from softer ones, as iterations may converge there only; then to fewer digits, as what is
+    differenced or solved for has no more. Of a stepper to which springs are rods it is that of small swings.
 
     Raises:
         Unsupported: where it can step no such oscillator, or its entries follow no small formula; with the reason.
     """
+    try:
+        return _search(runs, precision)
+    except NoFormula as error:
+        for softer, coarser in ((SOFTER, 1.0), (1.0, COARSER)) if precision == "double" else ():
+            try:
+                found = _search(runs, precision, softer, coarser)
+            except Unsupported:
+                continue
+            if found.exact and found.substeps == 1:
+                return replace(found, softer=softer, coarser=coarser)
+        raise error
+
+
+class NoFormula(Unsupported):
+    """Oscillators were stepped, and what came out follows no formula."""
+
+
+def _search(runs: Runs, precision: Precision, softer: float = 1.0, coarser: float = 1.0) -> StepMatrix:
     reason, together, aside = "", set(), ASIDE if precision == "double" else FAR_ASIDE
     last: tuple[Samples, Array, float] | None = None
-    for (damped, dragged), (measure, count) in (*product(VARIANTS, WAYS), ((False, False), (by_difference, FEW))):
+    again = softer < 1 or coarser > 1
+    ways = product(BOTH_OR_NONE, AGAIN) if again else (*product(VARIANTS, WAYS), LAST)
+    for (damped, dragged), (measure, count) in ways:
         if measure is by_difference and last is not None:
             break
         if (damped, dragged) in together and count == MANY:
             continue  # as many were stepped side by side: more of them tell no more one by one
-        at = samples(damped, dragged, count)
+        whole = samples(damped, dragged, count)
+        at = Samples(whole.a * softer, whole.b * softer, whole.d * softer)
         try:
             measured = measure(runs, at, DT, aside)
         except Unsupported as error:
             reason = str(error)
             continue
         together |= {(damped, dragged)} if measure is side_by_side else set()
-        noise = ROUNDINGS * ROUNDING[precision] * ASIDE / aside * max(1.0, float(np.abs(measured).max()))
-        found = _found(at, measured, noise, damped, dragged)
+        size = float(np.abs(measured).max())
+        noise = coarser * ROUNDINGS * ROUNDING[precision] * ASIDE / aside * max(1.0, size)
+        last = at, measured, noise
+        found = _found(at, measured, noise, damped, dragged) if size < HUGE else None
         if found is not None:
             if np.abs(measured - np.eye(2)).max() <= noise:
                 raise Unsupported("a step changes nothing: the state stays as it is")
             if not found.asks("a"):
                 return _of_swings(runs, RODS)
-            again = partial(measure, runs, aside=aside)
-            return replace(found, only_at=DT) if _asks_for_h(again, found, 100 * noise) else found
-        last = at, measured, noise
+            once_more = partial(measure, runs, aside=aside)
+            return replace(found, only_at=DT) if _asks_for_h(once_more, found, 100 * noise) else found
     if last is None:
         return _of_swings(runs, reason)
+    raise NoFormula(_why_none(*last, precision))
+
+
+def _why_none(at: Samples, measured: Array, noise: float, precision: Precision) -> str:
+    size = np.abs(measured).max()
+    if size >= HUGE:
+        return f"a step multiplies an oscillator by up to {size:.1g}: its iterations do not converge there"
+    off = float(np.abs(measured - _true(at)).max())
+    if off < TRUE:
+        return f"a step is an oscillator's true motion, to {off:.1g} of it: by exponentials, or by many small steps"
     digits = "" if precision == "double" else ", to the digits of single precision"
-    raise Unsupported(f"no small rational function of a, b and d gives {_lost(*last)} of its step matrix{digits}")
+    return f"no small rational function of a, b and d gives {_lost(at, measured, noise)} of its step matrix{digits}"
+
+
+def _true(at: Samples) -> Array:
+    """The exponential of ((0, 1), (-a, -b - d)), shape (n, 2, 2), by its series."""
+    matrices = np.zeros((len(at.a), 2, 2))
+    matrices[:, 0, 1], matrices[:, 1, 0], matrices[:, 1, 1] = 1.0, -at.a, -at.b - at.d
+    total = term = np.broadcast_to(np.eye(2), matrices.shape)
+    for k in range(1, 40):
+        term = term @ matrices / k
+        total = total + term
+    return total
 
 
 def _lost(at: Samples, measured: Array, noise: float) -> str:

@@ -8,10 +8,15 @@ from fractions import Fraction
 
 import numpy as np
 
+from reference.derivation.consequences import Windows, windows
 from reference.derivation.formula import Number, exact_text, number
 from reference.derivation.order_conditions import order_of
 from reference.derivation.updates import Coefficient, Form, Symbol, Updates
 from reference.state import Array
+from reference.system import BoolArray
+
+#: Growth by less is none.
+GROWTH = 1e-9
 
 #: Two numbers that are no fractions are the same within this.
 SAME = 1e-12
@@ -54,6 +59,16 @@ class Tableau:
         return order_of(self.a, self.b, self.within)[0]
 
     @property
+    def nearly(self) -> int:
+        """The order to six digits, of numbers that are written to so many."""
+        return order_of(self.a, self.b, max(self.within, 1e-6))[0]
+
+    @property
+    def exact(self) -> bool:
+        """Whether all its numbers are fractions."""
+        return all(isinstance(c, Fraction) for row in (*self.a, self.b) for c in row)
+
+    @property
     def fails(self) -> str:
         """The first condition that does not."""
         return order_of(self.a, self.b, self.within)[1]
@@ -91,6 +106,20 @@ class Tableau:
             [np.eye(2) + np.kron(by_b, z) @ np.linalg.solve(np.eye(len(ones)) - np.kron(by_a, z), ones) for z in zs]
         )
 
+    def stable_along(self, direction: complex) -> Windows:
+        """In which intervals of s a step of y' = s direction y does not grow.
+
+        |R| <= 1, with R(z) = det(1 - z A + z e b^T) / det(1 - z A) (Hairer and Wanner 1996, IV.3).
+        """
+        a, b = np.array(self.a, float), np.array(self.b, float)
+        above, below = (np.poly(m)[::-1] for m in (a - b, a))
+
+        def stable(s: Array) -> BoolArray:
+            z = s * direction
+            return np.asarray(np.abs(np.polyval(above, z)) <= (1 + GROWTH) * np.abs(np.polyval(below, z)))
+
+        return windows(stable)
+
     def text(self) -> dict[str, list[str] | list[list[str]]]:
         """Its numbers as they are written."""
         return {
@@ -111,6 +140,20 @@ class Tableau:
         if self.times_at_odds:  # else c follows from a
             pairs += [(f"c{i + 1}", self.c[i], other.c[i]) for i in s]
         return [(name, mine, its) for name, mine, its in pairs if _apart(mine, its, self.within)]
+
+    def without_repeated(self) -> Tableau:
+        """The same with slopes that are taken at one point, at one time, as one: their weights are added up."""
+        s = range(self.stages)
+        first = [next(j for j in s if self.a[j] == self.a[i] and self.c[j] == self.c[i]) for i in s]
+        kept = sorted(set(first))
+        if len(kept) == self.stages:
+            return self
+
+        def added(row: Sequence[Number]) -> tuple[Number, ...]:
+            return tuple(sum((row[j] for j in s if first[j] == i), start=ZERO) for i in kept)
+
+        a, c = tuple(added(self.a[i]) for i in kept), tuple(self.c[i] for i in kept)
+        return Tableau(a, added(self.b), c, self.within).without_repeated()
 
     def without_unused(self) -> Tableau:
         """The same without slopes that nothing is made of."""
@@ -141,7 +184,7 @@ def tableau_of(updates: Updates, timed: bool = True) -> Tableau | None:
     kept = [row for row in rows if row is not None]
     a, b = tuple(kept[:-1]), kept[-1]
     c = updates.parts if timed else tuple(sum(row, start=ZERO) for row in a)
-    return Tableau(a, b, tuple(c)).without_unused()
+    return Tableau(a, b, tuple(c)).without_unused().without_repeated()
 
 
 def _row(x: Form, v: Form, stages: int) -> tuple[Number, ...] | None:
