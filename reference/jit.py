@@ -25,6 +25,9 @@ from reference.cache import cache_folder
 #: What every compiled module begins with.
 HEADER = "import numpy as np\nfrom numba import njit, prange\n"
 
+#: Options of functions that compiled ones alone call: no way in from Python or C, which takes a sixth of the compiling.
+INNER = "no_cpython_wrapper=True, no_cfunc_wrapper=True"
+
 
 def compiled(*functions: Callable[..., Any], kinds: Mapping[str, str] | None = None) -> tuple[Any, ...]:
     """The functions, compiled: each may call those before it, NumPy, and nothing else.
@@ -48,11 +51,12 @@ def array(dimension: int, entries: str = "float64", written: bool = False) -> st
     return f"Array({entries}, {dimension}, 'C', {not written})"
 
 
-def text_of(function: Callable[..., Any], kinds: Mapping[str, str] | None = None) -> str:
+def text_of(function: Callable[..., Any], kinds: Mapping[str, str] | None = None, inner: bool = False) -> str:
     """The text of a function as it is compiled: without its types, which Numba finds out itself, and its docstring.
 
     Args:
         kinds: see `compiled`.
+        inner: whether compiled functions alone call it.
 
     >>> from reference.springs.linear_law import spring_force
     >>> print(text_of(spring_force))
@@ -71,7 +75,8 @@ def text_of(function: Callable[..., Any], kinds: Mapping[str, str] | None = None
     signature = ""
     if kinds is not None and kinds.keys() >= set(names):
         signature = f'"void({", ".join(kinds[name] for name in names)})", '
-    return f"@njit({signature}cache=True, error_model='numpy')\n{ast.unparse(definition)}"
+    ways_in = f", {INNER}" if inner else ""
+    return f"@njit({signature}cache=True, error_model='numpy'{ways_in})\n{ast.unparse(definition)}"
 
 
 @cache

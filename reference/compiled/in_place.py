@@ -241,7 +241,9 @@ def trace_in_place(scheme: Scheme) -> InPlaceLoops:
         raise Untraceable("it changes in place what it was given")
     numbers = [f"c{k}" for k in range(len(known))]
     body = [*_body(lines), f"return {end.positions.name}, {end.velocities.name}"]
-    functions = [text_of(f) for f in (spring_force, force_of_spring, acceleration_of_mass, one_acceleration)]
+    functions = [
+        text_of(f, inner=True) for f in (spring_force, force_of_spring, acceleration_of_mass, one_acceleration)
+    ]
     head = "@njit(cache=True, nogil=True, error_model='numpy')\ndef step(" + ", ".join(["x", "v", *numbers, *_GIVEN])
     text = "\n\n\n".join([HEADER, *functions, "\n    ".join([f"{head}):", *body])])
     return InPlaceLoops(text + "\n", tuple(known.values()), tuple(known))

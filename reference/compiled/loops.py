@@ -50,7 +50,7 @@ from dataclasses import dataclass
 
 from reference.compiled.expressions import Expression
 from reference.compiled.tracing import ObstacleProgram, Place, Program
-from reference.jit import HEADER, text_of
+from reference.jit import HEADER, INNER, text_of
 from reference.springs.linear_law import spring_force
 
 #: How many systems the innermost loop advances at once, where it advances many.
@@ -127,14 +127,15 @@ class Loops:
         """The whole module, with the function `advance`; with lanes also `sweep`, which advances many blocks."""
         threads = self.threads and not self.lanes
         options = f"parallel={threads}{', noalias=True' if self.noalias else ''}"
+        ways_in = f", {INNER}" if self.lanes else ""  # then `sweep` alone calls it
         lines = [
             '"""Made by reference/compiled/loops.py."""',
             HEADER,
             "",
-            text_of(spring_force),
+            text_of(spring_force, inner=True),
             "",
             "",
-            f"@njit(cache=True, nogil=True, error_model='numpy', {options})",
+            f"@njit(cache=True, nogil=True, error_model='numpy', {options}{ways_in})",
             f"def advance({', '.join(self.arguments)}):",
             *indented(self._body()),
         ]

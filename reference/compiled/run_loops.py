@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from reference.compiled.loops import Loops, indented
-from reference.jit import HEADER, text_of
+from reference.jit import HEADER, INNER, text_of
 from reference.springs.linear_law import spring_force
 
 #: How many terms of a sum are added at a time.
@@ -48,9 +48,9 @@ class RunLoops(Loops):
         """The whole module, with the function `advance`."""
         options = f"cache=True, nogil=True, error_model='numpy'{', noalias=True' if self.noalias else ''}"
         functions = [self._springs_function(), self._sums_function(), *self._stage_functions()]
-        lines = ['"""Made by reference/compiled/run_loops.py."""', HEADER, "", text_of(spring_force)]
+        lines = ['"""Made by reference/compiled/run_loops.py."""', HEADER, "", text_of(spring_force, inner=True)]
         for function in functions:
-            lines += ["", "", f"@njit({options})", *function]
+            lines += ["", "", f"@njit({options}, {INNER})", *function]
         lines += ["", "", f"@njit(cache=True, nogil=True, error_model='numpy', parallel={self.threads})"]
         return "\n".join([*lines, *self._advance_function()]) + "\n"
 
