@@ -14,7 +14,7 @@ from reference.derivation.multistep import Multistep, multistep_of
 from reference.derivation.of_schemes import updates_of_scheme
 from reference.derivation.oscillators import FEW, Runs, matrices_at, samples
 from reference.derivation.recording import Recording, Solved
-from reference.derivation.stages import tableau_by_jumps
+from reference.derivation.stages import MOST, tableau_by_jumps
 from reference.derivation.step_matrix import SOFTER, StepMatrix
 from reference.derivation.tableau import SAME, Tableau, tableau_of
 from reference.derivation.updates import Updates, updates_of
@@ -128,4 +128,8 @@ def forces_of(runs: Runs, matrix: StepMatrix, reasons: list[str]) -> Seen:
     if any(entry.divided_by("a") for entry in matrix.entries):
         return NOTHING
     taken = tried(lambda: forces_taken(runs), reasons, "where forces are taken was not seen: ")
-    return Seen(taken=taken, tableau=tableau_by_jumps(taken, matrix)) if taken else NOTHING
+    if not taken:
+        return NOTHING
+    if len(taken) > MOST:
+        reasons.append(f"no tableau: {len(taken)} forces are taken in a step, and from outside {MOST} at most tell one")
+    return Seen(taken=taken, tableau=tableau_by_jumps(taken, matrix))

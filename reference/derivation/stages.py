@@ -1,8 +1,8 @@
 """The Butcher tableau of a stepper that only steps, from the forces it takes (`force_jumps`).
 
 An explicit Runge-Kutta method of a(x) takes its forces at c_i h v, with b and beta = b A, moved by A^2 of earlier ones.
-Up to four stages these are enough for all of A. What is found is held against every number that was not used for it,
-and against the step matrix: a method that is none, as a leapfrog, fails there.
+Up to five stages these are enough for all of A, where none has both weights zero. What is found is held against every
+number that was not used for it, and against the step matrix: a method that is none, as a leapfrog, fails there.
 """
 
 from __future__ import annotations
@@ -13,19 +13,23 @@ from itertools import permutations, product
 import numpy as np
 
 from reference.derivation.force_jumps import ASIDE, LENGTH, Taken
-from reference.derivation.small_fractions import fraction_or_itself
+from reference.derivation.small_fractions import fraction_or_itself, simplest_within
 from reference.derivation.step_matrix import StepMatrix
 from reference.derivation.tableau import Tableau
 from reference.state import Array
 
 #: The most stages whose tableau is known from that.
-MOST = 4
+MOST = 5
 
 #: Numbers agree within this: what forces add to one another is known to about 1e-7.
 AGREE, SAME = 1e-5, 1e-9
 
 #: How near a coefficient is to its fraction, which has to be a simple one; the step matrix is then its to rounding.
 OFF = 1e-6
+
+#: The same of five stages, whose last rows are known less well: the simplest fraction is taken there, and has then to
+#: give every beta, which are known to EXACT, and the step matrix.
+ROUGH, EXACT = 2e-5, 1e-8
 
 
 def tableau_by_jumps(taken: Sequence[Taken], matrix: StepMatrix) -> Tableau | None:
@@ -41,7 +45,7 @@ def tableau_by_jumps(taken: Sequence[Taken], matrix: StepMatrix) -> Tableau | No
         a = _filled(order)
         if a is not None and _agrees(order, a):
             tableau = _tableau(order, a)
-            if _same_matrix(tableau, matrix):
+            if _same_betas(tableau, order) and _same_matrix(tableau, matrix):
                 return tableau
     return None
 
@@ -66,9 +70,38 @@ def _filled(order: Sequence[Taken]) -> Array | None:
         a[3, 2] = beta[2] / b[3]
         a[2, 1] = order[2].by_earlier / (c[1] * _forces(c, 2)[0])
         a[3, 1] = (beta[1] - b[2] * a[2, 1]) / b[3]
+    if s == 5:
+        if not b[4] or not c[1]:
+            return None
+        a[4, 3] = beta[3] / b[4]
+        a[2, 1] = order[2].by_earlier / (c[1] * _forces(c, 2)[0])
+        a[3, 1], a[3, 2], a[4, 1], a[4, 2] = _last_two(order, c, b, beta, a[2, 1], a[4, 3])
     for i in range(2, s):
         a[i, 0] = c[i] - a[i].sum()
     return a
+
+
+def _last_two(order: Sequence[Taken], c: Array, b: Array, beta: Array, a32: float, a54: float) -> Array:
+    """a42, a43, a52 and a53 of five stages: beta2, beta3 and the shifts of the last two stages are linear in these.
+
+    With F the forces there, the fourth stage is moved by (a42 a21 + a43 a31) F1 + a43 a32 F2, and the fifth by
+    (a52 a21 + a53 a31 + a54 a41) F1 + (a53 a32 + a54 a42) F2 + a54 a43 F3.
+    """
+    a21, a31 = c[1], c[2] - a32
+    f, g = _forces(c, 3), _forces(c, 4)
+    rows = [
+        [b[3], 0.0, b[4], 0.0],
+        [0.0, b[3], 0.0, b[4]],
+        [a21 * f[0], a31 * f[0] + a32 * f[1], 0.0, 0.0],
+        [a54 * (g[1] - g[0]), a54 * (g[2] - g[0]), a21 * g[0], a31 * g[0] + a32 * g[1]],
+    ]
+    sides = [
+        beta[1] - b[2] * a32,
+        beta[2],
+        order[3].by_earlier,
+        order[4].by_earlier - a54 * c[3] * g[0],
+    ]
+    return np.asarray(np.linalg.lstsq(np.array(rows), np.array(sides), rcond=None)[0])
 
 
 def _forces(c: Array, i: int) -> Array:
@@ -87,8 +120,17 @@ def _agrees(order: Sequence[Taken], a: Array) -> bool:
 
 
 def _tableau(order: Sequence[Taken], a: Array) -> Tableau:
-    rows = tuple(tuple(fraction_or_itself(n, OFF) for n in row) for row in a.tolist())
+    few = len(order) < MOST
+    rows = tuple(
+        tuple(fraction_or_itself(n, OFF) if few else simplest_within(n, ROUGH) for n in row) for row in a.tolist()
+    )
     return Tableau(rows, tuple(t.in_velocity for t in order), tuple(t.at for t in order))
+
+
+def _same_betas(tableau: Tableau, order: Sequence[Taken]) -> bool:
+    """Whether b A is every beta, of numbers that are fractions now."""
+    found = np.array(tableau.b, float) @ np.array(tableau.a, float)
+    return bool(np.abs(found - np.array([float(taken.in_position) for taken in order])).max() < EXACT)
 
 
 def _same_matrix(tableau: Tableau, matrix: StepMatrix) -> bool:

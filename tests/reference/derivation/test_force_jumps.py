@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -15,12 +16,15 @@ from reference.derivation.explanation import explain
 from reference.derivation.force_jumps import Taken, forces_taken
 from reference.derivation.of_schemes import tableau_of_scheme
 from reference.derivation.oscillators import runs_of
+from reference.derivation.seen import forces_of
 from reference.derivation.stages import tableau_by_jumps
 from reference.derivation.step_matrix import step_matrix
 from reference.derivation.tableau import Tableau
 from reference.errors import Unsupported
-from reference.schemes.catalogue import find
-from reference.stepper import Stepper, stepper_named
+from reference.motion import Motion
+from reference.schemes.catalogue import Scheme, find
+from reference.state import State
+from reference.stepper import SchemeStepper, Stepper, stepper_named
 from report.derived import force_lines
 
 HALF = Fraction(1, 2)
@@ -109,3 +113,51 @@ def test_what_cannot_be_seen_is_said() -> None:
     with pytest.raises(Unsupported, match="beyond c ="):
         forces_taken(runs_of(stepper_named("yoshida_4")))
     assert Taken(HALF, Fraction(1), 0.25).text() == {"at": "1/2", "in_velocity": "1", "in_position": "0.25"}
+
+
+def in_stages(rows: Sequence[Sequence[float]], weights: Sequence[float]) -> SchemeStepper:
+    """A Runge-Kutta method with these rows of a below its first stage."""
+
+    def step(motion: Motion, state: State, dt: float) -> State:
+        slopes = [motion.slope(state)]
+        for row in rows:
+            at = state
+            for c, slope in zip(row, slopes, strict=True):
+                at = at + c * dt * slope
+            slopes.append(motion.slope(at))
+        for c, slope in zip(weights, slopes, strict=True):
+            state = state + c * dt * slope
+        return state
+
+    return SchemeStepper(Scheme(step, 1))
+
+
+FIFTHS = [0.1, 0.2, 0.3, 0.2, 0.2]
+
+
+def test_five_stages_are_seen_from_outside() -> None:
+    """Every coefficient of a made-up method, no two alike in their places."""
+    found = seen(in_stages([[0.25], [0.125, 0.375], [0.2, 0.2, 0.35], [0.1, 0.2, 0.3, 0.4]], FIFTHS))
+    assert found is not None
+    text = found.text()
+    assert text["a"][1:] == [
+        ["1/4", "0", "0", "0", "0"],
+        ["1/8", "3/8", "0", "0", "0"],
+        ["1/5", "1/5", "7/20", "0", "0"],
+        ["1/10", "1/5", "3/10", "2/5", "0"],
+    ]
+    assert text["b"] == ["1/10", "1/5", "3/10", "1/5", "1/5"]
+
+
+def test_five_stages_of_other_numbers_have_none() -> None:
+    """No simple fraction near them gives their betas and their step matrix."""
+    assert seen(in_stages([[0.25], [0.125, 0.375], [0.2, 0.2, 0.35], [0.1, 0.2171, 0.2829, 0.4]], FIFTHS)) is None
+
+
+def test_more_forces_than_can_be_told_apart_are_counted() -> None:
+    """Six stages: where they take forces is told, and that there is no tableau."""
+    six = in_stages([[0.2], [0, 0.4], [0, 0, 0.6], [0, 0, 0, 0.8], [0, 0, 0, 0, 1.0]], [0.1, 0.2, 0.2, 0.2, 0.2, 0.1])
+    reasons: list[str] = []
+    found = forces_of(runs_of(six), step_matrix(runs_of(six)), reasons)
+    assert (len(found.taken), found.tableau) == (6, None)
+    assert reasons == ["no tableau: 6 forces are taken in a step, and from outside 5 at most tell one"]
