@@ -7,11 +7,18 @@ is identified as, to the bit or to rounding.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 
+from engines.engine import find as engine_named
+from engines.engine import registry
+from engines.process.isolation import EngineStepper
 from engines.translation.translation import Stepping, translations
+from experiments.engine_versions.baseline import read
+from experiments.engine_versions.changes import changes
+from experiments.engine_versions.conformance import Value
 from experiments.translation.free_spring import SPRING, STEPS, told
 from experiments.translation.rows import fitting, forward
 from reference.outcome import Outcome
@@ -32,6 +39,28 @@ CLOTH_SCHEMES = (
     "soft_constraints_relaxed",
     "backward_euler",
 )
+
+#: Engines that take it: no damping, three dimensions.
+CLOTH_ENGINES = (
+    "newton_semi_implicit",
+    "newton_xpbd",
+    "newton_xpbd_10",
+    "newton_vbd",
+    "jolt_soft_body",
+    "rapier_springs",
+    "physx_joints",
+    "drake_discrete",
+)
+
+#: Of which packages no two versions are kept, and why.
+NOT_TWO = {
+    "box2d": "one: 2.3.2 has no wheel, and needs SWIG to be built",
+    "box2d-python": "one: 0.1.1 has wheels for Python 3.12 only, where its environment has 3.13",
+    "drake": "one: no other has been measured yet",
+    "exudyn": "the lab's own version is tested each day",
+    "mujoco-warp": "its kernels compile for minutes: none has been measured yet",
+    "pyPBD": "one: there is no other",
+}
 
 
 def damping_table(measure: bool = True) -> list[list[str]]:
@@ -86,16 +115,65 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines) + "\n"
 
 
+def engines_table(measure: bool = True) -> list[list[str]]:
+    """The same of engines themselves, each in its version; of one that is not here nothing is known."""
+    system = find("cloth").system({"rows": 4, "columns": 5, "pinned": "edge"})
+    rows = []
+    for name in CLOTH_ENGINES:
+        stepper = EngineStepper(engine_named(name))
+        if measure and stepper.version:
+            ends = [_ending(stepper.run(system, dt, round(WATCHED / dt))) for dt in CLOTH_STEPS]
+        else:
+            ends = ["-"] * len(CLOTH_STEPS)
+        rows.append([f"`{name}`", f"{stepper.engine.package} {stepper.version or '-'}", *ends])
+    return rows
+
+
+def versions_table() -> list[list[str]]:
+    """Of each package the versions that are kept, and where an engine of it came to step otherwise."""
+    rows = []
+    for package in sorted({engine.package for engine in registry().values()}, key=str.lower):
+        kept = read(package)
+        told = [
+            f"{new}: `{change.engine}`, {_case(change.measure)}: {_claim(change.before)}, then {_claim(change.after)}"
+            for old, new in pairwise(kept)
+            for change in changes(kept[old], kept[new])
+            if change.measure.startswith(("identified", "runs", "4 Hz"))
+        ]
+        same = "the same scheme in all" if len(kept) > 1 else NOT_TWO[package]
+        rows.append([package, ", ".join(kept) or "-", "; ".join(told) or same])
+    return rows
+
+
+def _case(measure: str) -> str:
+    """Of what it was identified on."""
+    return (
+        "whether it runs"
+        if measure == "runs"
+        else measure.removeprefix("identified, ").replace("plain", "undamped").replace("damping", "damped")
+    )
+
+
+def _claim(value: Value | None) -> str:
+    """A scheme's name, or how a run ended, in a word."""
+    words = str(value)
+    if ": " in words or words == "yes":
+        return words.partition(":")[0]
+    return words if " Hz" in words else f"`{words}`"
+
+
 def page(measure: bool = True) -> str:
     """The whole of it."""
     damping = markdown(
         ["engine", "dt [s]", "Hz, predicted", "damping ratio", "Hz, measured", "damping ratio"], damping_table(measure)
     )
     by_substeps, by_scheme = substep_table(), cloth_table()
+    steps = [f"dt = {1000 * dt:g} ms" for dt in CLOTH_STEPS]
     return f"""# What a million players' springs do
 
 Written by `python -m report.players` from runs; nothing here is typed by hand. Versions are those that
-`springlab versions PACKAGE --install` makes, and those of the lab.
+`springlab versions PACKAGE --install` makes, and those of the lab. `springlab versions --check` measures the first
+table again in every version that is kept, and holds that the engines of the other tables still are their schemes.
 
 ## How much each engine damps by itself
 
@@ -115,7 +193,16 @@ motion. In single precision velocities, (x - x0)/h, are as coarse as the last di
 A cloth of 4 x 5 masses, pinned at an edge, watched for {WATCHED} s, by schemes. `xpbd_jacobi` is Newton's SolverXPBD to
 the last bit; it sums the corrections of all springs at a mass. {of_cloth(by_scheme)}
 
-{markdown(["scheme", *(f"dt = {1000 * dt:g} ms" for dt in CLOTH_STEPS)], by_scheme)}"""
+{markdown(["scheme", *steps], by_scheme)}
+Engines themselves, on the same cloth:
+
+{markdown(["engine", "version", *steps], engines_table(measure))}
+## What versions changed
+
+The versions whose measurements are kept, and where an engine came to step otherwise. `springlab versions PACKAGE` has
+the whole tables.
+
+{markdown(["package", "versions", "scheme"], versions_table())}"""
 
 
 def of_substeps(rows: Sequence[Sequence[str]]) -> str:
