@@ -98,7 +98,7 @@ class NewtonSimulation:
         warp.config.quiet = True
         newton: Any = importlib.import_module("newton")
         self._engine, self._system, self._dt = engine, system, dt
-        builder = newton.ModelBuilder(up_axis=newton.Axis.Y, gravity=three(system.gravity))
+        builder = newton.ModelBuilder(up_axis=newton.Axis.Y)  # gravity: `_write`
         radius = RADIUS_PART * float(system.rest_lengths.min(initial=1.0))
         masses = np.where(system.fixed, 0.0, system.masses).tolist()
         for x, v, mass in zip(system.positions, system.velocities, masses, strict=True):
