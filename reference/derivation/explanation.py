@@ -245,8 +245,11 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if first.ending in ("crashed", "timed out"):
         nothing = Identification(stepper.name, (), 0.0, first.reason)
         return Explanation(stepper.name, nothing, reasons=(first.reason,))
+    tell("its slopes and forces")
+    of_slopes: list[str] = []
+    asked = slopes_of(stepper, of_slopes)
     tell("its step matrix")
-    matrix = tried(lambda: step_matrix(runs, precision), reasons, "no step matrix: ")
+    matrix = tried(lambda: step_matrix(runs, precision, asked.iterates), reasons, "no step matrix: ")
     damped, dragged = (matrix.damped, matrix.dragged) if matrix else (False, False)
     swapped = _swapped(rest)
     if swapped:
@@ -265,9 +268,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         reason = NOT_TWICE if getattr(stepper, "begins_anew", True) else f"{NOT_TWICE}, {OR_REMEMBERS}"
         nothing = Identification(stepper.name, (), 0.0, reason)
         return Explanation(stepper.name, nothing, past, reasons=(reason,))
-    tell("its slopes and forces")
-    of_slopes: list[str] = []
-    seen = beside_steps(slopes_of(stepper, of_slopes), runs, of_slopes)
+    seen = beside_steps(asked, runs, of_slopes)
     if past is not None and past.one_step and seen.updates is not None and getattr(stepper, "kind", "") == "own":
         short = past
         past = tried(lambda: after_many(runs, precision, short), reasons, "") or short

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
@@ -31,6 +31,9 @@ from reference.state import Array
 
 #: What is tried, the most first: damping and drag, one of the two, neither.
 VARIANTS = ((True, True), (True, False), (False, True), (False, False))
+
+#: With damping, with drag; how oscillators are stepped, and how many.
+Way = tuple[tuple[bool, bool], tuple[Callable[..., Array], int]]
 
 #: Under gravity, where nothing else can be done; and when formulas are looked for again, as that may take long.
 LAST = ((False, False), (by_difference, FEW))
@@ -104,21 +107,24 @@ class StepMatrix:
         return [[m11, m12], [m21, m22]]
 
 
-def step_matrix(runs: Runs, precision: Precision = "double") -> StepMatrix:
+def step_matrix(runs: Runs, precision: Precision = "double", iterates: bool = False) -> StepMatrix:
     """Found from single steps of many oscillators, with damping and drag where the stepper can do them.
 
     Where that gives nothing, from softer ones, as iterations may converge there only; then to fewer digits, as what is
     differenced or solved for has no more. Of a stepper to which springs are rods it is that of small swings.
 
+    Args:
+        iterates: whether it solves equations by means of its own, which takes long for many unknowns at once.
+
     Raises:
         Unsupported: where it can step no such oscillator, or its entries follow no small formula; with the reason.
     """
     try:
-        return _search(runs, precision)
+        return _search(runs, precision, product(VARIANTS, AGAIN) if iterates else (*product(VARIANTS, WAYS), LAST))
     except NoFormula as error:
         for softer, coarser in ((SOFTER, 1.0), (1.0, COARSER)) if precision == "double" else ():
             try:
-                found = _search(runs, precision, softer, coarser)
+                found = _search(runs, precision, product(BOTH_OR_NONE, AGAIN), softer, coarser)
             except Unsupported:
                 continue
             if found.exact and found.substeps == 1:
@@ -130,11 +136,11 @@ class NoFormula(Unsupported):
     """Oscillators were stepped, and what came out follows no formula."""
 
 
-def _search(runs: Runs, precision: Precision, softer: float = 1.0, coarser: float = 1.0) -> StepMatrix:
+def _search(
+    runs: Runs, precision: Precision, ways: Iterable[Way], softer: float = 1.0, coarser: float = 1.0
+) -> StepMatrix:
     reason, together, aside = "", set(), ASIDE if precision == "double" else FAR_ASIDE
     last: tuple[Samples, Array, float] | None = None
-    again = softer < 1 or coarser > 1
-    ways = product(BOTH_OR_NONE, AGAIN) if again else (*product(VARIANTS, WAYS), LAST)
     for (damped, dragged), (measure, count) in ways:
         if measure is by_difference and last is not None:
             break
