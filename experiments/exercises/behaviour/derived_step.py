@@ -104,7 +104,8 @@ def seen(exercise: Exercise, asked: Sequence[Question], answers: Sequence[Mappin
         return []
     noise = ROUNDINGS * ROUNDING["double"] * max(1.0, float(np.abs(own).max()))
     wrong = [n for n, (i, j) in zip(ENTRIES, _places(), strict=True) if np.abs((own - right)[:, i, j]).max() > noise]
-    found = [formula_of(_samples(), own[:FEW, i, j], noise) for i, j in _places()] if wrong else []
+    with np.errstate(over="ignore"):  # of numbers that are no step's
+        found = [formula_of(_samples(), own[:FEW, i, j], noise) for i, j in _places()] if wrong else []
     formulas = [formula for formula in found if formula is not None and formula.exact]
     if len(formulas) < len(ENTRIES):
         return []
