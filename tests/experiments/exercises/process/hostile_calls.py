@@ -171,7 +171,11 @@ HOSTILE_CALLS = {
     for i, call in enumerate(calls)
 }
 HOSTILE_CALLS |= {
-    f"forges_{name}": Hostile(_forged(answer).replace("{", "{{").replace("}", "}}"), "crashed", "crashed")
+    f"forges_{name}": Hostile(
+        _forged(answer).replace("{", "{{").replace("}", "}}"),
+        # values that are missing are an error in its own process already
+        *(("error", "raises_an_error") if name == "no_values" else ("crashed", "crashed")),
+    )
     for name, answer in FORGED.items()
 }
 HOSTILE_CALLS |= {
