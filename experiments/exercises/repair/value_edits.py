@@ -30,6 +30,9 @@ def of_value(node: ast.expr, names: Names, holder: ast.AST) -> Iterator[Replacem
     in_product = isinstance(holder, ast.BinOp) and not isinstance(holder.op, ast.Pow)
     if in_product or (isinstance(holder, ast.Attribute) and isinstance(node, ast.Name)):
         yield Replacement("factor", 1.8, binary(node, ast.Pow(), expression("2", node)))
+    if isinstance(node, ast.List) and len(node.elts) > 1 and isinstance(node.ctx, ast.Load):
+        for i in range(len(node.elts)):
+            yield Replacement("too much", 1.9, renewed(node, elts=[*node.elts[:i], *node.elts[i + 1 :]]))
     if isinstance(node, ast.Tuple | ast.List | ast.Starred):
         return
     is_term = isinstance(holder, ast.BinOp) and isinstance(holder.op, ast.Add | ast.Sub)

@@ -1,7 +1,8 @@
 """Rates on programs of people who had only texts and starters: passed, refused, and led by which way.
 
-Three samples, kept apart: `blind`, which the checker has been mended by since; `blind2`, written after that by somebody
-who had seen some of the first one's list; and `blind3`, by somebody who had seen nothing but texts and starters.
+Four samples, kept apart: `blind`, which the checker has been mended by since; `blind2`, written after that by somebody
+who had seen some of the first one's list; `blind3` and `blind4`, by two who had seen nothing but texts and starters. Some
+of the last one are in C.
 
 python -m tests.experiments.exercises.confusion --blind
 """
@@ -18,7 +19,7 @@ from pathlib import Path
 
 from experiments.exercises.exercise import find
 from experiments.exercises.grading import EFFORT, Grade, grade
-from experiments.exercises.handed_in.submission import Submission
+from experiments.exercises.handed_in.submission import Language, Submission
 
 HERE = Path(__file__).parent
 
@@ -30,6 +31,7 @@ class Program:
     Attributes:
         words: what it is, by who wrote it.
         lines: of its mistake, where who wrote it has said which.
+        seed: of the numbers that it was written for.
     """
 
     file: Path
@@ -37,6 +39,12 @@ class Program:
     right: bool
     words: str
     lines: tuple[int, ...] = ()
+    seed: str = "example"
+
+    @property
+    def language(self) -> Language:
+        """By its ending."""
+        return "c" if self.file.suffix == ".c" else "python"
 
     @property
     def text(self) -> str:
@@ -54,13 +62,14 @@ def _samples() -> Mapping[str, list[Program]]:
         ],
         "blind2": _with_lines(HERE / "blind2"),
         "blind3": _with_lines(HERE / "blind3"),
+        "blind4": _with_lines(HERE / "blind4", "ada"),
     }
 
 
-def _with_lines(folder: Path) -> list[Program]:
+def _with_lines(folder: Path, seed: str = "example") -> list[Program]:
     entries = tomllib.loads((folder / "expected.toml").read_text(encoding="utf-8"))
     return [
-        Program(folder / name, name, entry["kind"] == "right", entry["words"], tuple(entry["lines"]))
+        Program(folder / name, name, entry["kind"] == "right", entry["words"], tuple(entry.get("lines", ())), seed)
         for name, entry in entries.items()
     ]
 
@@ -98,7 +107,10 @@ def rates(sample: str) -> dict[str, Counter[str]]:
 
     def one(program: Program) -> Grade:
         exercise = find(str(int(program.name[1:3])))
-        return grade(Submission(program.name, program.text, exercise, "example", keyed=False), "sesame", None, EFFORT)
+        handed_in = Submission(
+            program.name, program.text, exercise, program.seed, keyed=False, language=program.language
+        )
+        return grade(handed_in, "sesame", None, EFFORT)
 
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         graded = list(pool.map(one, SAMPLES[sample]))

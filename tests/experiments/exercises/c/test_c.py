@@ -19,6 +19,7 @@ from experiments.exercises.teaching.handout import hand_out
 from experiments.exercises.teaching.words import paragraphs
 from experiments.exercises.verdict.judge import judge
 from reference.errors import InputError
+from tests.experiments.exercises.blind_rates import SAMPLES, Program
 
 pytestmark = pytest.mark.skipif(compiler.compiler_found() is None, reason="there is no C compiler")
 
@@ -49,6 +50,15 @@ def test_each_program_is_called_what_it_is(name: str) -> None:
     if name in LINES:
         words = [f.words for f in (*given.verdict.findings, *given.closer.findings)]
         assert any(said.startswith(f"line {LINES[name]}: ") for said in words), words
+
+
+@pytest.mark.rotating(5)
+@pytest.mark.parametrize("program", [p for p in SAMPLES["blind4"] if p.language == "c"], ids=lambda p: p.name)
+def test_programs_of_somebody_who_had_only_the_texts(program: Program) -> None:
+    """Right ones pass in the hidden check too, wrong ones in neither."""
+    for key in (None, "sesame"):
+        verdict = judge(find(str(int(program.name[1:3]))), program.text, program.seed, key, language="c")
+        assert verdict.right == program.right, (program.words, verdict.name)
 
 
 def test_the_same_by_every_route(tmp_path: Path) -> None:

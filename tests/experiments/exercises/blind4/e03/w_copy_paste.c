@@ -1,0 +1,45 @@
+/* Exercise 3: the forces on a string. Build me: cc -Wall -o forces forces.c -lm */
+#define EXERCISE 3
+#include "exercise.h"
+#include <stdio.h>
+
+static double length(double dx, double dy)
+{
+    return sqrt(pow(dx, 2) + pow(dy, 2));
+}
+
+void forces(double x[][2], double v[][2], const struct string *string, double f[][2])
+{
+    int n = string->count;
+    for (int i = 0; i < n; i++) {
+        double ax = i ? x[i - 1][0] : string->anchor[0];
+        double ay = i ? x[i - 1][1] : string->anchor[1];
+        double dx = ax - x[i][0], dy = ay - x[i][1];
+        double l = length(dx, dy);
+        double s = string->stiffness[i] * (l - string->rest_lengths[i]) / l;
+        f[i][0] = s * dx;
+        f[i][1] = s * dy;
+        if (i + 1 < n) {
+            dx = x[i + 1][0] - x[i][0];
+            dy = x[i + 1][1] - x[i][1];
+            l = length(dx, dy);
+            s = string->stiffness[i + 1] * (l - string->rest_lengths[i + 1]) / l;
+            f[i][0] += s * dx;
+            f[i][1] += s * dx;
+        }
+        f[i][0] -= string->drag * v[i][0];
+        f[i][1] -= string->drag * v[i][1];
+        f[i][1] -= string->masses[i] * string->gravity;
+    }
+}
+
+int main(void)
+{
+    const double masses[] = {0.05, 0.05, 0.05}, stiffness[] = {50, 50, 50}, rest_lengths[] = {0.15, 0.15, 0.15};
+    struct string string = {.count = 3, .masses = masses, .stiffness = stiffness, .rest_lengths = rest_lengths,
+                            .drag = 0.02, .gravity = 9.81, .anchor = {0.1, 0.2}};
+    double x[3][2] = {{0.25, 0.2}, {0.4, 0.2}, {0.55, 0.2}}, v[3][2] = {{0}}, f[3][2] = {{0}};
+    forces(x, v, &string, f);
+    for (int i = 0; i < 3; i++)
+        printf("mass %d: %.5f N sideways, %.5f N upwards\n", i, f[i][0], f[i][1]);
+}

@@ -1,0 +1,43 @@
+"""Exercise 6: energy and damping. Run me: python energy.py."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+EXERCISE = 6
+
+
+def energy(x, v, string):
+    """Kinetic, elastic and gravitational energy [J]."""
+    upper = np.vstack([string.anchor, x[:-1]])
+    length = np.linalg.norm(x - upper, axis=1)
+    speed = np.linalg.norm(v, axis=1)
+    kinetic = np.sum(string.masses * speed**2)
+    elastic = np.sum(string.stiffness / 2 * (length - string.rest_lengths) ** 2)
+    gravitational = np.sum(string.masses * string.gravity * x[:, 1])
+    return kinetic, elastic, gravitational
+
+
+def power(x, v, string):
+    """What damping adds to the energy [W]."""
+    d = x - np.vstack([string.anchor, x[:-1]])
+    unit = d / np.linalg.norm(d, axis=1)[:, None]
+    dv = v - np.vstack([[0, 0], v[:-1]])
+    rate = (dv * unit).sum(axis=1)
+    return -(string.damping * rate**2).sum() - string.drag * (v**2).sum()
+
+
+if __name__ == "__main__":
+    string = SimpleNamespace(
+        masses=np.full(3, 0.05),
+        stiffness=np.full(3, 50.0),
+        rest_lengths=np.full(3, 0.15),
+        damping=np.full(3, 0.05),
+        drag=0.02,
+        gravity=9.81,
+        anchor=np.array([0.1, 0.2]),
+    )
+    x = string.anchor + np.array([[0.15, 0.0], [0.3, 0.0], [0.45, 0.0]])
+    v = np.zeros((3, 2))
+    v[:, 1] = -1.0
+    print(energy(x, v, string), power(x, v, string))
