@@ -1,7 +1,7 @@
 """Rates on programs of people who had only texts and starters: passed, refused, and led by which way.
 
 Four samples, kept apart: `blind`, which the checker has been mended by since; `blind2`, written after that by somebody
-who had seen some of the first one's list; `blind3` and `blind4`, by two who had seen nothing but texts and starters. Some
+who had seen some of the first one's list; `blind3` and `blind4`, by two who had seen texts and starters only. Some
 of the last one are in C.
 
 python -m tests.experiments.exercises.confusion --blind
