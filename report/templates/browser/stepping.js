@@ -72,6 +72,7 @@ function applyDrives({memory, drives, dt}, time) {
       const value = drive.table[row * width + k];
       F[begin + columns[k]] = whole ? value : value + (place - row) * (drive.table[(row + 1) * width + k] - value);
     }
+    breakSprings(memory, []);
     memory.most = null;
     derive(memory);
   }

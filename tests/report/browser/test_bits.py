@@ -10,14 +10,17 @@ import numpy as np
 import pytest
 
 from reference.changes import Change
+from reference.drives import Ramp, Sine
 from reference.lengths import spring_lengths
 from reference.outcome import first_blown_up_frame
+from reference.scenes import Setup
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
+from reference.springs.kinds import NonlinearSprings
 from reference.state import Array
 from reference.system import MassSpringSystem
-from report.browser.changes import changes_data, drives_data
+from report.browser.changes import MOST_CHANGES, changes_data, drives_data
 from report.browser.lab_page import physics
 from report.browser.programs import page_schemes
 from report.browser.system_data import system_data
@@ -166,6 +169,45 @@ def test_what_is_driven_acts_on_the_same_steps(scene: str) -> None:
     expected = of_reference(setup.system, "heun", setup.dt, setup.changes, setup.steps)
     assert same_bits(with_it.reshape(setup.steps, -1), expected)
     assert not same_bits(without.reshape(setup.steps, -1), expected)
+
+
+def breaking_line(drive: Ramp | Sine) -> Setup:
+    """Three masses below one another, of which the lowest breaks off at once, and what drives all springs."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.0, -0.5], [0.0, -1.0]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array([0.2]),
+        rest_lengths=np.array([0.5]),
+        stiffness=np.array([50.0]),
+        damping=np.array([0.05]),
+        drag=0.01,
+        fixed=np.array([True, False, False]),
+        nonlinear=NonlinearSprings(breaking_force=np.array([np.inf, 0.5])),
+    )
+    return Setup("line", system, 4e-3, 0.8, tuple(drive.changes(system, 4e-3, 0.8)))
+
+
+@pytest.mark.parametrize("name", ["damping", "stiffness", "rest_length", "mass", "drag", "gravity"])
+def test_no_ramp_and_no_sine_brings_a_broken_spring_back(name: str) -> None:
+    """Of each parameter, at every step from 0.3 s on, when a spring is gone: to the bit.
+
+    Of damping and stiffness it is shown to fail: where a table's numbers are taken as they stand, broken springs damp.
+    """
+    drives = (Ramp(name, 0.3, 0.8, 0.9), Sine(name, 0.3, 0.004, 4.0))
+    setups = [breaking_line(drive) for drive in drives]
+    asked = []
+    for setup in setups:
+        question = {"ask": "run", "system": system_data(setup.system), "scheme": "heun", "dt": setup.dt}
+        asked.append({**question, "steps": setup.steps, "drives": drives_data(setup)})
+    wrong = physics().replace("    breakSprings(memory, []);\n    memory.most = null;", "    memory.most = null;")
+    as_it_stands = ask(asked, wrong)
+    for setup, right, other in zip(setups, ask(asked), as_it_stands, strict=True):
+        assert len(setup.changes) > MOST_CHANGES  # so it is a table
+        expected = of_reference(setup.system, "heun", setup.dt, setup.changes, setup.steps)
+        assert expected[-1, 5] < -1.5 < expected[-1, 3]  # the lowest mass has fallen, what held it has not
+        assert same_bits(doubles(right).reshape(setup.steps, -1), expected)
+        gone = same_bits(doubles(other).reshape(setup.steps, -1), expected)
+        assert gone == (name not in ("damping", "stiffness"))
 
 
 def test_at_another_dt_what_is_driven_is_off_by_straight_lines_between_the_middles_of_steps() -> None:
