@@ -66,9 +66,9 @@ class Identification:
 
     @property
     def ties(self) -> tuple[str, ...]:
-        """The schemes that are as good as the one that is named; all that match, where none is named."""
+        """The schemes beside itself that are as good as the one that is named; all that match, where none is named."""
         names = tuple(match.scheme for match in self.matches)
-        return names[1:] if self.identified_as else names
+        return tuple(name for name in names[1:] if name != self.stepper) if self.identified_as else names
 
     @property
     def by_single_steps(self) -> bool:

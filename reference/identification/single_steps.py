@@ -118,11 +118,11 @@ def identify_steps(
         return result
     ranking = ranked(_nearest(tried, catalogue, some, length), tolerance, tolerance)
     result = replace(result, ranking=ranking)
-    memory = [scheme for scheme, stepper in catalogue.items() if not stepper.scheme.one_step]
+    memory = any(not stepper.scheme.one_step for stepper in catalogue.values())
     words = "no scheme of the catalogue can take single steps here"
     if ranking:
         words = f"nearest {ranking[0].scheme} at {ranking[0].error:.2g} m a step"
-    return result.without_name(words + (f"; not comparable by single steps: {', '.join(memory)}" if memory else ""))
+    return result.without_name(words + ("; multistep schemes are not compared so" if memory else ""))
 
 
 def _nearest(

@@ -12,6 +12,7 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
+from math import inf, isfinite
 from types import MappingProxyType
 from typing import Any, Literal, TypeVar, cast, get_type_hints
 
@@ -71,6 +72,7 @@ class Scheme:
             within half a minute; None where there is no bound.
         given: its keyword parameters that are not as the function has them, by name.
         aliases: other names it can be found by.
+        ranges: from where to where a parameter that is a number may be; of others counts are 1 or more, and all finite.
     """
 
     step: Step
@@ -83,6 +85,7 @@ class Scheme:
     interactive_up_to: int | None = None
     given: tuple[tuple[str, Parameter], ...] = ()
     aliases: tuple[str, ...] = ()
+    ranges: tuple[tuple[str, tuple[float, float]], ...] = ()
 
     @cached_property
     def name(self) -> str:
@@ -120,7 +123,7 @@ class Scheme:
         """The same scheme with some of its parameters set; those set to what the function has are not in its name.
 
         Raises:
-            InputError: for a parameter it does not have, or a value of another type.
+            InputError: for a parameter it does not have, or a value of another type or out of its range.
         """
         defaults = replace(self, given=()).parameters
         for name, value in values.items():
@@ -131,8 +134,19 @@ class Scheme:
             if type(value) is not type(defaults[name]):
                 expected = f"{type(defaults[name]).__name__}, as in {defaults[name]!r}"
                 raise InputError(f"{name} = {value!r}: expected {expected}")
+            self._check_range(name, value)
         changed = {name: v for name, v in {**self.parameters, **values}.items() if v != defaults[name]}
         return replace(self, given=tuple(sorted(changed.items())))
+
+    def _check_range(self, name: str, value: Parameter) -> None:
+        """Raise InputError for a number that is not in its range."""
+        if isinstance(value, bool | str):
+            return
+        low, high = dict(self.ranges).get(name, (1, inf) if isinstance(value, int) else (-inf, inf))
+        if not (isfinite(value) and low <= value <= high):
+            expected = f"a number from {low:.6g} to {high:.6g}" if isfinite(high) else "a finite number"
+            expected = f"{low} or more" if isinstance(value, int) and high == inf else expected
+            raise InputError(f"{name} = {value!r} of scheme {self.step.__name__!r}: expected {expected}")
 
     def on(self, motion: Motion | MotionOfRods) -> Callable[[State, float], State]:
         """The step of a state by dt [s] on equations of motion, of which the scheme is given what it needs only.
@@ -186,6 +200,7 @@ def scheme(
     iterated: bool = False,
     interactive_up_to: int | None = None,
     aliases: tuple[str, ...] = (),
+    ranges: Mapping[str, tuple[float, float]] = MappingProxyType({}),
 ) -> Callable[[S], S]:
     """Enter the decorated step into the catalogue. See Scheme for what can be said of it.
 
@@ -194,7 +209,8 @@ def scheme(
     """
 
     def enter(step: S) -> S:
-        entry = Scheme(step, order, kind, implicit, linear, one_step, iterated, interactive_up_to, (), aliases)
+        limits = tuple(ranges.items())
+        entry = Scheme(step, order, kind, implicit, linear, one_step, iterated, interactive_up_to, (), aliases, limits)
         assert entry.needs
         _SCHEMES.enter(entry.name, entry, step.__module__)
         return step

@@ -14,6 +14,7 @@ memory: it is no function of positions and velocities alone.
 from __future__ import annotations
 
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
@@ -50,7 +51,9 @@ def soft_constraints_warm(
     return it.state(state.time + dt).remembering(impulses.astype(np.float64))
 
 
-@scheme(order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True)
+@scheme(
+    order=1, kind="constraint_scheme", implicit=True, linear=False, iterated=True, ranges={"sweeps_after": (0, inf)}
+)
 def soft_constraints_cold(
     motion: MotionOfSprings,
     state: State,

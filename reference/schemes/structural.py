@@ -19,7 +19,7 @@ from reference.state import Array, State
 RADAU = np.array([[5 / 12, -1 / 12], [3 / 4, 1 / 4]])
 
 
-@scheme(order=2, kind="wide_scheme", implicit=True, linear=False)
+@scheme(order=2, kind="wide_scheme", implicit=True, linear=False, ranges={"beta": (0, 1), "gamma": (0, 1.5)})
 def newmark(motion: MotionOfSprings, state: State, dt: float, *, beta: float = 0.25, gamma: float = 0.5) -> State:
     """Newmark's method; 1/4 and 1/2 make it the trapezoidal rule (Newmark, J. Eng. Mech. Div. 85, 1959).
 
@@ -30,7 +30,7 @@ def newmark(motion: MotionOfSprings, state: State, dt: float, *, beta: float = 0
     return _solved(motion, state, dt, here, beta, gamma, lambda end, a: (end, motion.acceleration(end) - a, 1.0))[0]
 
 
-@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, linear=False)
+@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, linear=False, ranges={"alpha": (-1 / 3, 0)})
 def hht(motion: MotionOfSprings, state: State, dt: float, *, alpha: float = -0.1) -> State:
     """Hilber, Hughes and Taylor's alpha method, which damps what is fast (Earthquake Eng. Struct. Dyn. 5, 1977).
 
@@ -50,7 +50,7 @@ def hht(motion: MotionOfSprings, state: State, dt: float, *, alpha: float = -0.1
     return end.remembering(acceleration)
 
 
-@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, linear=False)
+@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, linear=False, ranges={"radius": (0, 1)})
 def generalised_alpha(motion: MotionOfSprings, state: State, dt: float, *, radius: float = 0.8) -> State:
     """Chung and Hulbert's method, which damps what is fast by `radius` a step (J. Appl. Mech. 60, 1993).
 

@@ -13,7 +13,7 @@ from reference.identification import Identification, candidates, identify, ident
 from reference.outcome import Outcome
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find, schemes
-from reference.stepper import SchemeStepper, Stepper, catalogued
+from reference.stepper import SchemeStepper, Stepper, catalogued, stepper_named
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
 from tests import wrong
@@ -153,3 +153,10 @@ def test_ties_are_told_on_large_systems_too() -> None:
     assert found.identified_as == "kick_drift"
     assert set(found.ties) == {tie for tie, same in SAME_AS["plain"].items() if same == "kick_drift"}
     assert set(found.same_without) == set(found.ties)
+
+
+def test_a_scheme_is_not_told_beside_itself() -> None:
+    """With alpha = 0 it is Newmark's method: one name for it, and its own is not among the others."""
+    found = identify(stepper_named("hht(alpha=0.0)"), weightless(), DT, STEPS)
+    assert found.identified_as == "newmark"
+    assert found.ties == ()

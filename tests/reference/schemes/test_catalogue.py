@@ -13,7 +13,7 @@ from reference.forces import SpringMotion
 from reference.motion import Motion
 from reference.scenes import find as find_scene
 from reference.schemes import catalogue
-from reference.schemes.catalogue import Scheme, find, scheme, schemes
+from reference.schemes.catalogue import Scheme, constraint_schemes, find, scheme, schemes, wide_schemes
 from reference.state import State
 from tests.reference.systems import label
 
@@ -95,3 +95,37 @@ def test_a_parameter_that_is_none_is_refused_by_name() -> None:
         find("drift_kick_sequential_damping").with_parameters(round=3)
     with pytest.raises(InputError, match=r"^scheme 'heun' has no parameters: rounds was given$"):
         find("heun").with_parameters(rounds=3)
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("hht(alpha=7)", "from -0.333333 to 0"),
+        ("hht(alpha=nan)", "from -0.333333 to 0"),
+        ("hht(alpha=0.1)", "from -0.333333 to 0"),
+        ("generalised_alpha(radius=1.1)", "from 0 to 1"),
+        ("newmark(beta=-0.1)", "from 0 to 1"),
+        ("newmark(gamma=inf)", "from 0 to 1.5"),
+        ("xpbd_jacobi(iterations=0)", "1 or more"),
+        ("soft_constraints_cold(sweeps_after=-1)", "0 or more"),
+    ],
+)
+def test_a_parameter_out_of_its_range_is_refused(name: str, expected: str) -> None:
+    """In a line with the parameter, its value and what it may be."""
+    scheme, parameter = name.rstrip(")").split("(")
+    with pytest.raises(InputError, match=f"^{parameter.partition('=')[0]} = .* of scheme '{scheme}': .* {expected}$"):
+        find(name)
+
+
+def test_a_parameter_may_be_the_ends_of_its_range() -> None:
+    """These are methods, too: the most damping, and none."""
+    assert find(f"hht(alpha={-1 / 3})").parameters["alpha"] == -1 / 3
+    assert find("generalised_alpha(radius=1.0)").parameters["radius"] == 1
+    assert find("soft_constraints_cold(sweeps_after=0)").parameters["sweeps_after"] == 0
+
+
+def test_every_number_without_a_default_range_has_one() -> None:
+    """Counts are 1 or more; what a scheme takes beside them says from where to where."""
+    for each in (*schemes().values(), *wide_schemes().values(), *constraint_schemes().values()):
+        numbers = {name for name, value in each.parameters.items() if isinstance(value, float)}
+        assert numbers <= dict(each.ranges).keys() <= each.parameters.keys(), each.name
