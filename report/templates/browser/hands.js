@@ -44,9 +44,9 @@ function listen() {
   $("copy-link").onclick = () => { history.replaceState(null, "", "#" + stateText()); copy(linkText()); };
   $("copy-command").onclick = () => copy(commandText());
   $("copy-embed").onclick = () => copy(embedText());
-  $("table").onclick = () => download("springlab.csv", asFile(tableText(), "text/csv"));
-  $("places").onclick = () => download("springlab-positions.csv", asFile(placesText(), "text/csv"));
-  $("picture").onclick = () => { draw(); download("springlab.png", canvas.toDataURL("image/png")); };
+  $("table").onclick = () => download(fileName("table.csv"), asFile(tableText(), "text/csv"));
+  $("places").onclick = () => download(fileName("positions.csv"), asFile(placesText(), "text/csv"));
+  $("picture").onclick = () => { draw(); download(fileName("picture.png"), canvas.toDataURL("image/png")); };
   addEventListener("hashchange", () => { if (!$(location.hash.slice(1))) openHash(); });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", translate);
   listenToStage();

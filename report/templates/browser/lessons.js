@@ -1,7 +1,7 @@
 // Six lessons after the slides: how each is set up, and when its task is done.
 
-// `tried` are the values of dt that were set before anything blew up, until a limit is known to judge them by: it comes later.
-const startOfLesson = () => ({tried: [], saidLimit: false, hungAt: null});
+// `typed` is the answer that was judged last, and `tried` are the values of dt that were set before anything blew up, until a limit is known to judge them by: it comes later.
+const startOfLesson = () => ({tried: [], saidLimit: false, hungAt: null, typed: ""});
 const lessonState = startOfLesson();
 
 const LESSONS = [

@@ -1,7 +1,7 @@
 // A link is a state: all that was set, behind the #; and the command, the table and the picture of what is seen.
 
 function stateText() {
-  const words = [["v", 1], ["s", lab.scene.name], ["w", lab.lanes.map(lane => lane.scheme).join(",")], ["dt", String(startDt())]];
+  const words = [["v", FORMAT], ["s", lab.scene.name], ["w", lab.lanes.map(lane => lane.scheme).join(",")], ["dt", String(startDt())]];
   const changes = lab.changes.filter(change => !(change.time === 0 && change.parameter === "dt"));
   if (changes.length) words.push(["at", changes.map(({time, parameter, value}) => `${timeText(time)}:${parameter}:${[value].flat().join("+")}`).join(",")]);
   const {steps} = lab.lanes[0].world;
@@ -42,6 +42,7 @@ function readState(text) {
     if (value === undefined || (value >= least && value <= most)) return value;
     refuse(`${key}=${words[key]} (${say("expected_from", {least, most})})`);
   };
+  if (words.v !== undefined && words.v !== FORMAT) refuse(`v=${words.v} (${say("other_format", {format: FORMAT})})`);
   const scene = among("s", sceneNamed), own = sceneNamed(scene) || DATA.scenes[0];
   const recorded = (own.recordings || []).map(one => `recorded:${one.name}`), stepped = Object.keys(own.engines || {}).filter(name => own.engines[name] === "");
   const lanes = (words.w || "").split(",").filter(Boolean), known = lanes.filter(name => schemes[name] || recorded.includes(name) || stepped.includes(name));
@@ -57,6 +58,9 @@ function readState(text) {
     lesson: Math.round(number("lesson", 0, LESSONS.length) || 0), lang: among("lang", name => Object.hasOwn(WORDS, name)), refused,
   };
 }
+
+// The format of links that this page writes and reads.
+const FORMAT = "1";
 
 // The parts that a link has.
 const LINKED = ["v", "s", "w", "dt", "at", "n", "speed", "beside", "magnified", "lesson", "lang"];
@@ -115,10 +119,15 @@ function tableText() {
 
 function placesText() {
   const {d, n} = lab.scene.system, axes = ["x", "y", "z"].slice(0, d);
-  const rows = lab.lanes.flatMap(({scheme, world: {memory: {F, at}}}) => Array.from({length: n}, (_, i) =>
-    [scheme.replace(/[",\n]/g, " "), i, ...axes.map((_, axis) => F[at.x + d * i + axis]), ...axes.map((_, axis) => F[at.v + d * i + axis])].join(",")));
-  return [["stepper", "mass", ...axes.map(axis => `${axis} [m]`), ...axes.map(axis => `v${axis} [m/s]`)].join(","), ...rows].join("\n") + "\n";
+  const rows = lab.lanes.flatMap(({scheme, world}) => Array.from({length: n}, (_, i) => {
+    const {steps, memory: {F, at}} = world;
+    return [scheme.replace(/[",\n]/g, " "), timeOf(world), steps, i, ...axes.map((_, axis) => F[at.x + d * i + axis]), ...axes.map((_, axis) => F[at.v + d * i + axis])].join(",");
+  }));
+  return [["stepper", "time [s]", "step", "mass", ...axes.map(axis => `${axis} [m]`), ...axes.map(axis => `v${axis} [m/s]`)].join(","), ...rows].join("\n") + "\n";
 }
+
+// What a file of the present state is called: after its scene and dt.
+const fileName = what => `springlab-${lab.scene.name.replace(/[^\w.-]/g, "_")}-dt-${lab.dt}-${what}`;
 
 function download(name, href) {
   const link = document.createElement("a");

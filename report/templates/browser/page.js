@@ -178,6 +178,8 @@ const doneLessons = new Set();
 function checkLesson() {
   if (!lab.lesson) return;
   const typed = $("answer").value;
+  if (typed !== lessonState.typed) doneLessons.delete(lab.lesson);  // the last answer counts
+  lessonState.typed = typed;
   if (lessonDone(typed)) doneLessons.add(lab.lesson);
   const lesson = LESSONS[lab.lesson - 1], done = doneLessons.has(lab.lesson);
   const text = done ? say("done") : lesson.answer && !typed ? "" : say("not_yet");
@@ -228,10 +230,12 @@ function showBanner() {
 function whyBlown(lane) {
   const told = lab.limits[lane.scheme], mode = lab.mode;
   if (!told || !mode || told.limit === null) return "";
-  const scheme = schemes[lane.scheme], growth = scheme.linear ? number(growthOfMode(scheme, lane.world.dt, mode.w2, mode.g), 3) : "?";
-  const omega = number(Math.sqrt(mode.w2), 4);
-  if (told.limit === 0) return say("why_never", {omega, growth});
-  if (lane.world.dt <= told.limit) return say("why_below");
+  const scheme = schemes[lane.scheme], {dt} = lane.world, omega = number(Math.sqrt(mode.w2), 4);
+  // what is no mode's growth, as on obstacles or where a scheme writes in place, is not given as the reason
+  const factor = scheme.linear ? growthOfMode(scheme, dt, mode.w2, mode.g) : NaN, grows = factor > 1, growth = grows && factor < 1.0005 ? `1 + ${number(factor - 1, 2)}` : number(factor, 4);
+  if (told.limit === 0) return grows ? say("why_never", {omega, growth}) : say("limit_never", {name: lane.scheme}) + ".";
+  if (dt <= told.limit) return say("why_below");
+  if (!grows) return say("why_over", {part: number(dt / told.limit, 4), limit: number(1e3 * told.limit, 4)});
   return say("why_beyond", {product: number(lane.world.dt * Math.sqrt(mode.w2), 4), most: number(told.limit * Math.sqrt(mode.w2), 4), omega, growth, springs: mode.springs.join(", ")});
 }
 
@@ -296,17 +300,19 @@ function frame(now) {
   requestAnimationFrame(frame);
 }
 
-// A link that names no scene opens its lesson, or what the page begins with; one to a place of the page is no state.
+// A link that names no scene opens its lesson, or is about the scene that the page begins with; one to a place of the page
+// is no state.
 function openHash() {
-  const text = location.hash.slice(1), state = readState($(text) ? "" : text), here = isHere(state.lesson);
-  const named = /(^|&)s=/.test(text), refused = state.refused.slice(), parts = named || $(text) ? [] : text.split("&");
-  for (const part of parts) if (part && !/^(v|lang|lesson)=/.test(part) && !refused.some(one => one.startsWith(part))) refused.push(part.slice(0, 40));
+  const hash = location.hash.slice(1), text = $(hash) ? "" : hash, named = /(^|&)s=/.test(text), lesson = !named && /(^|&)lesson=/.test(text);
+  const state = readState(named || lesson ? text : `${DATA.first}&${text}`), here = isHere(state.lesson), refused = state.refused.slice();
+  // a lesson has a scene and settings of its own
+  for (const part of lesson ? text.split("&") : []) if (part && !/^(v|lang|lesson)=/.test(part) && !refused.some(one => one.startsWith(part))) refused.push(part.slice(0, 40));
   if (state.lang) language = state.lang;
   if (!here) refused.push(`lesson=${state.lesson}`);
-  if (!named && state.lesson && here) openLesson(state.lesson);
+  if (lesson && state.lesson && here) openLesson(state.lesson);
   else {
     lab.lesson = here ? state.lesson : 0;
-    openState(named ? state : readState(DATA.first));
+    openState(lesson ? readState(DATA.first) : state);
   }
   lab.refused = refused;
   translate();

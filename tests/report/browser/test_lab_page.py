@@ -251,13 +251,13 @@ def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file:
     shown = opened(browser, file, "s=string")
     page = shown.page
     wrong = ("s=nothing", "w=foo", "dt=-1", "at=0:foo:1", "at=0:mass:-1", "at=0:mass:1+2", "at=0:hold:99", "lesson=99")
-    for part in (*wrong, "n=xyz", "lang=xx", "foo=1"):
+    for part in (*wrong, "n=xyz", "lang=xx", "foo=1", "v=2"):
         link = part if part.startswith(("s=", "lesson=")) else f"s=string&{part}"
         page.evaluate("link => { location.hash = link; openHash(); }", link)
         assert page.evaluate("lab.refused.map(one => one.split(' ')[0])") == [part]
         assert part in page.inner_text("#not-taken")
-    page.evaluate("location.hash = 'w=euler'; openHash();")
-    assert page.evaluate("lab.refused") == ["w=euler"]  # of no scene
+    page.evaluate("location.hash = 'lesson=3&w=euler'; openHash();")
+    assert page.evaluate("lab.refused") == ["w=euler"]  # a lesson has lanes of its own
     for link in (
         "s=string&w=rk4&at=0:mass:0.5,0.01:hold:3&n=2&speed=2&lang=en",
         "lesson=3",
@@ -267,6 +267,58 @@ def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file:
         page.evaluate("link => { location.hash = link; openHash(); }", link)
         assert page.evaluate("[lab.refused, $('not-taken').textContent]") == [[], ""], link
     page.close()
+
+
+def test_a_link_without_a_scene_is_about_the_first_one(browser: Any, file: Path) -> None:
+    """All else that it says is taken, and it is a whole state from then on."""
+    shown = opened(browser, file, "w=rk4,euler&at=0:mass:0.5&n=3")
+    page = shown.page
+    assert page.evaluate("[lab.scene.name, lab.refused.length, lab.lanes[1].scheme]") == ["string", 0, "euler"]
+    assert page.evaluate("stateText()").startswith("v=1&s=string&w=rk4,euler&dt=0.001&at=0:mass:0.5&n=3")
+    page.evaluate("location.hash = 'dt=0.002'; openHash();")
+    assert page.evaluate("[lab.dt, lab.lanes.length, lab.lanes[0].scheme]") == [0.002, 1, "kick_drift"]
+    page.close()
+
+
+def test_the_last_answer_to_a_lesson_counts(browser: Any, file: Path) -> None:
+    """A period of 63 ms is right, twice that is not, whatever was answered before."""
+    shown = opened(browser, file, "lesson=1")
+    said = []
+    for answer in ("0.0628", "0.1256", "", "0,0628"):
+        shown.page.fill("#answer", answer)
+        said.append(shown.page.inner_text("#lesson-state"))
+    assert said == ["Done.", "Not yet.", "", "Done."]
+    shown.page.close()
+
+
+def test_positions_are_written_with_time_and_step_and_called_after_the_scene_and_dt(browser: Any, file: Path) -> None:
+    """The file that the button hands over, of a string of 12 masses after 5 steps of 2 ms."""
+    shown = opened(browser, file, "s=string&w=rk4&dt=0.002&n=5")
+    with shown.page.expect_download() as handed:
+        shown.page.click("#places")
+    assert handed.value.suggested_filename == "springlab-string-dt-0.002-positions.csv"
+    head, first, *_ = shown.page.evaluate("placesText()").splitlines()
+    assert head == "stepper,time [s],step,mass,x [m],y [m],vx [m/s],vy [m/s]"
+    assert first.startswith("rk4,0.01,5,0,")
+    shown.page.close()
+
+
+def test_no_factor_below_one_is_given_as_the_reason_of_a_blow_up(browser: Any, file: Path) -> None:
+    """On obstacles a limit may be below that of the fastest mode: then only dt and the limit are told.
+
+    Of rk4 at z = dt omega the factor is |1 - z^2/2 + z^4/24 + i (z - z^3/6)|: 0.75 at 1.99, and 1.51 at 3;
+    which is told; a little less by the scene's drag.
+    """
+    shown = opened(browser, file, "s=barrier&w=rk4")
+    why = "([limit, z]) => { const {w2} = lab.mode, omega = Math.sqrt(w2); lab.limits = {rk4: {limit: limit / omega}};"
+    why += "lab.lanes[0].world.dt = z / omega; return whyBlown(lab.lanes[0]); }"
+    below, beyond = (shown.page.evaluate(why, pair) for pair in ((1.977, 1.989), (2.8, 3.0)))
+    assert below.startswith("dt is 1.006 of the predicted largest stable dt")
+    assert "multiplied" not in below
+    assert "over 2.8: the fastest mode" in beyond
+    assert 1.45 < float(beyond.partition("multiplied by ")[2].split()[0]) < 1.51
+    assert all("number." not in text for text in shown.page.evaluate("[say('blew_position'), say('blew_velocity')]"))
+    shown.page.close()
 
 
 def test_links_and_commands_have_short_times_and_no_duration_of_nothing(browser: Any, file: Path) -> None:
