@@ -144,8 +144,8 @@ OF_A_STRING = (
     ),
     *mistakes(
         "last_link_wraps",
-        "Your last mass has a spring to the first: there is none below it.",
-        "Which neighbours has the last mass? What does np.roll, or index -1, give there?",
+        "Your last mass gets the force of a spring that does not hold it: below it there is none.",
+        "Which neighbours has the last mass? What does np.roll, or index -1, give you?",
         {"last": "wraps"},
         {"last": "ring"},
         {"last": "rolls"},

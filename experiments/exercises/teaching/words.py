@@ -7,6 +7,9 @@ from experiments.exercises.grading import Grade
 from experiments.exercises.handed_in.submission import Submission
 from experiments.exercises.verdict.judge import Verdict
 
+#: Outcomes that have told what is wrong: that no small change was found besides says nothing more.
+NAMED = ("mistake", "mistakes", "error")
+
 #: What is said of the hidden check as long as nobody has run it.
 UNSEEN = "The hidden one has not run."
 
@@ -65,7 +68,7 @@ def paragraphs(submission: Submission, given: Grade) -> list[str]:
     if verdict.first_difference is not None:
         said.append(f"First difference: {verdict.first_difference}.")
     said += [f"- {finding.words} ({finding.hint})" for finding in (*given.closer.findings, *verdict.remarks)]
-    return [*said, *_of_the_text(given.closer)]
+    return [*said, *_of_the_text(given.closer, verdict.outcome in NAMED)]
 
 
 #: What a change is of, to the student, without the change.
@@ -84,9 +87,11 @@ FAMILIES = {
 }
 
 
-def _of_the_text(closer: CloserLook) -> list[str]:
-    """Where to look in the text: only what was tried and made it right."""
+def _of_the_text(closer: CloserLook, named: bool) -> list[str]:
+    """Where to look in the text: only what was tried and made it right; that nothing did, where no name was told."""
     if not closer.told:
+        if named:
+            return []
         short = "" if closer.complete else " The time for trying was used up."
         return [f"{closer.tried} small changes of your text were tried, and none makes it right.{short}"] * bool(
             closer.tried

@@ -66,14 +66,23 @@ ODD = {
 }
 
 
+#: Memory that is nobody's: the line that reaches it may only use what an earlier one has written over.
+BY_MEMORY = (
+    "outside_an_array",
+    "it crashed here: your program reads or writes outside an array, or follows a pointer that leads nowhere; "
+    "an earlier line may have written over what is used here",
+    "Arrays begin at 0 and end one before their length: where do your loops end? What is above the first mass?",
+)
+
 #: What ends a C program, by the error of `c.calls` and the signal: a name, what it is, and what to look at.
 OF_C: Mapping[str, Mapping[str, tuple[str, str, str]]] = {
     "OutsideArrayError": {
         "": (
             "outside_an_array",
-            "your program reads or writes outside an array, or follows a pointer that leads nowhere",
+            "your program reads or writes outside an array",
             "Arrays begin at 0 and end one before their length. What is above the first mass, what below the last?",
-        )
+        ),
+        **dict.fromkeys(("SIGSEGV", "SIGBUS"), BY_MEMORY),
     },
     "FullStackError": {
         "": (

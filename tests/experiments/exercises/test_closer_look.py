@@ -215,6 +215,21 @@ def test_a_cap_is_told_as_a_cap(trusted: None) -> None:
     assert line in all_.lines
 
 
+def test_what_was_tried_in_vain_is_told_where_nothing_has_a_name(trusted: None) -> None:
+    """Neither of an error nor of a mistake with a name: there it would say nothing more."""
+    for old, new, outcome in (
+        ("return total", "total", "error"),
+        ("- string.drag * v", "", "mistake"),
+        ("- string.drag * v", "- string.drag * v - 0.3 * x", "not in the catalogue"),
+    ):
+        text = changed(3, old, new)[1]
+        verdict = judge(find("3"), text, "example")
+        assert verdict.outcome == outcome
+        said = paragraphs(Submission("own.py", text, find("3")), Grade(verdict, None, 0.0, CloserLook(tried=7)))
+        told = [line for line in said if line.startswith("7 small changes of your text were tried")]
+        assert len(told) == (outcome == "not in the catalogue")
+
+
 def test_students_are_told_the_place_and_teachers_the_change() -> None:
     """In the sandbox: the words have the line and the kind, and not what to write; the table has it, with a key."""
     line, text = changed(3, "- string.rest_lengths", "+ string.rest_lengths")

@@ -181,6 +181,16 @@ def test_what_the_compiler_warns_of_is_told_of_a_program_that_passes_too() -> No
     assert "line 7: the compiler warns" in "\n".join(paragraphs(Submission("own.c", warned, find("1")), given))
 
 
+def test_a_crash_by_memory_may_be_an_earlier_lines() -> None:
+    """A loop one too far writes over what the next line reads; the compiler's own check stops where it went wrong."""
+    crashes = f"{STEP}    double *late = 0;\n    *late = a;\n}}\n"
+    stopped = f"{STEP}    double b[2] = {{a, a}};\n    int i = 2 + (dt < 0);\n    *v += dt * b[i];\n}}\n"
+    for text, line, by_memory in ((crashes, 8, True), (stopped, 9, False)):
+        (finding,) = judge(find("1"), text, language="c").findings
+        assert (finding.name, finding.line) == ("outside_an_array", line)
+        assert ("an earlier line may have written over" in finding.words) == by_memory
+
+
 def test_in_c_nothing_is_returned() -> None:
     """What is told of a C program speaks of what it writes; of the lines that do; C++ is told as such."""
     still = judge(find("1"), f"{STEP.split('    double')[0]}    if (dt < 0) *y = 0;\n}}\n", language="c")

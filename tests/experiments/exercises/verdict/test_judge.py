@@ -30,6 +30,22 @@ def step(y, v, dt, s):
 """
 STRING = solution("arrays", 4)
 
+#: Forces whose loop gives the reaction of the spring on the anchor to F[-1], the last mass.
+REACTION_TO_THE_LAST = """
+import numpy as np
+def forces(x, v, s):
+    F = -s.drag * v
+    F[:, 1] -= s.masses * s.gravity
+    above = s.anchor
+    for i in range(len(x)):
+        gap = above - x[i]
+        length = np.hypot(*gap)
+        F[i] += s.stiffness[i] * (length - s.rest_lengths[i]) * gap / length
+        F[i - 1] -= s.stiffness[i] * (length - s.rest_lengths[i]) * gap / length
+        above = x[i]
+    return F
+"""
+
 #: After it: the same, and then the input is changed.
 CHANGES_ITS_INPUT = """
 inner = step
@@ -231,3 +247,11 @@ def test_what_is_no_number_in_one_answer_hides_no_other_mistake(here: None) -> N
     unnamed = judge(find("3"), f"{one}    f = f * 1.5\n{end}")
     assert unnamed.name == "not_a_number"
     assert "either" in unnamed.findings[0].words
+
+
+def test_what_the_last_mass_gets_is_told_as_it_is_however_it_came_there(here: None) -> None:
+    """No spring of the last mass to the first is in this program: the reaction of the first spring lands on F[-1]."""
+    verdict = judge(find("3"), REACTION_TO_THE_LAST)
+    assert verdict.name == "last_link_wraps"
+    assert "spring to the first" not in verdict.findings[0].words
+    assert "the force of a spring that does not hold it" in verdict.findings[0].words
