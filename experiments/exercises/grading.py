@@ -17,7 +17,7 @@ from experiments.exercises.handed_in.submission import Submission, read
 from experiments.exercises.process.sandbox import Limits
 from experiments.exercises.process.sandbox_errors import NotGradedError
 from experiments.exercises.teaching.table_file import read_table, written
-from experiments.exercises.teaching.writing import write_anew
+from experiments.exercises.teaching.writing import require_folder, write_anew
 from experiments.exercises.verdict.findings import clean
 from experiments.exercises.verdict.judge import Verdict, judge, not_asked
 from reference.errors import InputError
@@ -174,12 +174,12 @@ def grade_class(
         keyed: whether the exercise was handed out with the key.
 
     Raises:
-        InputError: if the table is something else.
+        InputError: if the table is something else, or its folder is not there.
     """
+    require_folder(table)
     earlier, wanted = _earlier(table), list(files)
     added = dict.fromkeys(name for row in earlier.values() for name in row if name not in COLUMNS)
     lock, rows = threading.Lock(), []
-    table.parent.mkdir(parents=True, exist_ok=True)
     _write(table, earlier.values())
 
     def one(path: Path, name: str) -> dict[str, str]:

@@ -213,6 +213,7 @@ def _print_grade(submission: Submission, given: Grade, key: str | None) -> None:
 
 def _show_grade(path: Path, submission: Submission, given: Grade, plot: bool) -> None:
     """In sentences; where numbers differ, drawn in the terminal and, if asked for, in a file beside the submission."""
+    from experiments.exercises.handed_in.collected import PICTURE
     from experiments.exercises.teaching.plot import as_png, in_terminal
     from experiments.exercises.teaching.words import paragraphs
 
@@ -222,7 +223,7 @@ def _show_grade(path: Path, submission: Submission, given: Grade, plot: bool) ->
         return
     click.echo("\n" + in_terminal(lines))
     if plot:
-        picture = path.with_suffix(".check.png")
+        picture = path.with_suffix(PICTURE)
         try:
             as_png(lines, picture, given.verdict.name)
         except OSError as error:

@@ -57,7 +57,9 @@ def _book(
     from experiments.exercises.teaching.class_book import book, odd_marks, students_in, write_book
     from experiments.exercises.teaching.feedback import write_feedback
     from experiments.exercises.teaching.table_file import read_table
+    from experiments.exercises.teaching.writing import require_folder
 
+    require_folder(out)
     chosen = find(exercise) if exercise else None
     expected = students_in(students) if students else None
     table = grades or out.with_suffix(".grades.csv")

@@ -26,6 +26,9 @@ MOST_FILES, MOST_BYTES = 10_000, 2**28
 #: What students hand in beside programs, and teachers have no lists in.
 DOCUMENTS = (".pdf", ".doc", ".docx", ".odt", ".rtf", ".png", ".jpg", ".jpeg", ".html")
 
+#: What a check draws beside the file that it checks ends so.
+PICTURE = ".check.png"
+
 MOODLE = re.compile(r"^(?P<name>.+?)_(?P<id>\d+)_assignsubmission_\w+$")
 BRIGHTSPACE = re.compile(r"^(?P<id>\d+-\d+) - (?P<name>.+?) - .+$")
 CANVAS = re.compile(r"^(?P<name>[a-z0-9-]+?)(_LATE)?_(?P<id>\d+)_\d+_.+$", re.IGNORECASE)
@@ -101,7 +104,11 @@ def _is_a_students(name: str) -> bool:
 
     >>> [_is_a_students(name) for name in ("eve/plot.png", "lovelaceada_12_3_report.docx", "eve.pdf", "students.csv")]
     [True, True, True, False]
+    >>> _is_a_students("eve.check.png")
+    False
     """
+    if name.endswith(PICTURE):
+        return False
     return "/" in name or CANVAS.match(name) is not None or PurePosixPath(name).suffix.lower() in DOCUMENTS
 
 
@@ -114,6 +121,8 @@ def _of_those_without(programs: Sequence[HandedIn], others: Sequence[HandedIn]) 
 
 def files_in(paths: Sequence[Path], unpacked: Path) -> list[tuple[Path, str]]:
     """The files that are meant, as `submission.files_of` gives them, and those in zips, also in zips in folders.
+
+    Of who has handed in no program into a folder, what there is: as `collect` has it.
 
     Args:
         unpacked: an empty folder to unpack zips into.
@@ -128,7 +137,13 @@ def files_in(paths: Sequence[Path], unpacked: Path) -> list[tuple[Path, str]]:
             found += [(file.path, file.name) for file in collect(path, unpacked / f"path{i}")]
         else:
             found += files_of([path])
+            found += _without_programs(path, unpacked) if path.is_dir() else []
     return found
+
+
+def _without_programs(folder: Path, unpacked: Path) -> list[tuple[Path, str]]:
+    """What those have handed in who have handed in no program: it is told, not left out."""
+    return [(file.path, file.name) for file in collect(folder, unpacked) if file.path.suffix.lower() not in SUFFIXES]
 
 
 def _of_zip(path: Path, name: str, prefix: str, into: Path, inner: bool = False) -> list[HandedIn]:

@@ -6,6 +6,14 @@ import os
 import tempfile
 from pathlib import Path
 
+from reference.errors import InputError
+
+
+def require_folder(file: Path) -> None:
+    """Refuse a file whose folder is not there: a slip in a path makes no folders. Raises InputError."""
+    if not file.parent.is_dir():
+        raise InputError(f"{file}: there is no folder {file.parent}: expected one that is there")
+
 
 def write_anew(file: Path, content: bytes) -> None:
     """A file with this content, in one go; a link of that name is replaced, what it leads to stays as it was.

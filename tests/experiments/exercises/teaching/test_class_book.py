@@ -29,6 +29,7 @@ from experiments.exercises.teaching.table_file import read_table
 from reference.errors import InputError
 from reference.files.csv_cell import cell
 from tests.experiments.exercises.corpus import solution, wrong
+from tests.report.commands.terminal import springlab
 
 RIGHT, WRONG = solution("loops", 1), wrong("loops", "gravity_sign", 1)
 
@@ -161,6 +162,28 @@ def test_zips_and_notebooks_are_checked_too(a_class: Path, tmp_path: Path) -> No
     inside = {name for _, name in files_in([a_class], tmp_path / "two")}
     assert alone
     assert {f"eve/{name}" for name in alone} <= inside
+
+
+def test_who_has_handed_in_no_program_is_checked_too(tmp_path: Path) -> None:
+    """A report in place of a program has a row; beside one, and the picture that a check has drawn, have none."""
+    for name in ("ada/own.py", "ada/report.pdf", "ada/own.check.png", "bob/report.pdf", "eve.py", "eve.check.png"):
+        (tmp_path / "class" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "class" / name).write_text(RIGHT)
+    found = files_in([tmp_path / "class"], tmp_path / "unpacked")
+    assert {name for _, name in found} == {str(Path("ada/own.py")), "bob/report.pdf", "eve.py"}
+    rows = grade_class([(p, name) for p, name in found if name == "bob/report.pdf"], tmp_path / "grades.csv")
+    assert [(row["outcome"], row["finding"]) for row in rows] == [("error", "not_a_submission")]
+
+
+def test_a_table_makes_no_folders(tmp_path: Path) -> None:
+    """A slip in its path is refused before anything is graded, of the book too."""
+    (tmp_path / "own.py").write_text(RIGHT)
+    gone = tmp_path / "gone"
+    for words in (("check", "--csv", str(gone / "g.csv")), ("book", "--out", str(gone / "b.csv"), "--grades", "g.csv")):
+        said = springlab("exercise", *words, str(tmp_path))
+        assert (said.code, len(said.err.splitlines())) == (2, 1)
+        assert f"there is no folder {gone}: expected one that is there" in said.err
+    assert not gone.exists()
 
 
 def test_seeds_are_tied_to_students(tmp_path: Path) -> None:
