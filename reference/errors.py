@@ -34,6 +34,6 @@ def unknown_name(kind: str, name: str, known: Iterable[str]) -> InputError:
     begun = [each for each in names if each.startswith(f"{name}_")]
     if len(begun) > 1:
         return InputError(f"unknown {kind} {name!r}: expected one of {', '.join(begun)}")
-    near = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
+    near = difflib.get_close_matches(name, names, n=1)
     hint = f"did you mean {near[0]!r}?" if near else f"expected one of {', '.join(names)}"
     return InputError(f"unknown {kind} {name!r}: {hint}")

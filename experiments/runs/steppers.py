@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
 
 from engines.engine import absence, registry
@@ -49,6 +50,8 @@ def _scheme_named(name: str, known: Iterable[str]) -> Stepper:
     base = name.partition("(")[0]
     besides = {**catalogue.aliases(), **catalogue.constraint_schemes(), **catalogue.wide_schemes()}
     if base == name and base not in besides:
+        if os.path.isdir(name):
+            raise InputError(f"{name} is a folder: expected a stepper's name, or FILE.py, FILE.py:FUNCTION or FILE.c")
         raise unknown_name("stepper", name, [*known, *besides])
     return stepper_named(name)
 

@@ -29,6 +29,10 @@ SUFFIXES = (".csv", ".npz")
 #: Steps may differ from dt by this part of it: times are written with few figures.
 UNEVEN = 1e-3
 
+#: Along an axis that a scene has not positions may differ by this part of the others' extent: single precision's noise,
+#: which changes lengths by its square only.
+FLAT = 1e-6
+
 
 @dataclass(frozen=True)
 class Recording:
@@ -120,8 +124,23 @@ def _of_csv(file: Path, system: MassSpringSystem) -> Trajectory:
         raise InputError(f"{file}: expected rows for masses 0 to {n - 1} at every time, in this order")
     frames = table.reshape(-1, n, len(columns))
     positions = frames[:, :, 2 : 2 + d]
+    _require_no_other_axis(file, header, rows[1:], positions)
     velocities = frames[:, :, 2 + d :] if told else np.full_like(positions, np.nan)
     return Trajectory(frames[:, 0, 0], positions, velocities)
+
+
+def _require_no_other_axis(file: Path, header: list[str], rows: Sequence[Sequence[str]], positions: Array) -> None:
+    """Refuse positions that differ along an axis that the scene has not; where they are the same, it is left out."""
+    axes = AXES[: positions.shape[-1]]
+    for axis in AXES[len(axes) :]:
+        if axis in header:
+            try:
+                extent = float(np.ptp([float(row[header.index(axis)]) for row in rows]))
+            except (ValueError, IndexError):
+                continue  # a column without numbers is no axis
+            if extent > FLAT * np.ptp(positions, axis=(0, 1)).max():
+                has = ", ".join(axes)
+                raise InputError(f"{file}: its positions differ along {axis}: expected the scene's axes, {has}, only")
 
 
 def _of_npz(file: Path) -> Trajectory:

@@ -13,6 +13,7 @@ from reference.errors import InputError, unknown_name
         ("huen", "did you mean 'heun'?"),
         ("eulr", "did you mean 'euler'?"),
         ("RK4", "expected one of euler, heun, rk4"),
+        ("hexa", "expected one of euler, heun, rk4"),  # two letters of four: none is meant
         ("zzz", "expected one of euler, heun, rk4"),
     ],
 )

@@ -93,3 +93,14 @@ def test_what_is_no_recording_is_refused_in_a_line(text: str, said: str, tmp_pat
     assert found.code == 2
     assert said in found.err
     assert len(found.err.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize(("extent", "code"), [(0.1, 2), (1e-9, 0)])
+def test_a_recording_in_more_dimensions_than_the_scene_is_refused(extent: float, code: int, tmp_path: Path) -> None:
+    """What differs along an axis that the scene has not is told; noise there changes no length, and is left out."""
+    file = tmp_path / "run.csv"
+    rows = (f"{t * 1e-3},0,0,0,0\n{t * 1e-3},1,0,-0.13,{extent * t}\n" for t in range(4))
+    file.write_text("time,mass,x,y,z\n" + "".join(rows))
+    found = springlab("identify", str(file), "spring")
+    assert found.code == code
+    assert ("its positions differ along z: expected the scene's axes, x, y, only" in found.err) == (code == 2)

@@ -60,6 +60,13 @@ def test_bad_input_is_one_line() -> None:
     assert (said.code, said.err.strip()) == (2, "springlab: unknown stepper 'huen': did you mean 'heun'?")
 
 
+def test_a_folder_is_said_to_be_one(tmp_path: Path) -> None:
+    """In one line, without all the steppers there are."""
+    said = springlab("explain", str(tmp_path))
+    words = f"springlab: {tmp_path} is a folder: expected a stepper's name, or FILE.py, FILE.py:FUNCTION or FILE.c"
+    assert (said.code, said.err.strip()) == (2, words)
+
+
 def test_a_solver_is_in_the_catalogue() -> None:
     """It is found by its name, so it is not said to be a stranger."""
     assert "is what the catalogue has by this name" in springlab("explain", "vertex_block_descent").out

@@ -79,6 +79,12 @@ def test_an_engines_own_numbers_are_told_in_si(words: list[str], row: tuple[str,
     assert (found["engine"], found["stiffness"], found["damping"]) == (row[0], *map(pytest.approx, row[1:]))
 
 
+def test_what_was_meant_is_told_first() -> None:
+    """The spring that the engine's numbers ask for, beside what it makes of them: 4 Hz of 1 kg."""
+    said = springlab("translate", "--from", "box2d", "hertz=4", "damping_ratio=0.7", "--predict")
+    assert "meant: k = 631.655 N/m, c = 35.1858 N s/m" in said.out
+
+
 def test_a_scene_is_translated_as_a_whole() -> None:
     """A row for each kind of spring; the snippet has all of it, and moves as the scheme that it is said to be."""
     words = ("--engine", "pymunk", "--predict", "--json")
