@@ -12,12 +12,16 @@ if TYPE_CHECKING:
     from reference.derivation.consequences import Consequences, Windows
     from reference.derivation.explanation import Explanation
     from reference.derivation.formula import Number
+    from reference.derivation.over_dts import OverDts
 
 #: What the letters of a step matrix mean.
 LETTERS = "a = h^2 k/m, b = h c/m, d = h Cd/m, E = exp(-b), D = exp(-d)"
 
 #: Steps in a row that are told, as they are more than a few.
 MANY_STEPS = 100
+
+#: When an order by a tableau holds whose c are not the sums of its rows.
+WITHOUT_TIME = " where slopes do not depend on time"
 
 #: So many intervals of stability above the first are told.
 TOLD = 3
@@ -132,13 +136,8 @@ def name_line(explanation: Explanation) -> str:
         ties = f"; on the string it was run on it cannot be told from {', '.join(found.ties)}" if found.ties else ""
         return f"{explanation.stepper} is what the catalogue has by this name{ties}"
     if found.identified_as is not None:
-        held = explanation.held
-        only = (
-            f", but not at every dt: not at {', '.join(f'{dt:g}' for dt in held.other)} s"
-            if held and held.other
-            else ""
-        )
-        return f"{found}{only}. {found.remark}".rstrip(". ")
+        autonomous = f",{WITHOUT_TIME}" if explanation.tableau and explanation.tableau.times_at_odds else ""
+        return f"{found}{autonomous}{_only_at_some(explanation.held)}. {found.remark}".rstrip(". ")
     if not found.ranking:
         return f"{explanation.stepper} cannot be told: {found.reason}"
     words = f"{explanation.stepper} is not in the catalogue"
@@ -147,6 +146,7 @@ def name_line(explanation: Explanation) -> str:
     if explanation.tableau is not None:
         kind = "an explicit" if explanation.tableau.explicit else "an implicit"
         words += f": {kind} Runge-Kutta method of {explanation.tableau.stages} stages and order {explanation.order}"
+        words += WITHOUT_TIME if explanation.tableau.times_at_odds else ""
     multistep = explanation.seen.multistep
     if multistep is not None:
         kind = "an explicit" if multistep.explicit else "an implicit"
@@ -154,6 +154,15 @@ def name_line(explanation: Explanation) -> str:
     # beside a nearest one by motion, which is among the reasons
     by = "" if explanation.nearest.startswith("its ") else "nearest by coefficients: "
     return words + (f"; {by}{explanation.nearest}" if explanation.nearest else "")
+
+
+def _only_at_some(held: OverDts | None) -> str:
+    """At which dt a name does not hold, behind a comma; and at which to what part of a step's size."""
+    if held is None:
+        return ""
+    changed = [f"not at {dt:g} s" + (f" (there {name})" if name else "") for dt, name in held.changed]
+    loose = [f"at {dt:g} s to {off:.1g} only" for dt, off in held.loose]
+    return "".join([f", but not at every dt: {', '.join(changed)}"] * bool(changed) + [f", {one}" for one in loose])
 
 
 def in_catalogue(name: str) -> bool:
@@ -179,13 +188,14 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
         else:
             many = f", as far as {past.steps} steps in a row show" if past.steps > MANY_STEPS else ""
             yield f"One step: it depends on positions and velocities alone{many}"
-    if explanation.held is not None and explanation.held.same and not explanation.held.other:
+    if explanation.held is not None and not explanation.held.other and str(explanation.held):
         yield str(explanation.held)
     if explanation.explicit is not None:
         yield "Explicit: no equations are solved" if explanation.explicit else "Implicit: equations are solved"
     if explanation.updates is not None:
         reused = ", one of them that of the step before" if explanation.updates.reused else ""
-        yield f"Slopes or forces taken in a step: {explanation.updates.calls + explanation.updates.reused}{reused}"
+        calls = explanation.updates.calls + explanation.updates.reused
+        yield f"Slopes or forces taken in a step: {calls}{reused}{_where_derived(explanation, of_slopes=True)}"
     yield from _order(explanation)
     yield from _stability(explanation)
     if explanation.follows is not None and explanation.of_one_step:
@@ -196,10 +206,14 @@ def property_lines(explanation: Explanation) -> Iterator[str]:
 
 def _order(explanation: Explanation) -> Iterator[str]:
     order = explanation.order_of_one_mass
+    if explanation.seen.adapts:
+        yield "No order in dt: it makes steps of its own by a tolerance, and its error is that tolerance's, not dt's"
     if explanation.tableau is not None and explanation.tableau.fails:
         nearly = explanation.tableau.nearly
         digits = f"; to six digits it is of order {nearly}" if nearly > explanation.tableau.order else ""
-        yield f"Order {order}, by the conditions on its tableau: {explanation.tableau.fails}{digits}"
+        where = WITHOUT_TIME if explanation.tableau.times_at_odds else ""
+        at = _where_derived(explanation, of_slopes=True)
+        yield f"Order {order}{where}, by the conditions on its tableau{at}: {explanation.tableau.fails}{digits}"
     elif explanation.seen.multistep is not None:
         yield f"Order {order}, by its coefficients"
     elif order is not None:
@@ -215,7 +229,8 @@ def _order(explanation: Explanation) -> Iterator[str]:
                 else []
             )
             resisted = f", {follows.order} with {' and '.join(seen)}{left_out}" if seen else ""
-            known.append(f"{follows.undamped_order} on {where}{resisted}")
+            at = _where_derived(explanation, of_slopes=False)
+            known.append(f"{follows.undamped_order} on {where}{resisted}{at}")
         elif of_one_mass is not None:
             known.append(f"{of_one_mass} on the oscillator, by its difference equation")
         if explanation.nonlinear_order is not None:
@@ -229,7 +244,22 @@ def _order(explanation: Explanation) -> Iterator[str]:
         )
 
 
+def _where_derived(explanation: Explanation, of_slopes: bool) -> str:
+    """At which dt something was derived, behind a comma, of what is not the same at every dt."""
+    from reference.derivation.oscillators import DT
+    from reference.derivation.recording import LENGTHS
+
+    if not explanation.changes_with_dt:
+        return ""
+    asked = of_slopes and (explanation.updates is not None or explanation.seen.iterates)
+    return f", at dt = {' and '.join(f'{dt:g}' for dt in LENGTHS)} s" if asked else f", at dt = {DT:g} s"
+
+
 def _stability(explanation: Explanation) -> Iterator[str]:
+    if explanation.changes_with_dt:
+        if explanation.matrix is None or explanation.matrix.only_at is None:  # else it is among the reasons
+            yield "No limits of stability follow, as its rule is another at another dt"
+        return
     imaginary, real = explanation.limits
     if explanation.tableau is not None and explanation.follows is None and explanation.of_one_step:
         solved = "" if explanation.explicit else ", where its equations are solved"
@@ -247,7 +277,7 @@ def _stability(explanation: Explanation) -> Iterator[str]:
 def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:
     symplectic = "symplectic" if explanation.symplectic else "not symplectic"
     reversible = "reversible" if follows.reversible else "not reversible"
-    yield f"{symplectic.capitalize()}, and {reversible}, without damping"
+    yield f"{symplectic.capitalize()}, and {reversible}, without damping{_where_derived(explanation, of_slopes=False)}"
     if follows.implicit:
         yield f"Implicit in {' and '.join(follows.implicit)}"
     for s, period, amplitude in follows.periods:
@@ -282,16 +312,20 @@ def sections(explanation: Explanation) -> list[tuple[str, list[str]]]:
     multistep = explanation.seen.multistep
     of_one = ", as one mass shows it" if explanation.lower_among_masses else ""
     of_swings = explanation.matrix is not None and explanation.matrix.of_swings
+    at, of_slopes = (_where_derived(explanation, of_slopes=each) for each in (False, True))
     found = [
         (
-            f"Derived: a step of {'small swings of a rod' if of_swings else 'the damped oscillator'}",
+            f"Derived: a step of {'small swings of a rod' if of_swings else 'the damped oscillator'}{at}",
             matrix_lines(explanation),
         ),
-        ("Derived: the update formulas", list(in_words(explanation.updates)) if explanation.updates else []),
-        ("Derived: where forces of springs are taken, without damping", force_lines(explanation)),
-        ("Derived: the multistep method", [str(multistep)] if multistep else []),
-        ("Derived: what an oscillator's positions obey, step after step", difference_lines(explanation)),
-        (f"Derived: the Butcher tableau{of_one}", tableau_lines(explanation)),
+        (
+            f"Derived: the update formulas{of_slopes}",
+            list(in_words(explanation.updates)) if explanation.updates else [],
+        ),
+        (f"Derived: where forces of springs are taken, without damping{at}", force_lines(explanation)),
+        (f"Derived: the multistep method{of_slopes}", [str(multistep)] if multistep else []),
+        (f"Derived: what an oscillator's positions obey, step after step{at}", difference_lines(explanation)),
+        (f"Derived: the Butcher tableau{of_one}{of_slopes}", tableau_lines(explanation)),
         ("What follows", [f"- {line}." for line in property_lines(explanation)]),
         ("What cannot be told, and why", [f"- {reason}." for reason in _beside_the_name(explanation)]),
         ("What it should not do", [f"- {remark}." for remark in explanation.remarks]),

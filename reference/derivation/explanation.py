@@ -138,6 +138,12 @@ class Explanation:
         return None if self.matrix is None or self.matrix.of_swings else self.matrix.is_polynomial
 
     @property
+    def changes_with_dt(self) -> bool:
+        """Whether its rule is another at another dt: what is derived at one then holds there only."""
+        by_matrix = self.matrix is not None and self.matrix.only_at is not None
+        return by_matrix or (self.held is not None and self.held.is_another)
+
+    @property
     def order(self) -> int | None:
         """The order of one mass, or the lower one that is seen on two."""
         return self.order_among_masses if self.lower_among_masses else self.order_of_one_mass
@@ -171,6 +177,8 @@ class Explanation:
     @property
     def limits(self) -> tuple[Windows | None, Windows | None]:
         """In which intervals of h w, and of h c/m or h Cd/m, oscillators do not grow; None of what is not known."""
+        if self.changes_with_dt:
+            return None, None
         found = self.follows if self.of_one_step else self.difference
         if found is not None:
             return found.imaginary_axis, found.real_axis
@@ -255,6 +263,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if swapped:
         reasons.append(SWAPPED)
         matrix = None
+    reasons += matrix.left_out if matrix else ()
     if matrix is not None and matrix.softer < 1:
         reasons.append(SOFTER)
     if matrix is not None and matrix.coarser > 1:
@@ -281,7 +290,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     # rounding, not the formulas, is why these are not found
     reasons += of_slopes if IN_SINGLE not in reasons else []
     tell("its order")
-    order = None if precision == "single" or on_rods else nonlinear_order(runs, False, False)
+    order = None if precision == "single" or on_rods or asked.adapts else nonlinear_order(runs, False, False)
     among = order_of_two_masses(runs) if of_one_step and seen.updates is None and not on_rods else None
     tell("its name")
     identification = identified_on_a_string(stepper, damped, dragged)
@@ -290,7 +299,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if name is not None and name != stepper.name:
         tell("over which dt it has that name")
         string = _string(damped, dragged)
-        held = over_dts(runs, name, string, precision, lambda dt: identify(stepper, string, dt, STEPS).identified_as)
+        held = over_dts(runs, name, string, precision, lambda on, dt: identify(stepper, on, dt, STEPS).identified_as)
         held = replace(held, iterates=seen.iterates)
         reasons += [str(held)] if held.other else []
     if identification.identified_as is None:

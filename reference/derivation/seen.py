@@ -40,6 +40,7 @@ class Seen(NamedTuple):
         taken: where it takes forces, where it asks for no slopes, but only steps.
         remarks: what it does that a stepper should not.
         iterates: whether it asks more often than any explicit method: it solves equations, or makes steps of its own.
+        adapts: whether it makes more steps of its own, or fewer, by what slopes are.
     """
 
     updates: Updates | None = None
@@ -48,6 +49,7 @@ class Seen(NamedTuple):
     taken: tuple[Taken, ...] = ()
     remarks: tuple[str, ...] = ()
     iterates: bool = False
+    adapts: bool = False
 
 
 #: Of what neither asks for slopes, nor was looked at from outside.
@@ -83,8 +85,7 @@ def slopes_of(stepper: Stepper, reasons: list[str]) -> Seen:
         return found._replace(remarks=(*remarks, *found.remarks), iterates=True)
     updates = tried(lambda: updates_of(recording), reasons, "no update formulas: ")
     tableau = tableau_of(updates, recording.timed) if updates else None
-    if tableau is not None and tableau.times_at_odds:
-        remarks += (tableau.times_at_odds,)
+    remarks += tableau.times_at_odds if tableau is not None else ()
     return Seen(updates, tableau, remarks=remarks)
 
 
@@ -97,13 +98,13 @@ def _of_solved(solved: Solved, timed: bool, reasons: list[str]) -> Seen:
         more, fewer = solved.calls
         depends = f", or {fewer} where slopes are a thousandth: it adapts its steps" if fewer != more else ""
         reasons.append(f"no tableau: it makes steps of its own; in one step it asks {more} times{depends}")
-        return NOTHING
+        return Seen(adapts=fewer != more)
     parts = solved.parts if timed else None
     found = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes, parts)
     if found is None:
         reasons.append("no tableau: it iterates, and its stages were not found among the points that it asks at")
         return NOTHING
-    return Seen(tableau=found, remarks=(found.times_at_odds,) if found.times_at_odds else ())
+    return Seen(tableau=found, remarks=found.times_at_odds)
 
 
 def beside_steps(seen: Seen, runs: Runs, reasons: list[str]) -> Seen:

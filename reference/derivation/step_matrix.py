@@ -67,6 +67,7 @@ class StepMatrix:
         of_swings: whether it is that of the small swings of a rod, with a = h^2 g/L, x an angle and v its rate.
         softer: of what part of the usual a, b and d it was seen, as it has no formula with all.
         coarser: how many times rounding its values are off.
+        left_out: why it was not seen with damping, or with drag, where it was not.
     """
 
     entries: Entries
@@ -79,6 +80,7 @@ class StepMatrix:
     of_swings: bool = False
     softer: float = 1.0
     coarser: float = 1.0
+    left_out: tuple[str, ...] = ()
 
     @property
     def exact(self) -> bool:
@@ -141,6 +143,7 @@ def _search(
 ) -> StepMatrix:
     reason, together, aside = "", set(), ASIDE if precision == "double" else FAR_ASIDE
     last: tuple[Samples, Array, float] | None = None
+    without: dict[tuple[bool, bool], str] = {}
     for (damped, dragged), (measure, count) in ways:
         if measure is by_difference and last is not None:
             break
@@ -151,7 +154,7 @@ def _search(
         try:
             measured = measure(runs, at, DT, aside)
         except Unsupported as error:
-            reason = str(error)
+            reason = without[damped, dragged] = str(error)
             continue
         together |= {(damped, dragged)} if measure is side_by_side else set()
         size = float(np.abs(measured).max())
@@ -163,11 +166,24 @@ def _search(
                 raise Unsupported("a step changes nothing: the state stays as it is")
             if not found.asks("a"):
                 return _of_swings(runs, RODS)
+            found = replace(found, left_out=tuple(_left_out(without, found)))
             once_more = partial(measure, runs, aside=aside)
             return replace(found, only_at=DT) if _asks_for_h(once_more, found, 100 * noise) else found
+        digits = "" if precision == "double" else ", to the digits of single precision"
+        without[damped, dragged] = f"its steps with that follow no small formula{digits}"
     if last is None:
         return _of_swings(runs, reason)
     raise NoFormula(_why_none(*last, precision))
+
+
+def _left_out(without: dict[tuple[bool, bool], str], found: StepMatrix) -> Iterable[str]:
+    """Why there is no damping in it, or no drag, in words: what happened with it alone, or with both."""
+    reasons: dict[str, list[str]] = {}
+    for word, there, way in (("damping", found.damped, (True, False)), ("drag", found.dragged, (False, True))):
+        why = without.get(way) or without.get((True, True))
+        if not there and why:
+            reasons.setdefault(why, []).append(word)
+    return [f"no {' and no '.join(words)} in its step matrix: {why}" for why, words in reasons.items()]
 
 
 def _why_none(at: Samples, measured: Array, noise: float, precision: Precision) -> str:

@@ -80,13 +80,14 @@ class Tableau:
         return all(not _apart(b[i] * a[i][j] + b[j] * a[j][i], b[i] * b[j], self.within) for i in s for j in s)
 
     @property
-    def times_at_odds(self) -> str:
-        """Where the times it takes slopes at are not the sums of its rows; empty where they are."""
-        for i, (c, row) in enumerate(zip(self.c, self.a, strict=True)):
-            on: Number = sum(row, start=ZERO)
-            if _apart(c, on, self.within):
-                return f"slope {i + 1} is taken {number(on)} of a step on, and is told the time {number(c)} of it on"
-        return ""
+    def times_at_odds(self) -> tuple[str, ...]:
+        """Where the times it takes slopes at are not the sums of its rows: each such slope, in words."""
+        sums: list[Number] = [sum(row, start=ZERO) for row in self.a]
+        return tuple(
+            f"slope {i} is taken {number(on)} of a step on, and is told the time {number(c)} of it on"
+            for i, (c, on) in enumerate(zip(self.c, sums, strict=True), start=1)
+            if _apart(c, on, self.within)
+        )
 
     def step_matrices(self, a: Array, damped: Array | None = None) -> Array:
         """Its step matrices of oscillators, shape (n, 2, 2).

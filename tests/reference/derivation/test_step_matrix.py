@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pytest
 
-from reference.derivation.oscillators import runs_of
+from reference.derivation.oscillators import Run, runs_of
 from reference.derivation.step_matrix import step_matrix
 from reference.errors import Unsupported
+from reference.outcome import Outcome
 from reference.schemes.catalogue import Scheme, find, schemes
 from reference.stepper import SchemeStepper, catalogued
 from reference.theory.oscillators import step_matrices
@@ -80,3 +83,24 @@ def test_few_digits_make_no_decimals() -> None:
     """Where coefficients in single precision are no fractions, nothing is told: a polynomial goes through anything."""
     with pytest.raises(Unsupported, match="to the digits of single precision"):
         step_matrix(runs_of(SchemeStepper(find("soft_constraints_relaxed(single=True)"))), "single")
+
+
+def test_why_there_is_no_damping_is_told() -> None:
+    """Of a stepper that refuses damping but not drag, the reason; of one that refuses both, in one; else nothing."""
+    all_of_it = runs_of(SchemeStepper(find("heun")))
+
+    def undamped(asked: Sequence[Run]) -> list[Outcome]:
+        if any(run.system.damping.any() for run in asked):
+            raise Unsupported("its springs have no damping")
+        return all_of_it(asked)
+
+    def without_both(asked: Sequence[Run]) -> list[Outcome]:
+        if any(run.system.damping.any() or np.any(run.system.drag) for run in asked):
+            raise Unsupported("nothing resists")
+        return all_of_it(asked)
+
+    found = step_matrix(undamped)
+    assert (found.damped, found.dragged) == (False, True)
+    assert found.left_out == ("no damping in its step matrix: its springs have no damping",)
+    assert step_matrix(without_both).left_out == ("no damping and no drag in its step matrix: nothing resists",)
+    assert step_matrix(all_of_it).left_out == ()

@@ -151,6 +151,9 @@ def test_steps_of_its_own_are_told_as_such(tmp_path: Path) -> None:
     assert "it makes steps of its own" in found.reason
     assert "it adapts its steps" in found.reason
     assert "a step is an oscillator's true motion" in found.reason
+    assert found.order is None
+    (order,) = (line for line in property_lines(found) if "rder" in line)
+    assert order.startswith("No order in dt")
 
 
 def test_slopes_that_are_taken_twice_are_one_stage(tmp_path: Path) -> None:

@@ -35,7 +35,7 @@ def test_tableaux_are_the_textbooks(name: str) -> None:
     tableau = tableau_of_scheme(find(name)) or implicit_tableau(find(name))
     assert tableau is not None
     assert (tableau.text()["a"], tableau.text()["b"]) == TEXTBOOK[name]
-    assert tableau.times_at_odds == ""
+    assert tableau.times_at_odds == ()
 
 
 @pytest.mark.parametrize("scheme", schemes().values(), ids=label)

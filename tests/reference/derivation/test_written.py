@@ -15,6 +15,7 @@ from engines.process.isolation import in_this_process
 from reference.derivation.explanation import Explanation, explain
 from reference.derivation.updates import in_words
 from reference.schemes.catalogue import find
+from report.derived import name_line, property_lines
 
 FOLDER = Path(__file__).parent / "written"
 
@@ -109,7 +110,12 @@ def test_times_that_do_not_go_along_are_told() -> None:
     """RK4 that always tells its slopes the time at the start: on these forces it is RK4, on others it is not."""
     found = explained("bug_rk4_time.py")
     assert found.identification.identified_as == "rk4"
-    assert found.remarks == ("slope 2 is taken 1/2 of a step on, and is told the time 0 of it on",)
+    told = [(2, "1/2"), (3, "1/2"), (4, "1")]
+    assert found.remarks == tuple(
+        f"slope {i} is taken {c} of a step on, and is told the time 0 of it on" for i, c in told
+    )
+    assert "where slopes do not depend on time" in name_line(found)
+    assert any(line.startswith("Order 4 where slopes do not depend on time,") for line in property_lines(found))
 
 
 def test_damping_at_the_wrong_velocity_is_told() -> None:

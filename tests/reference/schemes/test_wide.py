@@ -59,7 +59,7 @@ def test_tableaux_are_the_textbooks(name: str) -> None:
     assert list(tableau.b) == b
     assert [list(row[: i + 1]) for i, row in enumerate(tableau.a[1:])] == rows
     assert tableau.explicit
-    assert tableau.times_at_odds == ""
+    assert tableau.times_at_odds == ()
 
 
 @pytest.mark.parametrize("name", FORMULAS)
