@@ -123,7 +123,10 @@ def scene_data(setup: Setup, summary: str = "", slides: str = "", command: str =
 
 
 def rest_data(system: MassSpringSystem) -> dict[str, Any]:
-    """Where it comes to rest, from which the page goes on when parameters change; `rest` is empty where nowhere."""
+    """Where it comes to rest, from which the page goes on when parameters change; `rest` is empty where nowhere.
+
+    Of a rest on obstacles also where it would be without them, as `alone`.
+    """
     from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
 
     still = replace(system, velocities=np.zeros_like(system.velocities))
@@ -136,8 +139,13 @@ def rest_data(system: MassSpringSystem) -> dict[str, Any]:
             found = spring_equilibrium(still)
     if found is None:
         return {"rest": [], "contacts": [], "about": about}
-    contacts = [] if found.contacts is None else contact_data(found.contacts, system)
-    return {"rest": found.state.positions.ravel().tolist(), "contacts": contacts, "about": about}
+    rest = {"rest": found.state.positions.ravel().tolist(), "about": about}
+    if found.contacts is None:
+        return rest | {"contacts": []}
+    with suppress(SolverError):
+        alone = spring_equilibrium(replace(still, obstacles=()))
+        rest |= {"alone": alone.state.positions.ravel().tolist()}
+    return rest | {"contacts": contact_data(found.contacts, system)}
 
 
 def contact_data(contacts: Contacts, system: MassSpringSystem) -> list[Mapping[str, Any]]:

@@ -6,22 +6,12 @@ const SETTLING = 10, SETTLED = 1e-12;
 
 // The largest modulus of an eigenvalue of the whole step where it stays; null where it stays nowhere.
 function growthOnObstacles(system, linear, scheme, h) {
-  const {F, I, at} = linear.memory, {n, s, d} = at, places = coordinates(linear), m = places.length;
+  const {F, at} = linear.memory, {step, end, depth: depthOf, m} = stepOnObstacles(system, linear, scheme, h);
   let scale = Infinity;
-  for (let j = 0; j < s; j++) scale = Math.min(scale, F[at.rest_lengths + j]);
-  const own = {F: F.slice(), I, at}, run = runOf(scheme, linear.memory.at), c = scheme.coefficients(h);
-  const put = z => {
-    own.F.set(linear.rest, at.x); own.F.fill(0, at.v, at.v + n * d);
-    places.forEach((place, k) => { own.F[at.x + place] += z[k]; own.F[at.v + place] = z[m + k] / h; });
-  };
-  const got = () => Float64Array.from({length: 2 * m}, (_, k) =>
-    k < m ? own.F[at.x + places[k]] - linear.rest[places[k]] : h * own.F[at.v + places[k - m]]);
-  const step = z => { put(z); run(own.F, I, at, c, 1); return got(); };
-  const end = z => { put(z); for (const {kind, values} of system.obstacles) for (const {mass} of linear.contacts) obstacles[kind](own.F, at.x, at.v, mass, true, values); return got(); };
+  for (let j = 0; j < at.s; j++) scale = Math.min(scale, F[at.rest_lengths + j]);
   let z = new Float64Array(2 * m);
   for (let round = 0; round < SETTLING; round++) {
-    const inside = step(z), out = end(inside);
-    const depth = Math.min(...linear.contacts.map(({mass}) => depthOf(out, inside, places, d, mass)));
+    const inside = step(z), out = end(inside), depth = depthOf(out, inside);
     if (!(depth > 0)) return null;
     const matrix = product(differences(end, inside, Math.min(7e-4 * scale, depth / 5)), differences(step, z, 7e-4 * scale), 2 * m);
     const moved = out.map((value, k) => value - z[k]);
@@ -36,8 +26,31 @@ function growthOnObstacles(system, linear, scheme, h) {
   return null;
 }
 
+// A step's two parts, of positions less those of the rest and h times velocities, of free masses: by the scheme, and its end;
+// and the least that the end has moved a mass in contact.
+function stepOnObstacles(system, linear, scheme, h) {
+  const {F, I, at} = linear.memory, {n, d} = at, places = coordinates(linear), m = places.length;
+  const own = {F: F.slice(), I, at}, run = runOf(scheme, linear.memory.at), c = scheme.coefficients(h);
+  const put = z => {
+    own.F.set(linear.rest, at.x); own.F.fill(0, at.v, at.v + n * d);
+    places.forEach((place, k) => { own.F[at.x + place] += z[k]; own.F[at.v + place] = z[m + k] / h; });
+  };
+  const got = () => Float64Array.from({length: 2 * m}, (_, k) =>
+    k < m ? own.F[at.x + places[k]] - linear.rest[places[k]] : h * own.F[at.v + places[k - m]]);
+  const step = z => { put(z); run(own.F, I, at, c, 1); return got(); };
+  const end = z => { put(z); for (const {kind, values} of system.obstacles) for (const {mass} of linear.contacts) obstacles[kind](own.F, at.x, at.v, mass, true, values); return got(); };
+  const depth = (out, inside) => Math.min(...linear.contacts.map(({mass}) => movedBy(out, inside, places, d, mass)));
+  return {step, end, depth, m};
+}
+
+// Whether a step from rest ends inside obstacles, for their rule to hold masses there.
+function isPressed(system, linear, scheme, h) {
+  const {step, end, depth, m} = stepOnObstacles(system, linear, scheme, h), inside = step(new Float64Array(2 * m));
+  return depth(end(inside), inside) > 0;
+}
+
 // How far the end of a step has moved a mass.
-function depthOf(out, inside, places, d, mass) {
+function movedBy(out, inside, places, d, mass) {
   const first = places.indexOf(d * mass);
   let squares = 0;
   for (let axis = 0; axis < d; axis++) squares += (out[first + axis] - inside[first + axis]) ** 2;

@@ -189,7 +189,7 @@ function askLimits() {
   const names = [...new Set(lab.lanes.map(lane => lane.recording ? lane.recording.scheme : lane.scheme).filter(name => schemes[name]))];
   lab.limits = {};
   if (!lab.scene.rest.length) return limitsCame();
-  const question = {id: ++asked, memory: {F: F.slice(), I: I.slice(), at}, system: {obstacles: lab.scene.system.obstacles}, rest: lab.scene.rest, contacts: lab.scene.contacts, names};
+  const question = {id: ++asked, memory: {F: F.slice(), I: I.slice(), at}, system: {obstacles: lab.scene.system.obstacles}, rest: lab.scene.rest, contacts: lab.scene.contacts, alone: lab.scene.alone, names};
   if (!worker) {
     const code = document.getElementById("physics").textContent + "\nonmessage = ({data}) => postMessage(answerLimits(data));";
     worker = new Worker(URL.createObjectURL(new Blob([code], {type: "text/javascript"})));

@@ -4,6 +4,9 @@
 // Up to this many positions and velocities all eigenvalues are had; of more, those of the fastest moves.
 const ALL_UP_TO = 420, STEP_UP_TO = 90;
 
+// Of steps that see masses inside obstacles `springlab stability` looks at the rest there up to this many.
+const ON_OBSTACLES_UP_TO = 260;
+
 // By what one step multiplies the worst state of a mode q'' + g q' + w2 q = 0.
 function growthOfMode(scheme, h, w2, g) {
   const c = scheme.coefficients(h), columns = [];
@@ -97,6 +100,33 @@ function limitOf(name, linear, known = {}, system = null) {
     return {...told, limit: nearby(h => growthOfStep(linear, h, stepLinear(scheme, linear, h)), shortest, fastest)};
   }
   return {...told, limit: shortest, about: Boolean(scheme.polynomial) || told.about};
+}
+
+// As `springlab stability` has it: about a rest on obstacles, where a scheme's steps have one there that can be looked at,
+// else of the scene without them, which `alone` true says. Args: without: where that rests, as `linearise` has it, or null.
+function limitBesideObstacles(name, linear, without, known, system) {
+  const scheme = schemes[name], there = linear.contacts.length ? staysOnObstacles(scheme, linear, known, system) : true;
+  const told = there ? limitOf(name, linear, known, system) : null;
+  if (told && !(linear.contacts.length && told.reason === "no rest")) return told;
+  const other = without();
+  return other ? {...limitOf(name, other, other.known = other.known || {}), alone: true} : {limit: null, reason: "no rest"};
+}
+
+function staysOnObstacles(scheme, linear, known, system) {
+  if (scheme.keeps && !linear.contacts.some(contact => contact.curved)) return true;
+  known.top = known.top || largestEigenpair(scaled(linear, "stiffness"), linear.size, alongStart(linear));
+  if (2 * linear.free.length * linear.memory.at.d > ON_OBSTACLES_UP_TO) return false;
+  return isPressed(system, linear, scheme, 1 / Math.sqrt(known.top.value));
+}
+
+// Where the scene without its obstacles rests, linearised, or null; looked for when it is asked for.
+function restWithout(memory, guess) {
+  let found;
+  return () => {
+    if (found !== undefined || !guess) return found || null;
+    const rest = equilibrium(memory, guess), linear = rest.off < 1e-6 ? linearise(memory, rest.x) : null;
+    return found = linear && linear.corner === undefined ? linear : null;
+  };
 }
 
 // A start that is along surfaces and free masses only.
@@ -199,13 +229,14 @@ function growthOfStep(linear, h, step) {
 }
 
 // The limits of some schemes for a system as it is set, and which springs the fastest move strains most.
-function answerLimits({id, memory, system, rest, contacts, names}) {
+function answerLimits({id, memory, system, rest, contacts, alone, names}) {
   const {F, at} = memory, known = {};
   const found = equilibrium(memory, rest, contacts);
   if (!(found.off < 1e-6)) return {id, limits: Object.fromEntries(names.map(name => [name, {limit: null, reason: "no rest"}])), mode: null};
   const linear = linearise(memory, found.x, contacts);
   if (linear.corner !== undefined) return {id, limits: Object.fromEntries(names.map(name => [name, {limit: null, reason: "corner"}])), mode: null};
-  const limits = Object.fromEntries(names.map(name => [name, limitOf(name, linear, known, system)]));
+  const without = restWithout(memory, alone);
+  const limits = Object.fromEntries(names.map(name => [name, limitBesideObstacles(name, linear, without, known, system)]));
   if (!known.top || !(known.top.value > 0)) return {id, limits, mode: null};
   const y = known.top.vector, out = new Float64Array(linear.size), share = new Float64Array(at.s);
   const move = y.map((value, e) => value * linear.root[e]);

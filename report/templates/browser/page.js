@@ -105,8 +105,20 @@ function showLimits() {
     }
     return item;
   });
-  if (lab.scene.about) items.push(element("li", {}, element("span", {className: "about small"}, say("about_rest", {about: lab.scene.about}))));
+  items.push(...aboutSaid().map(text => element("li", {}, element("span", {className: "about small"}, text))));
   $("limits").replaceChildren(...items);
+}
+
+// Of scenes with obstacles: about which rest predictions are, of all lanes that have one, or of which.
+function aboutSaid() {
+  const predicted = lab.lanes.filter(({scheme, recording, engine}) => !recording && !engine && lab.limits[scheme] && lab.limits[scheme].limit !== null);
+  const groups = {};
+  for (const {scheme} of lab.scene.about ? predicted : []) {
+    const about = lab.limits[scheme].alone ? say("without_obstacles") : lab.scene.about;
+    groups[about] = [...groups[about] || [], scheme];
+  }
+  const all = Object.entries(groups), named = all.length > 1 || predicted.length < lab.lanes.length;
+  return all.map(([about, names]) => say(named ? "about_lanes" : "about_rest", {about, names: [...new Set(names)].join(", ")}));
 }
 
 function limitSaid(lane) {
@@ -232,7 +244,7 @@ function whyBlown(lane) {
   if (!told || !mode || told.limit === null) return "";
   const scheme = schemes[lane.scheme], {dt} = lane.world, omega = number(Math.sqrt(mode.w2), 4);
   // what is no mode's growth, as on obstacles or where a scheme writes in place, is not given as the reason
-  const factor = scheme.linear ? growthOfMode(scheme, dt, mode.w2, mode.g) : NaN, grows = factor > 1, growth = grows && factor < 1.0005 ? `1 + ${number(factor - 1, 2)}` : number(factor, 4);
+  const factor = scheme.linear && !told.alone ? growthOfMode(scheme, dt, mode.w2, mode.g) : NaN, grows = factor > 1, growth = grows && factor < 1.0005 ? `1 + ${number(factor - 1, 2)}` : number(factor, 4);
   if (told.limit === 0) return grows ? say("why_never", {omega, growth}) : say("limit_never", {name: lane.scheme}) + ".";
   if (dt <= told.limit) return say("why_below");
   if (!grows) return say("why_over", {part: number(dt / told.limit, 4), limit: number(1e3 * told.limit, 4)});

@@ -43,7 +43,9 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
   const rest = equilibrium(memory, asked.rest, asked.contacts), linear = linearise(memory, rest.x, asked.contacts);
   const known = {};
   if (asked.ask === "limits") {
-    const limits = Object.fromEntries(asked.schemes.map(name => [name, limitOf(name, linear, known, asked.system)]));
+    const without = restWithout(memory, asked.alone), {system} = asked;
+    const found = name => limitBesideObstacles(name, linear, without, known, system);
+    const limits = Object.fromEntries(asked.schemes.map(name => [name, found(name)]));
     return {off: rest.off, limits, rest: Array.from(rest.x)};
   }
   if (asked.ask === "grown") return asked.schemes.flatMap(name => {

@@ -303,6 +303,22 @@ def test_positions_are_written_with_time_and_step_and_called_after_the_scene_and
     shown.page.close()
 
 
+def test_each_lane_says_about_which_rest_its_prediction_is(browser: Any, file: Path) -> None:
+    """As in `springlab stability`: euler leads masses into an obstacle in every second step only. No limit, no rest."""
+    about, without = "about its rest on obstacles, where 4 masses press.", "of the scene without its obstacles."
+    shown = opened(browser, file, "s=barrier&w=rk4,euler,kick_drift")
+    lines = shown.page.locator("#limits .about").all_inner_texts()
+    assert lines == [f"Of rk4, kick_drift the prediction is {about}", f"Of euler the prediction is {without}"]
+    after = ("delete lab.limits.rk4", "lab.limits.euler = {limit: null}", "lab.limits = {}")
+    told = [shown.page.evaluate(f"{statement}, aboutSaid()") for statement in after]
+    assert told == [
+        [f"Of euler the prediction is {without}", f"Of kick_drift the prediction is {about}"],
+        [f"Of kick_drift the prediction is {about}"],
+        [],
+    ]
+    shown.page.close()
+
+
 def test_no_factor_below_one_is_given_as_the_reason_of_a_blow_up(browser: Any, file: Path) -> None:
     """On obstacles a limit may be below that of the fastest mode: then only dt and the limit are told.
 
