@@ -277,11 +277,12 @@ def _stability(explanation: Explanation) -> Iterator[str]:
 def _of_matrix(explanation: Explanation, follows: Consequences) -> Iterator[str]:
     symplectic = "symplectic" if explanation.symplectic else "not symplectic"
     reversible = "reversible" if follows.reversible else "not reversible"
-    yield f"{symplectic.capitalize()}, and {reversible}, without damping{_where_derived(explanation, of_slopes=False)}"
+    at = _where_derived(explanation, of_slopes=False)
+    yield f"{symplectic.capitalize()}, and {reversible}, without damping{at}"
     if follows.implicit:
-        yield f"Implicit in {' and '.join(follows.implicit)}"
+        yield f"Implicit in {' and '.join(follows.implicit)}{at}"
     for s, period, amplitude in follows.periods:
-        yield f"At h w = {s:g}: period x {period:.5f}, amplitude x {amplitude:.4g} in a period"
+        yield f"At h w = {s:g}: period x {period:.5f}, amplitude x {amplitude:.4g} in a period{at}"
 
 
 def stability(of: str, windows: Windows, without: str) -> str:

@@ -85,3 +85,19 @@ def test_every_dt_that_was_tried_is_told_of() -> None:
     assert held.drowned[0] == DTS[0]
     assert sorted((*held.same, *held.other, *held.drowned, *held.failed)) == sorted(DTS)
     assert "; not told at 2e-06 s, where rounding drowns it" in str(held)
+
+
+def test_periods_are_marked_too() -> None:
+    """Drift-kick below 0.01 s, kick-drift above: the periods told are those of kick-drift, at 0.0625 s."""
+
+    def step(x, v, dt, system):  # type: ignore[no-untyped-def]
+        a = system.acceleration(x, v)
+        drifted = x + dt * v if dt < 1e-2 else x
+        v = v + dt * (system.acceleration(drifted, v) if dt < 1e-2 else a)
+        return (drifted, v) if dt < 1e-2 else (x + dt * v, v)
+
+    found = explain(stepper_of(step))
+    assert found.identification.identified_as == "drift_kick"
+    periods = [line for line in property_lines(found) if line.startswith("At h w")]
+    assert periods
+    assert all(line.endswith(", at dt = 0.0625 s") for line in periods)
