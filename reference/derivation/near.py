@@ -15,7 +15,7 @@ from reference.derivation.implicit import implicit_tableau
 from reference.derivation.of_schemes import tableau_of_scheme, updates_of_scheme
 from reference.derivation.oscillators import matrices_at, runs_of
 from reference.derivation.step_matrix import StepMatrix, step_matrix
-from reference.derivation.tableau import Tableau, nearest
+from reference.derivation.tableau import Tableau, nearest, tableau_of
 from reference.derivation.updates import Coefficient, Symbol, Updates
 from reference.errors import Unsupported
 from reference.schemes import catalogue
@@ -37,14 +37,17 @@ NOTHING = Coefficient(Fraction(0), 0)
 def nearest_known(tableau: Tableau | None, updates: Updates | None, matrix: StepMatrix | None) -> str:
     """In words: "b2 is 1/3 where heun has 1/2"; empty where nothing is near."""
     if tableau is not None:
-        return _by_tableau(tableau)
+        return _by_tableau(tableau, updates)
     words = _by_updates(updates) if updates is not None else ""
     return words or (_by_matrix(matrix) if matrix is not None else "")
 
 
-def _by_tableau(tableau: Tableau) -> str:
+def _by_tableau(tableau: Tableau, updates: Updates | None) -> str:
+    """By its stages as written, a slope taken twice at one point being two; or being one, where that is nearer."""
     alike = [(name, known) for name, known in known_tableaux().items() if known.explicit == tableau.explicit]
-    found = nearest(tableau, alike)
+    written = None if updates is None else tableau_of(updates, timed=False, repeated=True)
+    both = [nearest(each, alike) for each in (written, tableau) if each is not None]
+    found = min((each for each in both if each is not None), key=lambda each: len(each[1]), default=None)
     if found is None or len(found[1]) > MOST:
         return ""
     scheme, differences = found

@@ -170,13 +170,14 @@ class Tableau:
         ).without_unused()
 
 
-def tableau_of(updates: Updates, timed: bool = True) -> Tableau | None:
+def tableau_of(updates: Updates, timed: bool = True, repeated: bool = False) -> Tableau | None:
     """The tableau of update formulas; None where they are no Runge-Kutta method's.
 
     Positions and velocities have to be treated alike: 1 times what they were at the start, and h times slopes.
 
     Args:
         timed: whether it says at what times it takes its slopes.
+        repeated: whether slopes taken twice at one point stay two stages, as whoever wrote it has them.
     """
     s = len(updates.points)
     rows = [_row(x, v, s) for x, v in (*updates.points, updates.end)]
@@ -185,7 +186,8 @@ def tableau_of(updates: Updates, timed: bool = True) -> Tableau | None:
     kept = [row for row in rows if row is not None]
     a, b = tuple(kept[:-1]), kept[-1]
     c = updates.parts if timed else tuple(sum(row, start=ZERO) for row in a)
-    return Tableau(a, b, tuple(c)).without_unused().without_repeated()
+    found = Tableau(a, b, tuple(c)).without_unused()
+    return found if repeated else found.without_repeated()
 
 
 def _row(x: Form, v: Form, stages: int) -> tuple[Number, ...] | None:
