@@ -56,9 +56,7 @@ CLOTH_ENGINES = (
 NOT_TWO = {
     "box2d": "one: 2.3.2 has no wheel, and needs SWIG to be built",
     "box2d-python": "one: 0.1.1 has wheels for Python 3.12 only, where its environment has 3.13",
-    "drake": "one: no other has been measured yet",
     "exudyn": "the lab's own version is tested each day",
-    "mujoco-warp": "its kernels compile for minutes: none has been measured yet",
     "pyPBD": "one: there is no other",
 }
 

@@ -16,6 +16,7 @@ MENDED = (
         "what scrolls can be reached by keyboard",
     ),
     (r"<th[^>]*>\s*</th>", "<td></td>", "a heading says something"),
+    (r'<div id="search-results"></div>', '<h1>Search</h1><div id="search-results"></div>', "a page has a heading"),
 )
 
 
