@@ -26,6 +26,13 @@ def only(chromium: Any, address: str) -> Iterator[Visitor]:
 
 
 @pytest.fixture
+def newcomer(chromium: Any, address: str) -> Iterator[Visitor]:
+    """A viewer of a page that has shown no other scene: its first limit is this scene's."""
+    with visit(chromium, address) as found:
+        yield found
+
+
+@pytest.fixture
 def visitor(only: Visitor) -> Visitor:
     """That viewer, at the beginning of the scene that the lab opens with, which plays."""
     if only.page.get_by_label("lane 1", exact=True).input_value() != "kick_drift":
@@ -48,30 +55,30 @@ def test_every_scene_opens_and_moves(visitor: Visitor, corpus_part: slice) -> No
         assert not visitor.alert.is_visible(), scene
 
 
-def test_past_the_limit_the_banner_comes_and_below_it_does_not(visitor: Visitor) -> None:
+def test_past_the_limit_the_banner_comes_and_below_it_does_not(newcomer: Visitor) -> None:
     """By the slider, whose mark is at the limit; then stiffness is changed while it runs.
 
     The motion goes on, and the limit falls as one over the root of the stiffness.
     """
-    limit = visitor.limit()
-    visitor.slide_dt(beyond=4)
-    visitor.alert.wait_for()
-    visitor.passing.filter(has_text="blew up").wait_for()
-    assert 1.05 * limit < visitor.value("dt [ms]") < 1.3 * limit
-    assert "times the predicted largest stable dt" in visitor.alert.inner_text()
-    visitor.slide_dt(beyond=-10)
-    visitor.begin_again()
-    assert not visitor.alert.is_visible()
-    visitor.press("Play", exact=True)
-    visitor.wait_until(0.3)
-    assert 0.5 * limit < visitor.value("dt [ms]") < 0.95 * limit
-    visitor.type("dt [ms]", 1.0)
-    before = visitor.time
-    visitor.type("stiffness [N/m]", 150)
-    assert visitor.limit(unlike=limit) == pytest.approx(limit * (200 / 150) ** 0.5, rel=1e-3)
-    assert visitor.time >= before
-    visitor.wait_until(before + 0.3)
-    assert not visitor.alert.is_visible()
+    limit = newcomer.limit()
+    newcomer.slide_dt(beyond=4)
+    newcomer.alert.wait_for()
+    newcomer.passing.filter(has_text="blew up").wait_for()
+    assert 1.05 * limit < newcomer.value("dt [ms]") < 1.3 * limit
+    assert "times the predicted largest stable dt" in newcomer.alert.inner_text()
+    newcomer.slide_dt(beyond=-10)
+    newcomer.begin_again()
+    assert not newcomer.alert.is_visible()
+    newcomer.press("Play", exact=True)
+    newcomer.wait_until(0.3)
+    assert 0.5 * limit < newcomer.value("dt [ms]") < 0.95 * limit
+    newcomer.type("dt [ms]", 1.0)
+    before = newcomer.time
+    newcomer.type("stiffness [N/m]", 150)
+    assert newcomer.limit(unlike=limit) == pytest.approx(limit * (200 / 150) ** 0.5, rel=1e-3)
+    assert newcomer.time >= before
+    newcomer.wait_until(before + 0.3)
+    assert not newcomer.alert.is_visible()
 
 
 def test_a_stepper_takes_over_and_the_command_comes_to_the_same_state(visitor: Visitor, tmp_path: Path) -> None:
