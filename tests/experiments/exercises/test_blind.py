@@ -8,16 +8,14 @@ import numpy as np
 import pytest
 
 from experiments.exercises.exercise import Exercise, find
-from experiments.exercises.process import sandbox
 from experiments.exercises.verdict.answer_catalogue import catalogue_of
 from experiments.exercises.verdict.judge import judge
 from experiments.exercises.verdict.naming import SINGLE
-from tests.experiments.exercises import here
 from tests.experiments.exercises.blind_rates import SAMPLES
 from tests.experiments.exercises.corpus import solution, wrong
 
 #: What they are warned of (np.matrix, for one) ends nothing in the sandbox, and here neither.
-pytestmark = pytest.mark.filterwarnings("ignore")
+pytestmark = [pytest.mark.filterwarnings("ignore"), pytest.mark.usefixtures("trusted")]
 
 #: Of all samples, by file; those in C are with the others in C.
 PROGRAMS = sorted(
@@ -27,12 +25,6 @@ PROGRAMS = sorted(
 
 #: Whose grade depends on no number: what they return is right to rounding, how they do it is not.
 BY_OTHER_MEANS = ("modifies_its_input", "midpoint", "ralston")
-
-
-@pytest.fixture(autouse=True)
-def trusted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """They run in this process."""
-    monkeypatch.setattr(sandbox, "run", here.run)
 
 
 def keys(exercise: Exercise, full: bool) -> Iterator[str | None]:

@@ -17,14 +17,12 @@ from experiments.exercises.exercise import find
 from experiments.exercises.grading import Grade, grade, row_of
 from experiments.exercises.handed_in import collected
 from experiments.exercises.handed_in.submission import Submission
-from experiments.exercises.process import sandbox
 from experiments.exercises.repair import program, source_edits
 from experiments.exercises.repair.edit import Edit
 from experiments.exercises.repair.source_edits import edits_of, without_main
 from experiments.exercises.repair.source_search import fields_given
 from experiments.exercises.teaching.words import paragraphs
 from experiments.exercises.verdict.judge import judge
-from tests.experiments.exercises import here
 from tests.experiments.exercises.corpus import solution
 from tests.experiments.exercises.mutants import mutants
 
@@ -32,12 +30,6 @@ MODELS = Path(__file__).parent / "models"
 
 #: Enough for every change of these programs, whatever the machine.
 PATIENT = Effort(60.0, 0.0)
-
-
-@pytest.fixture
-def trusted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Programs run in this process."""
-    monkeypatch.setattr(sandbox, "run", here.run)
 
 
 def model(number: int) -> str:

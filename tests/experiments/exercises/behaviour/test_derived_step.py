@@ -10,14 +10,9 @@ from experiments.exercises.exercise import find
 from experiments.exercises.process import sandbox
 from experiments.exercises.verdict.answer_catalogue import catalogue_of
 from experiments.exercises.verdict.judge import judge
-from tests.experiments.exercises import here
 from tests.experiments.exercises.test_closer_look import model
 
-
-@pytest.fixture(autouse=True)
-def trusted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Programs run in this process."""
-    monkeypatch.setattr(sandbox, "run", here.run)
+pytestmark = pytest.mark.usefixtures("trusted")
 
 
 def told(number: int, old: str, new: str) -> str:
