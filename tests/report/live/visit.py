@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,9 @@ WEBGL = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshad
 
 #: So long [ms] something may take to be seen, on a busy machine; and [s] the server to end.
 PATIENCE, FAREWELL = 600_000, 600
+
+#: So long [ms] one click may take to be seen, before it is made again.
+SOON = 5_000
 
 #: So many pictures a second, each of so many points to a pixel along each side: the processor alone draws them.
 PICTURES, GRAIN = 5, 0.5
@@ -204,9 +207,21 @@ class Visitor:
         box.press("Enter")
 
     def choose(self, label: str, option: str) -> None:
-        """Choose from a menu."""
-        self.page.get_by_label(label, exact=True).click()
-        self.page.get_by_role("option", name=option, exact=True).click()
+        """Choose from a menu; again where the page was drawn anew in between, and the mouse has missed it."""
+        from playwright.sync_api import TimeoutError as Missed
+        from playwright.sync_api import expect
+
+        menu = self.page.get_by_label(label, exact=True)
+
+        def chosen() -> str:
+            """What the menu says after one try, which is soon seen or not at all."""
+            menu.click()
+            with suppress(Missed, AssertionError):
+                self.page.get_by_role("option", name=option, exact=True).click(timeout=SOON)
+                expect(menu).to_have_value(option, timeout=SOON)
+            return str(menu.input_value())
+
+        self.once(chosen, lambda said: said == option)
 
     def press(self, name: str, exact: bool = False) -> None:
         """Press a button."""
