@@ -134,7 +134,7 @@ def looks(engine: Engine, systems: Sequence[MassSpringSystem]) -> list[Look]:
 
 
 def check_state(system: MassSpringSystem, seen: Look, rounding: float = 1e-14) -> None:
-    """The state at the start is the system's, to rounding; every state handed out is arrays of its own.
+    """The state at the start is the system's, to rounding; every state handed out is arrays of its own; it can step.
 
     Rounding: 1e-14 of the largest position or velocity. An engine with coordinates of its own (nested bodies,
     rotations) adds up one number per link.
@@ -145,5 +145,6 @@ def check_state(system: MassSpringSystem, seen: Look, rounding: float = 1e-14) -
             assert np.abs(found - meant).max() <= rounding * np.abs(meant).max()
     changed = [not np.array_equal(after, before) for after, before in zip(seen.stepped, seen.second, strict=True)]
     assert any(changed), "a step changed neither positions nor velocities"
+    assert all(np.isfinite(numbers).all() for numbers in seen.bare), "the engine's bare step leaves no numbers"
     for kept, second in zip(seen.kept, seen.second, strict=True):
         assert np.array_equal(kept, second), "a step changed an array that had been handed out"

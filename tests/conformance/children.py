@@ -38,12 +38,14 @@ class Look:
 
     Attributes:
         kept: the arrays of the second, as they are after the step.
+        bare: after another step, which is the engine's own and nothing else.
     """
 
     first: tuple[Array, Array]
     second: tuple[Array, Array]
     kept: tuple[Array, Array]
     stepped: tuple[Array, Array]
+    bare: tuple[Array, Array]
 
 
 def look_on(engine: Engine, systems: Sequence[MassSpringSystem]) -> list[Look]:
@@ -60,7 +62,9 @@ def _look(engine: Engine, system: MassSpringSystem) -> Look:
     kept = simulation.state()
     second = (kept[0].copy(), kept[1].copy())
     simulation.step()
-    return Look(first, second, kept, simulation.state())
+    stepped = simulation.state()
+    simulation.bare_step()()
+    return Look(first, second, kept, stepped, simulation.state())
 
 
 def result_of(task: Callable[..., T], *arguments: object) -> T:

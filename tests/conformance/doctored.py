@@ -5,7 +5,7 @@ All claim to be kick-drift on strings. Each liar's class says its one lie.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -29,6 +29,10 @@ class KickDrift:
         self.v += self.dt * self.acceleration()
         self.x += self.dt * self.v
         self.project()
+
+    def bare_step(self) -> Callable[[], object]:
+        """There is no adapter around it."""
+        return self.step
 
     def project(self) -> None:
         """Masses inside an obstacle are put on its surface."""

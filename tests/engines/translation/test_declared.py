@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Literal
 
 import pytest
 
-from engines.translation.translation import Stepping, Translation, translations
+from engines.translation.translation import Spring, Stepping, Translation, translations
 from tests.reference.systems import label
 
 DT = 0.01
@@ -22,3 +23,14 @@ def test_who_has_them_is_another_scheme_with_more(
     with_more = translation.scheme(Stepping(DT, substeps=37) if what == "substeps" else Stepping(DT, iterations=37))
     assert (with_more != as_it_is) == getattr(translation, what)
     assert ("37" in with_more) == getattr(translation, what)
+
+
+@pytest.mark.parametrize("translation", translations().values(), ids=label)
+def test_what_is_typed_for_a_spring_means_that_spring(translation: Translation) -> None:
+    """Back and forth, between unequal masses: k and c again, to rounding; c is none where no damping can be typed."""
+    spring, stepping = Spring(90.0, 0.7, mass=0.5, other=2.0), Stepping(DT)
+    typed = translation.settings(spring, stepping)
+    has_damping = typed != translation.settings(replace(spring, damping=0.0), stepping)
+    meant = translation.meaning(translation.typed(typed), replace(spring, stiffness=1.0, damping=0.0), stepping)
+    assert meant.stiffness == pytest.approx(90.0, rel=1e-12)
+    assert meant.damping == pytest.approx(0.7 if has_damping else 0.0, rel=1e-12)
