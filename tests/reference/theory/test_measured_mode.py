@@ -14,7 +14,7 @@ from reference.theory.limits import stability_limit
 from reference.theory.measured_mode import STEPS, fastest_mode_of_step, measured_mode_limit, offsets
 from reference.theory.rates import rates
 from tests import wrong
-from tests.reference.systems import label
+from tests.reference.systems import free_string, label, with_fields
 
 #: Measured to 1e-5 of itself, where growth of 1e-8 in a step is seen: a limit met by a pair of eigenvalues on the unit
 #: circle, which grow as the root of the excess, is seen to about 1e-4.
@@ -31,9 +31,8 @@ def string_at_rest(case: Mapping[str, float]) -> Equilibrium:
     return spring_equilibrium(find_scene("string").system({"masses": 3, **case}))
 
 
-def check_measured_as_predicted(scheme: Scheme, run: Scheme, case: Mapping[str, float]) -> None:
+def check_measured_as_predicted(scheme: Scheme, run: Scheme, rest: Equilibrium) -> None:
     """|measured - predicted| < 1e-4 predicted, or neither has a limit: theory's eigenvalues against a run."""
-    rest = string_at_rest(case)
     predicted = stability_limit(scheme, rest)
     measured = measured_mode_limit(run, rest, predicted, rates(rest))
     assert (predicted.dt is None) == (measured.dt is None)
@@ -46,7 +45,22 @@ def check_measured_as_predicted(scheme: Scheme, run: Scheme, case: Mapping[str, 
 @pytest.mark.parametrize("scheme", BY_THEORY, ids=label)
 def test_schemes_blow_up_where_predicted(scheme: Scheme, case: Mapping[str, float]) -> None:
     """In every case of damping and drag that the report shows."""
-    check_measured_as_predicted(scheme, scheme, case)
+    check_measured_as_predicted(scheme, scheme, string_at_rest(case))
+
+
+@pytest.mark.parametrize("scheme", ["kick_drift", "rk4"])
+def test_what_falls_freely_blows_up_where_predicted(scheme: str) -> None:
+    """A string that nothing holds: its perturbation is measured in the frame that falls with it.
+
+    In the laboratory's frame the fall alone, g t^2 / 2 = 5 m in a second, is 1e6 times the perturbation.
+    """
+    rest = spring_equilibrium(with_fields(free_string(), gravity=np.array([0.0, -9.81])))
+    check_measured_as_predicted(find(scheme), find(scheme), rest)
+    mode = fastest_mode_of_step(find(scheme), rest, 1e-3, rates(rest))
+    assert mode is not None
+    seen = np.array([*offsets(find(scheme), rest, 1e-3, mode.shape)])
+    assert len(seen) == STEPS + 1
+    assert np.abs(seen).max() < 2 * np.abs(seen[0]).max()
 
 
 def test_a_window_of_stability_is_measured_where_it_is_predicted() -> None:
@@ -65,7 +79,7 @@ def test_a_window_of_stability_is_measured_where_it_is_predicted() -> None:
 def test_a_scheme_that_steps_twice_too_far_is_caught() -> None:
     """Heun without its half has another limit than Heun: the check of limits fails on it."""
     with pytest.raises(AssertionError):
-        check_measured_as_predicted(find("heun"), wrong.heun_without_half, {"drag": 0.1})
+        check_measured_as_predicted(find("heun"), wrong.heun_without_half, string_at_rest({"drag": 0.1}))
 
 
 def check_only_the_mode(scheme: Scheme, left_of: Scheme) -> None:
