@@ -49,9 +49,9 @@ RULES_IN_C = """
 
 Your file is a C file; `exercise.h` beside it says what your function is given. A dot in a name above is an arrow there
 (`a.b` is `a->b`), and what is to be returned you write into what you are given, as `exercise.h` says of your function:
-in C this stands in place of what the text says of new arrays and of leaving others as they are. It is compiled by the system's
-compiler as C11 (`cc -Wall`), and what that warns of is worth reading. Your function may use C's own library for
-computing, nothing else: no files are written, no programs started, nothing is read from the keyboard.
+in C this stands in place of what the text says of new arrays and of leaving others as they are. It is compiled by the
+system's compiler as C11 (`cc -Wall`), and what that warns of is worth reading. Your function may use C's own library
+for computing, nothing else: no files are written, no programs started, nothing is read from the keyboard.
 """
 
 #: What a question's answer is: for every step, every part of what was returned.
