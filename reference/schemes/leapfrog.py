@@ -78,7 +78,7 @@ def yoshida_4(motion: Motion, state: State, dt: float) -> State:
     return state
 
 
-@scheme(order=1, kind="wide_scheme")
+@scheme(order=1, kind="wide_scheme", linear=False)
 def kick_drift_drag_afterwards(motion: MotionOfSprings, state: State, dt: float) -> State:
     """Kick-drift, its new velocities then slowed by 1 - dt Cd/m: how games write drag."""
     rate = motion.system.drag / motion.system.masses[:, None]
@@ -86,7 +86,7 @@ def kick_drift_drag_afterwards(motion: MotionOfSprings, state: State, dt: float)
     return kicked.kick(-dt * rate * kicked.velocities).drift(dt)
 
 
-@scheme(order=1, kind="wide_scheme")
+@scheme(order=1, kind="wide_scheme", linear=False)
 def kick_drift_exponential_drag(motion: MotionOfSprings, state: State, dt: float) -> State:
     """Kick-drift, its new velocities then slowed by exp(-dt Cd/m), which is exact for drag alone (HLW II.5)."""
     rate = motion.system.drag / motion.system.masses[:, None]

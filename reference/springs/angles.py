@@ -21,9 +21,10 @@ def angles_between(first: Array, last: Array) -> Array:
     From sine and cosine together, so that it is good to rounding also where the arms are in line.
     """
     cosine = np.einsum("...i,...i->...", first, last)
-    if first.shape[-1] == 2:
-        return np.asarray(np.arctan2(_turn(first, last), cosine))
-    return np.asarray(np.arctan2(np.linalg.norm(np.cross(first, last), axis=-1), cosine))
+    in_plane = first.shape[-1] == 2
+    sine = _turn(first, last) if in_plane else np.linalg.norm(np.cross(first, last), axis=-1)
+    angle: Array = np.arctan2(sine, cosine)
+    return angle
 
 
 def sideways(first: Array, last: Array) -> tuple[Array, Array, Array]:
@@ -40,8 +41,9 @@ def sideways(first: Array, last: Array) -> tuple[Array, Array, Array]:
     normal = np.cross(u, w)
     size = np.linalg.norm(normal, axis=-1, keepdims=True)
     # across the axis that the arm is least along
-    any_normal = np.cross(u, np.eye(3)[np.argmin(np.abs(u), axis=-1)])
-    any_normal /= np.linalg.norm(any_normal, axis=-1, keepdims=True)
+    least = np.where(np.arange(3) == np.argmin(np.abs(u), axis=-1)[..., None], 1.0, 0.0)
+    any_normal = np.cross(u, least)
+    any_normal = any_normal / np.linalg.norm(any_normal, axis=-1, keepdims=True)
     with np.errstate(invalid="ignore", divide="ignore"):
         normal = np.where(size > 0, normal / size, any_normal)
     return np.cross(normal, u), np.cross(normal, w), normal
@@ -49,7 +51,8 @@ def sideways(first: Array, last: Array) -> tuple[Array, Array, Array]:
 
 def _turn(first: Array, last: Array) -> Array:
     """The third component of first x last, of vectors of the plane."""
-    return np.asarray(first[..., 0] * last[..., 1] - first[..., 1] * last[..., 0])
+    third: Array = first[..., 0] * last[..., 1] - first[..., 1] * last[..., 0]
+    return third
 
 
 def _quarter_turn(vectors: Array) -> Array:

@@ -32,12 +32,14 @@ NEARLY_STRAIGHT = 1e-6
 def bends(springs: AngularSprings, positions: Array) -> Array:
     """How far angles are from their rest angles [rad], with masses at positions (..., n, d): shape (..., k)."""
     beyond = angles_between(*arms_of(positions, springs.masses)) - springs.rest_angles
-    return np.asarray(beyond - 2 * np.pi * np.round(beyond / (2 * np.pi)))
+    within: Array = beyond - 2 * np.pi * np.round(beyond / (2 * np.pi))
+    return within
 
 
 def torques(springs: AngularSprings, positions: Array) -> Array:
     """Of every angular spring [N m], shape (..., k): above zero it would make the angle smaller."""
-    return np.asarray(springs.stiffness * bends(springs, positions))
+    torque: Array = springs.stiffness * bends(springs, positions)
+    return torque
 
 
 def bends_and_torques(springs: AngularSprings | None, positions: Array) -> tuple[Array, Array]:
@@ -89,8 +91,11 @@ def derivatives(springs: AngularSprings, positions: Array) -> Array:
     pp = kappa * _outer(e, e) + tau * (_outer(u, e) + _outer(e, u)) + cosine * out_of_plane
     qq = kappa * _outer(f, f) - tau * (_outer(w, f) + _outer(f, w)) + cosine * out_of_plane
     pq = -kappa * _outer(e, f) - out_of_plane
-    blocks = np.zeros((len(acts), 2 * positions.shape[-1], 2 * positions.shape[-1]))
-    blocks[acts] = -np.block([[pp / p**2, pq / (p * q)], [pq.transpose(0, 2, 1) / (p * q), qq / q**2]])
+    whole: Array = -np.block([[pp / p**2, pq / (p * q)], [pq.transpose(0, 2, 1) / (p * q), qq / q**2]])
+    if acts.all():
+        return whole
+    blocks = np.zeros((len(acts), *whole.shape[1:]))
+    blocks[acts] = whole
     return blocks
 
 
@@ -114,7 +119,8 @@ def _over_sine(springs: AngularSprings, positions: Array, angle: Array) -> Array
     sine, bend = np.sin(angle), bends(springs, positions)
     limit = (np.abs(sine) < NEARLY_STRAIGHT) & (np.abs(bend) < 2 * NEARLY_STRAIGHT)
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(springs.stiffness * np.where(limit, np.cos(angle), bend / sine))
+        torque_over_sine: Array = springs.stiffness * np.where(limit, np.cos(angle), bend / sine)
+    return torque_over_sine
 
 
 def _outer(u: Array, w: Array) -> Array:

@@ -117,4 +117,5 @@ def _refuse_corner(bad: BoolArray, where: str) -> None:
 
 def _slack(law: NonlinearSprings, stretch: Array) -> BoolArray:
     """Which springs carry nothing as they are too short to pull, or too long to push, shape (..., s)."""
-    return np.asarray((law.tension_only & (stretch < 0)) | (law.compression_only & (stretch > 0)))
+    slack: BoolArray = (law.tension_only & (stretch < 0)) | (law.compression_only & (stretch > 0))
+    return slack

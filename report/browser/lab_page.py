@@ -18,7 +18,17 @@ if TYPE_CHECKING:
 TEMPLATES = Path(__file__).parents[1] / "templates"
 
 #: What computes, without looking at a page: this also runs in a worker, and in Node.
-PHYSICS = ("memory.js", "stepping.js", "eigen.js", "rest.js", "contacts.js", "limits.js")
+PHYSICS = (
+    "arrays.js",
+    "memory.js",
+    "motion.js",
+    "solver.js",
+    "stepping.js",
+    "eigen.js",
+    "rest.js",
+    "contacts.js",
+    "limits.js",
+)
 
 #: What shows it, in the order in which it is read.
 SHOWN = ("engines.js", "lab.js", "view.js", "driven.js", "plots.js", "link.js", "lessons.js", "hands.js", "page.js")

@@ -68,13 +68,10 @@ class Preset:
         return data | {"recordings": [recording_data(recording, setup) for recording in self.recordings]}
 
 
-#: What a damped oscillator does where damping is implicit, at a dt at which the explicit scheme cannot go on.
-_IMPLICIT = Recording("kick_drift_implicit_damping", "implicit_damping", {"damping": 3.0}, dt=0.012, duration=0.6)
-
 #: The lecture's scenes.
 PRESETS: Sequence[Preset] = (
     Preset("spring"),
-    Preset("oscillator", recordings=(_IMPLICIT,)),
+    Preset("oscillator"),
     Preset("string"),
     Preset("string", {"masses": "40"}, name="string_40"),
     Preset("string", {"tension_only": "1"}, name="string_of_ropes"),

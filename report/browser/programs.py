@@ -3,7 +3,7 @@
 Explicit schemes come from the text of their loops (`reference.compiled.loops`), in-place ones from theirs
 (`reference.compiled.in_place`), for systems of one, two and three dimensions. What the loops leave at the end of a run
 that has blown up is the readable forces' answer here: a fixed mass has the acceleration zero, also where forces are
-infinite.
+infinite. Schemes that solve equations, and those of the wide catalogue, come as they are written (`step_functions`).
 """
 
 from __future__ import annotations
@@ -20,12 +20,15 @@ from reference.compiled.tracing import Place, Program, trace, trace_obstacles
 from reference.errors import InputError, Unsupported
 from reference.jit import text_of
 from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere
-from reference.schemes.catalogue import Scheme, schemes
+from reference.schemes.catalogue import Scheme, schemes, wide_schemes
 from reference.springs.linear_law import elastic_energy, force_by_rate, force_by_stretch, spring_force
 from reference.theory.keeps_to_surfaces import keeps_to_surfaces
+from reference.theory.limits import SOLVED
 from reference.theory.runge_kutta import stability_polynomial
+from reference.theory.step_coefficients import solves_for_positions
 from report.browser.javascript import Translation, definitions, of_expression, plain_function
 from report.browser.spring_laws import ASKED, law_functions
+from report.browser.step_functions import damps_in_proportion, step_refusal, steps_script
 from report.site.linear_form import NotLinear, equations
 from report.site.mathml import of_equations
 
@@ -128,7 +131,7 @@ def page_schemes() -> dict[str, PageScheme]:
 @cache
 def _all() -> dict[str, PageScheme | Unsupported]:
     found: dict[str, PageScheme | Unsupported] = {}
-    for name, scheme in schemes().items():
+    for name, scheme in {**schemes(), **wide_schemes()}.items():
         try:
             found[name] = page_scheme(scheme)
         except Unsupported as reason:
@@ -138,13 +141,10 @@ def _all() -> dict[str, PageScheme | Unsupported]:
 
 def page_scheme(scheme: Scheme) -> PageScheme:
     """A scheme as JavaScript. Raises Unsupported, with the reason, for one that cannot be traced or translated."""
-    if scheme.needs == "accelerations of one mass":
-        try:
-            own = _in_place(scheme)
-        except (Untraceable, InputError, AttributeError, TypeError, ValueError, IndexError) as error:
-            raise Unsupported(f"{scheme.name} is not in the page: {error}") from None
-    else:
-        own = _explicit(scheme)
+    own = _loops(scheme)
+    refusal = step_refusal(scheme)
+    if refusal and "advance" not in own:
+        raise Unsupported(f"{scheme.name} is not in the page: {refusal}")
     entries = {
         "name": json.dumps(scheme.name),
         "kind": json.dumps(scheme.kind),
@@ -153,9 +153,26 @@ def page_scheme(scheme: Scheme) -> PageScheme:
         "equations": json.dumps(_equations(scheme)),
         "keeps": json.dumps(keeps_to_surfaces(scheme)),
         "polynomial": json.dumps(stability_polynomial(scheme)),
+        "step": "null" if refusal else f"steps.{scheme.step.__name__}",
+        "memory": json.dumps(not scheme.one_step),
+        "implicit": json.dumps(scheme.implicit),
+        "solves": json.dumps(solves_for_positions(scheme)),
+        "solved": json.dumps(SOLVED.get(scheme.name, scheme.name)),
+        "proportional": json.dumps(damps_in_proportion(scheme)),
         **own,
     }
     return PageScheme(scheme, "{\n" + ",\n".join(f"{key}: {value}" for key, value in entries.items()) + "\n}")
+
+
+def _loops(scheme: Scheme) -> dict[str, str]:
+    """The loops of a scheme that has any; of one of the wide catalogue only what theory asks of it."""
+    try:
+        if scheme.needs == "accelerations of one mass":
+            return _in_place(scheme)
+        program = trace(scheme)
+    except (Untraceable, Unsupported, InputError, AttributeError, TypeError, ValueError, IndexError):
+        return {}
+    return _of_theory(program) if scheme.kind == "wide_scheme" else _of_theory(program) | _explicit(program)
 
 
 def _equations(scheme: Scheme) -> str:
@@ -173,6 +190,7 @@ def script() -> str:
     lines += [*law_functions(), *_force_at()]
     lines += ["const law = {" + ", ".join(function.__name__ for function in laws) + "};", *_readable_forces()]
     members = [f"{json.dumps(name)}: {scheme.text}" for name, scheme in page_schemes().items()]
+    lines += [steps_script({**schemes(), **wide_schemes()})]
     lines += ["const schemes = {", ",\n".join(members), "};"]
     lines += ["const obstacles = {", ",\n".join(_obstacle(one) for one in _ONES), "};"]
     return "\n".join(lines) + "\n"
@@ -186,20 +204,17 @@ def _force_at() -> list[str]:
     return ["function force_at(F, I, at, j, stretch, rate) {", f"  return {force};", "}"]
 
 
-def _explicit(scheme: Scheme) -> dict[str, str]:
-    program = trace(scheme)
+def _of_theory(program: Program) -> dict[str, str]:
+    return {"coefficients": _coefficients([text for text, _ in program.coefficients]), "linear": _linear(program)}
+
+
+def _explicit(program: Program) -> dict[str, str]:
     rooms = ["xs", "vs", *(f"a{k}_" for k in PageLoops(program, 1, False).kept)]
     linear, nonlinear = (
         "{" + ", ".join(f"{d}: {_function(_explicit_lines(program, d, rooms, kind))}" for d in DIMENSIONS) + "}"
         for kind in (False, True)
     )
-    return {
-        "coefficients": _coefficients([text for text, _ in program.coefficients]),
-        "rooms": str(len(rooms)),
-        "advance": linear,
-        "nonlinear": nonlinear,
-        "linear": _linear(program),
-    }
+    return {"rooms": str(len(rooms)), "advance": linear, "nonlinear": nonlinear}
 
 
 def _explicit_lines(program: Program, dimension: int, rooms: list[str], nonlinear: bool) -> list[str]:
@@ -232,26 +247,28 @@ def _in_place(scheme: Scheme) -> dict[str, str]:
 
 def _readable_forces() -> list[str]:
     """The forces on one mass, from the functions that `reference.forces` compiles; and for springs of any law."""
-    from reference.forces import acceleration_of_mass, force_of_spring, one_acceleration
+    from reference.forces import acceleration_of_mass, all_accelerations, force_of_spring, one_acceleration
 
     linear, any_law = text_of(force_of_spring), "force_of_any_spring"
     plain = f"force = {_LINEAR_FORCE.replace('stretch', 'length - rest_lengths[j]')}"
     assert plain in linear, "the forces' text has changed"
     nonlinear = linear.replace(plain, f"stretch = length - rest_lengths[j]\n    force = {_ANY_FORCE}")
-    one = text_of(one_acceleration)
+    one, every = text_of(one_acceleration), text_of(all_accelerations)
     texts = {
         "force_of_spring": linear,
         any_law: nonlinear,
         "acceleration_of_mass": text_of(acceleration_of_mass),
         "acceleration_of_one": one,
         "acceleration_of_any": one.replace("force_of_spring(", f"{any_law}("),
+        "accelerations_of_all": every,
+        "accelerations_of_any": every.replace("force_of_spring(", f"{any_law}("),
     }
     lines: list[str] = []
     for name, text in texts.items():
         (definition,) = definitions(text)
         arguments = [argument.arg for argument in definition.args.args]
         body = Translation(functions=(*texts, "force_at"), plain=("spring_force",)).body(definition.body)
-        lines += [f"function {name}(F, I, at, {', '.join(arguments)}) {{", "  const d = at.d;"]
+        lines += [f"function {name}(F, I, at, {', '.join(arguments)}) {{", "  const {n, s, d} = at;"]
         lines += [*("  " + line for line in body), "}"]
     return lines
 

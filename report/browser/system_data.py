@@ -18,6 +18,7 @@ from report.browser.changes import changes_data, drives_data
 
 if TYPE_CHECKING:  # this imports SciPy
     from reference.theory.contacts import Contacts
+    from reference.theory.equilibria import Equilibrium
 
 #: Systems of more masses are refused: a browser would not step them in time.
 MOST_MASSES = 2_500
@@ -127,18 +128,15 @@ def rest_data(system: MassSpringSystem) -> dict[str, Any]:
 
     Of a rest on obstacles also where it would be without them, as `alone`.
     """
-    from reference.theory.equilibria import Equilibrium, equilibrium_on_obstacles, spring_equilibrium
+    from reference.theory.equilibria import equilibrium_on_obstacles, spring_equilibrium
 
     still = replace(system, velocities=np.zeros_like(system.velocities))
     found: Equilibrium | None = None
-    about = ""
     with suppress(SolverError):
-        if still.obstacles:
-            found, about = equilibrium_on_obstacles(still)
-        else:
-            found = spring_equilibrium(still)
+        found = equilibrium_on_obstacles(still)[0] if still.obstacles else spring_equilibrium(still)
     if found is None:
-        return {"rest": [], "contacts": [], "about": about}
+        return {"rest": [], "contacts": [], "about": ""}
+    about = _about(found) if still.obstacles else ""
     rest = {"rest": found.state.positions.ravel().tolist(), "about": about}
     if found.contacts is None:
         return rest | {"contacts": []}
@@ -146,6 +144,13 @@ def rest_data(system: MassSpringSystem) -> dict[str, Any]:
         alone = spring_equilibrium(replace(still, obstacles=()))
         rest |= {"alone": alone.state.positions.ravel().tolist()}
     return rest | {"contacts": contact_data(found.contacts, system)}
+
+
+def _about(found: Equilibrium) -> str:
+    """About which rest of a scene with obstacles a prediction is, by the page's word for it."""
+    if not found.system.obstacles:
+        return "without_obstacles"
+    return "no_contact" if found.contacts is None else "on_obstacles"
 
 
 def contact_data(contacts: Contacts, system: MassSpringSystem) -> list[Mapping[str, Any]]:

@@ -30,14 +30,14 @@ function growthOnObstacles(system, linear, scheme, h) {
 // and the least that the end has moved a mass in contact.
 function stepOnObstacles(system, linear, scheme, h) {
   const {F, I, at} = linear.memory, {n, d} = at, places = coordinates(linear), m = places.length;
-  const own = {F: F.slice(), I, at}, run = runOf(scheme, linear.memory.at), c = scheme.coefficients(h);
+  const own = {F: F.slice(), I, at, angular: linear.memory.angular}, once = onceBy(scheme, own, h);
   const put = z => {
     own.F.set(linear.rest, at.x); own.F.fill(0, at.v, at.v + n * d);
     places.forEach((place, k) => { own.F[at.x + place] += z[k]; own.F[at.v + place] = z[m + k] / h; });
   };
   const got = () => Float64Array.from({length: 2 * m}, (_, k) =>
     k < m ? own.F[at.x + places[k]] - linear.rest[places[k]] : h * own.F[at.v + places[k - m]]);
-  const step = z => { put(z); run(own.F, I, at, c, 1); return got(); };
+  const step = z => { put(z); once(); return got(); };
   const end = z => { put(z); for (const {kind, values} of system.obstacles) for (const {mass} of linear.contacts) obstacles[kind](own.F, at.x, at.v, mass, true, values); return got(); };
   const depth = (out, inside) => Math.min(...linear.contacts.map(({mass}) => movedBy(out, inside, places, d, mass)));
   return {step, end, depth, m};

@@ -133,7 +133,7 @@ function holdGrabbed() {
 // What was: positions and velocities of all lanes, thinned out where it would fill the memory; and the plots' numbers.
 function keepPast() {
   const states = lab.lanes.map(({world: {memory: {F, at}}}) => F.slice(at.x, at.x + 2 * at.n * at.d));
-  const worlds = lab.lanes.map(({world}) => ({steps: world.steps, origin: world.origin, dt: world.dt, blownUp: world.blownUp, broken: brokenOf(world.memory)}));
+  const worlds = lab.lanes.map(({world}) => ({steps: world.steps, origin: world.origin, dt: world.dt, blownUp: world.blownUp, remembered: world.remembered, broken: brokenOf(world.memory)}));
   lab.past.push({time: laneTime(), states, worlds, changes: lab.changes.slice()});
   const size = states.reduce((sum, state) => sum + state.length, 0);
   if (lab.past.length > 60 && lab.past.length * size > PAST) lab.past = lab.past.filter((_, k) => k % 2 === 0 || k === lab.past.length - 1);

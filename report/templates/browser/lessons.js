@@ -25,7 +25,7 @@ const LESSONS = [
       return lessonState.saidLimit && Boolean(lane.world.blownUp) && lab.dt > limit;
     },
   },
-  {slides: "2, 5", state: "s=oscillator&w=kick_drift,recorded:implicit_damping&dt=0.001&at=0:damping:1&speed=0.2", check: () => {
+  {slides: "2, 5", state: "s=oscillator&w=kick_drift,kick_drift_implicit_damping&dt=0.001&at=0:damping:1&speed=0.2", check: () => {
     const {limit} = lab.limits.kick_drift || {}, {F, at} = lab.lanes[0].world.memory;
     return limit > 0 && limit <= 0.01 && F[at.damping] > 0 && lab.scene.name === "oscillator" && F[at.stiffness] === 200 && F[at.masses + 1] === 0.02;
   }},

@@ -7,23 +7,50 @@ const ALL_UP_TO = 420, STEP_UP_TO = 90;
 // Of steps that see masses inside obstacles `springlab stability` looks at the rest there up to this many.
 const ON_OBSTACLES_UP_TO = 260;
 
-// By what one step multiplies the worst state of a mode q'' + g q' + w2 q = 0.
-function growthOfMode(scheme, h, w2, g) {
-  const c = scheme.coefficients(h), columns = [];
-  for (const [x0, v0] of [[1, 0], [0, 1 / h]]) {
-    const x = Float64Array.of(x0), v = Float64Array.of(v0);
-    scheme.linear(x, v, c, (X, V, out) => { out[0] = -w2 * X[0] - g * V[0]; });
-    columns.push([x[0], h * v[0]]);
-  }
-  const [[p, q], [r, s]] = columns, trace = p + s, determinant = p * s - r * q;
+// By what one step multiplies the worst state of a mode q'' + (g + drag) q' + w2 q = 0, of a step's length. Damping of
+// springs and drag are told apart where a scheme does.
+function growthOfMode(scheme, w2, g, drag = 0) {
+  if (!scheme.linear) return growthOfWholeMode(scheme, w2, g, drag);
+  return h => {
+    const c = scheme.coefficients(h), columns = [];
+    for (const [x0, v0] of [[1, 0], [0, 1 / h]]) {
+      const x = Float64Array.of(x0), v = Float64Array.of(v0);
+      scheme.linear(x, v, c, (X, V, out) => { out[0] = -w2 * X[0] - (g + drag) * V[0]; });
+      columns.push([x[0], h * v[0]]);
+    }
+    const [[p, q], [r, s]] = columns;
+    return largestOfTwo(p + s, p * s - r * q);
+  };
+}
+
+function largestOfTwo(trace, determinant) {
   const inside = trace * trace / 4 - determinant;
   return inside < 0 ? Math.sqrt(determinant) : Math.abs(trace / 2) + Math.sqrt(inside);
 }
 
+// The same by a scheme of whole states, which may remember: in units of 1 / w.
+function growthOfWholeMode(scheme, w2, g, drag) {
+  const w = Math.sqrt(w2) || 1, motion = modeMotion(w2 / (w * w), g / w, drag / w), vector = value => new Nd([2, 1], Float64Array.of(0, value));
+  let remembered = 0;
+  if (scheme.memory) remembered = scheme.step(motion, new State(0, vector(0), vector(0), []), 1).memory.length;
+  const size = 2 + remembered;
+  return step => {
+    const h = w * step, matrix = new Float64Array(size * size);
+    for (let column = 0; column < size; column++) {
+      const unit = Array.from({length: size}, (_, k) => k === column ? 1 : 0);
+      const end = scheme.step(motion, new State(0, vector(unit[0]), vector(unit[1] / h), unit.slice(2).map(vector)), h);
+      [end.positions.data[1], h * end.velocities.data[1], ...end.memory.map(({data}) => data[1])].forEach((value, row) => { matrix[row * size + column] = value; });
+    }
+    if (!matrix.every(Number.isFinite)) return Infinity;
+    if (size === 2) return largestOfTwo(matrix[0] + matrix[3], matrix[0] * matrix[3] - matrix[1] * matrix[2]);
+    return Math.max(...eigenvalues(matrix, size).map(value => Math.hypot(...value)));
+  };
+}
+
 // The first h beyond which a number that is at most 1 below is more, on a scale of 1 / fastest.
-function firstBeyond(grows, fastest) {
+function firstBeyond(grows, fastest, from = 1e-6) {
   let low = 0;
-  for (let h = 1e-6 / fastest; h < 60 / fastest; h *= h * fastest < 0.5 ? 1.3 : 1.01) {
+  for (let h = from / fastest; h < 60 / fastest; h *= h * fastest < 0.5 ? 1.3 : 1.01) {
     if (grows(h) > 1 + 1e-11) {
       let high = h;
       if (low === 0) return 0;
@@ -70,7 +97,7 @@ function stableAlong(polynomial, rate) {
 // Of all modes of a rest: the limit [s] of a scheme, 0 where every step lets something grow, Infinity where none does.
 // `about` is true where only the fastest moves were looked at; `mode` is the fastest move.
 function limitOf(name, linear, known = {}, system = null) {
-  const scheme = schemes[name];
+  const scheme = schemes[schemes[name].solved];
   known.top = known.top || largestEigenpair(scaled(linear, "stiffness"), linear.size, alongStart(linear));
   const w2 = known.top.value, fastest = Math.sqrt(Math.max(w2, 0));
   if (!(fastest > 0)) return {limit: Infinity, reason: "nothing moves", omega: 0};
@@ -81,7 +108,7 @@ function limitOf(name, linear, known = {}, system = null) {
     return {omega: fastest, about: false, limit, reason: limit === null ? "no rest" : ""};
   }
   told.about = told.about || curved;
-  if (!scheme.linear) {
+  if (scheme.kind === "in_place") {
     if (2 * moving > STEP_UP_TO) return {...told, limit: null, reason: "too large"};
     const grows = h => growthOfStep(linear, h, stepInPlace(scheme, linear, h)), first = firstBeyond(grows, fastest);
     // where nothing decays in shorter steps either, growth there is only too slow to be seen
@@ -89,15 +116,22 @@ function limitOf(name, linear, known = {}, system = null) {
   }
   if (!linear.damped && !linear.drag) {
     if (scheme.polynomial) return {...told, limit: stableAlong(scheme.polynomial, [0, 1]) / fastest};
-    return {...told, limit: firstBeyond(h => growthOfMode(scheme, h, w2, 0), fastest)};
+    return {...told, limit: firstBeyond(growthOfMode(scheme, w2, 0), fastest, shortestOf(scheme))};
   }
   if (scheme.polynomial && 2 * moving <= ALL_UP_TO) {
     known.rates = known.rates || ratesOf(linear);
     return {...told, limit: Math.min(...known.rates.map(rate => stableAlong(scheme.polynomial, rate) / Math.hypot(...rate)))};
   }
+  const whole = 2 * moving <= STEP_UP_TO && (scheme.linear || !linear.contacts.length);
+  if (!scheme.proportional && !scheme.linear && !scheme.implicit && !whole) return {...told, limit: null, reason: "too large"};
+  if (scheme.memory && !scheme.implicit) {
+    const first = firstBeyond(growthOfRemembering(scheme, linear, fastest), fastest, shortestOf(scheme));
+    return {...told, limit: first};
+  }
   const shortest = shortestLimit(scheme, linear, known);
-  if (!scheme.polynomial && 2 * moving <= STEP_UP_TO) {
-    return {...told, limit: nearby(h => growthOfStep(linear, h, stepLinear(scheme, linear, h)), shortest, fastest)};
+  if (!scheme.polynomial && !scheme.solves && !scheme.memory && whole && (scheme.linear || !scheme.proportional)) {
+    const step = scheme.linear ? stepLinear : stepWholeLinear;
+    return {...told, limit: nearby(h => growthOfStep(linear, h, step(scheme, linear, h)), shortest, fastest)};
   }
   return {...told, limit: shortest, about: Boolean(scheme.polynomial) || told.about};
 }
@@ -135,25 +169,31 @@ const alongStart = linear => alongSurfaces(linear, pseudoRandom(linear.size));
 // Of a step whose matrices are symmetric, the limit is the least over all moves y of the limit of a mode with the
 // stiffness and damping that y meets; from the stiffest on, each next y is where both together are largest.
 function shortestLimit(scheme, linear, known) {
-  const stiffness = scaled(linear, "stiffness"), damping = scaled(linear, "damping"), out = new Float64Array(linear.size);
-  const meets = (apply, y) => dot(y, apply(y, out));
-  const limit = (w2, g) => firstBeyond(h => growthOfMode(scheme, h, w2, g), Math.sqrt(w2) + g);
+  const forms = (scheme.linear ? ["stiffness", "damping"] : ["stiffness", "springs", "drag"]).map(which => scaled(linear, which)), out = new Float64Array(linear.size);
+  const met = y => forms.map(form => dot(y, form(y, out)));
+  const limit = ([w2, ...slowed]) => firstBeyond(growthOfMode(scheme, w2, ...slowed), Math.sqrt(w2) + slowed.reduce((sum, value) => sum + value, 0), shortestOf(scheme));
   let y = known.top.vector, best = Infinity;
   for (let round = 0; round < 6; round++) {
-    const w2 = meets(stiffness, y), g = meets(damping, y), now = limit(w2, g);
+    const values = met(y), now = limit(values), [w2] = values;
     if (!(now < best * (1 - 1e-12))) break;
     best = now;
-    const step = 1e-4, byStiffness = (limit(w2 * (1 - step), g) - limit(w2 * (1 + step), g)) / (w2 * step);
-    const less = g * step || w2 * step * now, byDamping = (limit(w2, Math.max(g - less, 0)) - limit(w2, g + less)) / less;
+    const step = 1e-4, changed = (k, change) => limit(values.map((value, q) => q === k ? Math.max(value + change, 0) : value));
+    const answers = values.map((value, k) => {
+      const less = value * step || w2 * step * now;
+      return (changed(k, -less) - changed(k, less)) / less;
+    });
     const other = new Float64Array(linear.size);
     const together = (q, to) => {
-      stiffness(q, to); damping(q, other);
-      for (let e = 0; e < q.length; e++) to[e] = byStiffness * to[e] + byDamping * other[e];
+      to.fill(0);
+      forms.forEach((form, k) => { if (answers[k]) { form(q, other); for (let e = 0; e < q.length; e++) to[e] += answers[k] * other[e]; } });
     };
     y = largestEigenpair(together, linear.size, y.map((value, e) => value + 1e-3 * alongStart(linear)[e])).vector;
   }
   return best;
 }
+
+// From which part of the fastest 1 / w on: where a scheme remembers, a pair of eigenvalues at 1 is torn apart by rounding.
+const shortestOf = ({memory}) => memory ? 0.05 : 1e-6;
 
 // By halving about a first guess, which is near.
 function nearby(grows, guess, fastest) {
@@ -194,6 +234,41 @@ function stepLinear(scheme, linear, h) {
   });
 }
 
+// The same by a scheme of whole states.
+function stepWholeLinear(scheme, linear, h) {
+  const {at} = linear.memory, shape = [at.n, at.d];
+  linear.motion = linear.motion || new LinearMotion(new SpringMotion(systemOf(linear.memory, sizeOf(at, linear.memory))), linear.rest);
+  return (x, v) => {
+    const end = scheme.step(linear.motion, new State(0, new Nd(shape, x.slice()), new Nd(shape, v.slice())), h);
+    x.set(end.positions.data); v.set(end.velocities.data);
+  };
+}
+
+// The largest modulus of a step of small moves by a scheme that remembers, what it remembers with them: in units of 1 / w.
+function growthOfRemembering(scheme, linear, fastest) {
+  const {at} = linear.memory, places = coordinates(linear), m = places.length, shape = [at.n, at.d];
+  const motion = new LinearMotion(new SpringMotion(systemOf(linear.memory, 1)), linear.rest), [byPosition, byVelocity] = motion.blocks;
+  motion.blocks = [nd.times(1 / fastest ** 2, byPosition), nd.times(1 / fastest, byVelocity)];
+  const still = () => nd.zeros(shape), count = 2 + scheme.step(motion, new State(0, still(), still()), 1).memory.length, size = count * m;
+  return step => {
+    const h = fastest * step, matrix = new Float64Array(size * size);
+    for (let column = 0; column < size; column++) {
+      const parts = Array.from({length: count}, still), part = Math.floor(column / m);
+      parts[part].data[places[column % m]] = part === 1 ? 1 / h : 1;
+      const end = scheme.step(motion, new State(0, parts[0], parts[1], parts.slice(2)), h);
+      [end.positions, end.velocities, ...end.memory].forEach(({data}, k) => places.forEach((place, row) => { matrix[(k * m + row) * size + column] = (k === 1 ? h : 1) * data[place]; }));
+    }
+    return largestOfStep(matrix, size);
+  };
+}
+
+// Those of motion that nothing resists left out, which are 1.
+function largestOfStep(matrix, size) {
+  if (!matrix.every(Number.isFinite)) return Infinity;
+  const kept = eigenvalues(matrix, size).filter(([re, im]) => Math.hypot(re - 1, im) > 1e-6);
+  return Math.max(1 - 1e-6, ...kept.map(value => Math.hypot(...value)));
+}
+
 // The same of a scheme that writes what it still reads: its own loops, with accelerations of the linearised motion.
 function stepInPlace(scheme, linear, h) {
   const {at: {n, s, d}} = linear.memory, size = n * d, F = new Float64Array((3 + ROOMS) * size);
@@ -204,7 +279,7 @@ function stepInPlace(scheme, linear, h) {
     stiffness(F.subarray(x, x + size), pull); damping(F.subarray(v, v + size), slow);
     for (let axis = 0; axis < d; axis++) F[at.out + d * i + axis] = -pull[d * i + axis] - slow[d * i + axis];
   };
-  const c = scheme.coefficients(h), run = runOf(scheme, linear.memory.at);
+  const c = scheme.coefficients(h), run = loopsOf({...scheme}, {at: {...linear.memory.at, nonlinear: false}});
   return (x, v) => {
     F.set(x, 0); F.set(v, size);
     run(F, linear.memory.I, at, c, 1, accelerate);
@@ -224,8 +299,7 @@ function growthOfStep(linear, h, step) {
       matrix[(m + row) * 2 * m + column] = h * v[place];
     });
   }
-  const kept = eigenvalues(matrix, 2 * m).filter(([re, im]) => Math.hypot(re - 1, im) > 1e-6);
-  return Math.max(1 - 1e-6, ...kept.map(value => Math.hypot(...value)));
+  return largestOfStep(matrix, 2 * m);
 }
 
 // The limits of some schemes for a system as it is set, and which springs the fastest move strains most.
@@ -246,7 +320,7 @@ function answerLimits({id, memory, system, rest, contacts, alone, names}) {
     for (let axis = 0; axis < at.d; axis++) stretch += linear.unit[at.d * j + axis] * (move[at.d * b + axis] - move[at.d * a + axis]);
     share[j] = linear.along[j] * stretch * stretch;
   }
-  const g = dot(y, scaled(linear, "damping")(y, out)), whole = share.reduce((sum, value) => sum + value, 0);
+  const [g, drag] = ["damping", "drag"].map(which => dot(y, scaled(linear, which)(y, out))), whole = share.reduce((sum, value) => sum + value, 0);
   const order = Array.from(share.keys()).sort((a, b) => share[b] - share[a]).slice(0, 3);
-  return {id, limits, mode: {w2: known.top.value, g, springs: order, part: whole ? share[order[0]] / whole : 0}};
+  return {id, limits, mode: {w2: known.top.value, g, drag, springs: order, part: whole ? share[order[0]] / whole : 0}};
 }

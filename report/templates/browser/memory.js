@@ -29,7 +29,7 @@ function memoryOf(system) {
   const list = (name, count) => { at[name] = whole; whole += count; };
   for (const name of ["x", "v", "weight", "out"]) room(name, n * d);
   for (const name of ["masses", "divisor"]) room(name, n);
-  for (const name of ["rest_lengths", "stiffness", "damping", ...Object.keys(KINDS)]) room(name, s);
+  for (const name of ["rest_lengths", "stiffness", "damping", "none", ...Object.keys(KINDS)]) room(name, s);
   room("sign", 2 * s); room("forces", Math.max(n, s) * d); room("gravity", d); room("drag", 1); room("room", ROOMS * n * d);
   list("springs", 2 * s); list("first", n + 1); list("spring", 2 * s); list("fixed", n); list("broken", s);
   const F = new Float64Array(doubles), I = new Int32Array(whole), memory = {F, I, at};

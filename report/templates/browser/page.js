@@ -59,12 +59,14 @@ function swatch(k) {
 const nameOf = lane => lane.recording ? say("recorded", {name: lane.recording.stepper}) : lane.scheme;
 
 function showLanes() {
-  const stepped = Object.keys(lab.scene.engines || {}).filter(engineNamed);
-  const names = [...stepped, ...Object.keys(schemes), ...(lab.scene.recordings || []).map(one => `recorded:${one.name}`)];
+  const groups = {kind_engines: Object.keys(lab.scene.engines || {}).filter(engineNamed)};
+  for (const [name, {kind}] of Object.entries(schemes)) (groups[`kind_${kind}`] ||= []).push(name);
+  groups.kind_recorded = (lab.scene.recordings || []).map(one => `recorded:${one.name}`);
   const shown = name => name.startsWith("recorded:") ? say("recorded", {name: recordingNamed(name).stepper}) : name;
   $("lanes").replaceChildren(...lab.lanes.map((lane, k) => {
     const select = element("select", {id: `lane-${k}`, "aria-label": say("lane", {k: k + 1}), onchange: () => setLanes(lab.lanes.map((one, q) => q === k ? select.value : one.scheme))},
-      ...names.map(name => element("option", {value: name, selected: name === lane.scheme}, shown(name))));
+      ...Object.entries(groups).filter(([, names]) => names.length).map(([kind, names]) =>
+        element("optgroup", {label: say(kind)}, ...names.map(name => element("option", {value: name, selected: name === lane.scheme}, shown(name))))));
     const item = element("li", {});
     item.insertAdjacentHTML("beforeend", swatch(k));
     item.append(select);
@@ -114,11 +116,16 @@ function aboutSaid() {
   const predicted = lab.lanes.filter(({scheme, recording, engine}) => !recording && !engine && lab.limits[scheme] && lab.limits[scheme].limit !== null);
   const groups = {};
   for (const {scheme} of lab.scene.about ? predicted : []) {
-    const about = lab.limits[scheme].alone ? say("without_obstacles") : lab.scene.about;
+    const about = lab.limits[scheme].alone ? say("without_obstacles") : restSaid();
     groups[about] = [...groups[about] || [], scheme];
   }
   const all = Object.entries(groups), named = all.length > 1 || predicted.length < lab.lanes.length;
   return all.map(([about, names]) => say(named ? "about_lanes" : "about_rest", {about, names: [...new Set(names)].join(", ")}));
+}
+
+function restSaid() {
+  const count = new Set(lab.scene.contacts.map(({mass}) => mass)).size;
+  return say(lab.scene.about, {masses: say(count === 1 ? "masses_1" : "masses_more", {count})});
 }
 
 function limitSaid(lane) {
@@ -211,9 +218,10 @@ function openLesson(k) {
 function showEquations() {
   const names = [...new Set(lab.lanes.map(lane => lane.scheme).filter(name => schemes[name]))];
   $("equations").replaceChildren(...names.flatMap(name => {
-    const {summary, equations} = schemes[name];
+    const {equations, kind, implicit} = schemes[name], summary = WORDS[language][`about_${name}`] || schemes[name].summary;
+    const none = kind === "in_place" ? "no_equations" : implicit ? "no_equations_implicit" : "no_equations_other";
     const shown = element("div", {className: "equations wide", tabIndex: 0, role: "group", ariaLabel: `${say("equations")}: ${name}`});
-    if (equations) shown.innerHTML = equations; else shown.textContent = `${name} ${say("no_equations")}`;
+    if (equations) shown.innerHTML = equations; else shown.textContent = `${name} ${say(none)}`;
     return [element("p", {className: "small"}, `${name}: ${summary}`), shown];
   }));
 }
@@ -241,10 +249,10 @@ function showBanner() {
 
 function whyBlown(lane) {
   const told = lab.limits[lane.scheme], mode = lab.mode;
-  if (!told || !mode || told.limit === null) return "";
+  if ((lane.world.blownUp || {}).what === "unsolved" || !told || !mode || told.limit === null) return "";
   const scheme = schemes[lane.scheme], {dt} = lane.world, omega = number(Math.sqrt(mode.w2), 4);
   // what is no mode's growth, as on obstacles or where a scheme writes in place, is not given as the reason
-  const factor = scheme.linear && !told.alone ? growthOfMode(scheme, dt, mode.w2, mode.g) : NaN, grows = factor > 1, growth = grows && factor < 1.0005 ? `1 + ${number(factor - 1, 2)}` : number(factor, 4);
+  const factor = scheme.kind !== "in_place" && !told.alone ? growthOfMode(scheme, mode.w2, mode.g - mode.drag, mode.drag)(dt) : NaN, grows = factor > 1, growth = grows && factor < 1.0005 ? `1 + ${number(factor - 1, 2)}` : number(factor, 4);
   if (told.limit === 0) return grows ? say("why_never", {omega, growth}) : say("limit_never", {name: lane.scheme}) + ".";
   if (dt <= told.limit) return say("why_below");
   if (!grows) return say("why_over", {part: number(dt / told.limit, 4), limit: number(1e3 * told.limit, 4)});

@@ -80,7 +80,10 @@ function drawGrowth() {
   const lines = lab.lanes.map((lane, k) => {
     const scheme = schemes[lane.scheme];
     const at = q => to * (q + 1) / 161, known = lab.mode.grown = lab.mode.grown || {};
-    if (scheme && scheme.linear) known[`${lane.scheme} ${to}`] ||= Float64Array.from({length: 161}, (_, q) => growthOfMode(scheme, at(q) / 1e3, lab.mode.w2, lab.mode.g));
+    if (scheme && scheme.kind !== "in_place" && !known[`${lane.scheme} ${to}`]) {
+      const growth = growthOfMode(scheme, lab.mode.w2, lab.mode.g - lab.mode.drag, lab.mode.drag);
+      known[`${lane.scheme} ${to}`] = Float64Array.from({length: 161}, (_, q) => growth(at(q) / 1e3));
+    }
     const grown = known[`${lane.scheme} ${to}`] || [];
     return {k, count: grown.length, at, value: q => grown[q]};
   });

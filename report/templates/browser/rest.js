@@ -76,7 +76,8 @@ function scaled(linear, which) {
     for (let e = 0; e < linear.size; e++) q[e] = linear.root[e] * y[e];
     alongSurfaces(linear, q);
     if (which === "stiffness") resist(linear, linear.along, linear.across, 0, q, out);
-    else resist(linear, linear.slowed, null, linear.drag, q, out);
+    else if (which === "drag") for (let e = 0; e < linear.size; e++) out[e] = linear.drag * q[e];
+    else resist(linear, linear.slowed, null, which === "springs" ? 0 : linear.drag, q, out);
     alongSurfaces(linear, out);
     for (let e = 0; e < linear.size; e++) out[e] *= linear.root[e];
     return out;

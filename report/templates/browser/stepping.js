@@ -6,7 +6,7 @@ const RATIO = 100;
 
 function startWorld(system, scheme, dt, changes = [], drives = []) {
   const memory = memoryOf(system);
-  const world = {system, memory, scheme, dt, drives, steps: 0, origin: {time: 0, steps: 0}, blownUp: null, done: 0};
+  const world = {system, memory, scheme, dt, drives, steps: 0, origin: {time: 0, steps: 0}, blownUp: null, done: 0, size: sizeOf(system, memory)};
   const {F, at} = memory, named = changes.filter(change => change.parameter === "break").flatMap(change => change.value);
   // what breaks, now or later, may then be of any length, and so may what only pushes
   world.breaks = Uint8Array.from({length: system.s}, (_, j) => mayBreak(memory, j) || named.includes(j) ? 1 : 0);
@@ -78,18 +78,29 @@ function applyDrives({memory, drives, dt}, time) {
   }
 }
 
-// A scheme's loops, for springs that are linear or need not be.
-const runOf = ({advance, nonlinear}, at) => (at.nonlinear && nonlinear || advance)[at.d];
+// A scheme's loops, for springs that are linear or need not be; of what bends there are none, nor of equations to solve.
+const loopsOf = ({advance, nonlinear}, {at, angular}) => advance && !angular ? (at.nonlinear && nonlinear || advance)[at.d] : null;
+
+// A step by a scheme in a memory, again and again from what stands there; what is not to be solved ends far away.
+function onceBy(scheme, memory, h) {
+  const run = loopsOf(scheme, memory), c = run && scheme.coefficients(h), world = {memory, size: sizeOf(memory.at, memory)};
+  return () => {
+    world.remembered = [];
+    if (run) run(memory.F, memory.I, memory.at, c, 1);
+    else if (!stepWhole(world, scheme.step, h)) memory.F.fill(Infinity, memory.at.x, memory.at.x + 2 * memory.at.n * memory.at.d);
+  };
+}
 
 // A number of steps, as many as there are until it blows up. That is looked at after each: when and where it did does not
 // hang on how many steps are asked for at once.
 function advance(world, steps) {
-  const {memory: {F, I, at}, system, scheme} = world, {coefficients} = schemes[scheme], run = runOf(schemes[scheme], at);
+  const {memory: {F, I, at}, system, scheme} = world, {coefficients, step} = schemes[scheme], run = loopsOf(schemes[scheme], world.memory);
   for (let k = 1; k <= steps && !world.blownUp; k++) {
     applyChanges(world);
     if (world.drives.length) applyDrives(world, timeOf(world));
-    if (!world.step) run(F, I, at, coefficients(world.dt), 1);
-    else if (!world.step()) { world.blownUp = {what: "refused", which: 0}; break; }  // an engine takes them
+    if (world.step) { if (!world.step()) { world.blownUp = {what: "refused", which: 0}; break; } }  // an engine takes them
+    else if (run) run(F, I, at, coefficients(world.dt), 1);
+    else if (!stepWhole(world, step, world.dt)) { world.blownUp = {what: "unsolved", which: 0}; break; }
     for (const {kind, values} of system.obstacles) {
       const project = obstacles[kind];
       for (let i = 0; i < at.n; i++) project(F, at.x, at.v, i, !I[at.fixed + i], values);

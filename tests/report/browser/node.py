@@ -48,6 +48,8 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
     const limits = Object.fromEntries(asked.schemes.map(name => [name, found(name)]));
     return {off: rest.off, limits, rest: Array.from(rest.x)};
   }
+  if (asked.ask === "at") return asked.schemes.map(name =>
+    grown(asked.system, memory, rest.x, name, asked.dt, asked.steps, asked.size));
   if (asked.ask === "grown") return asked.schemes.flatMap(name => {
     const {limit} = limitOf(name, linear, known, asked.system);
     const steps = limit > 0 && limit < Infinity ? stepsToSee(linear, name, limit) : 0;
@@ -59,11 +61,13 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
 });
 // How many steps of 1.02 times the limit make the worst perturbation a hundred thousand times as large.
 function stepsToSee(linear, name, limit) {
-  const scheme = schemes[name], h = 1.02 * limit, apply = scheme.linear ? stepLinear : stepInPlace;
+  const scheme = schemes[name], h = 1.02 * limit;
+  const apply = scheme.linear ? stepLinear : scheme.kind === "in_place" ? stepInPlace : stepWholeLinear;
   const top = largestEigenpair(scaled(linear, "stiffness"), linear.size, alongStart(linear));
   const g = dot(top.vector, scaled(linear, "damping")(top.vector, new Float64Array(linear.size)));
   const small = 2 * linear.free.length * linear.memory.at.d <= STEP_UP_TO;
-  const growth = small ? growthOfStep(linear, h, apply(scheme, linear, h)) : growthOfMode(scheme, h, top.value, g);
+  const whole = small && !scheme.memory;
+  const growth = whole ? growthOfStep(linear, h, apply(scheme, linear, h)) : growthOfMode(scheme, top.value, g)(h);
   return Math.ceil(Math.log(1e5) / Math.log(growth));
 }
 function grown(system, memory, rest, scheme, dt, steps, size) {

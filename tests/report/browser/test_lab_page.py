@@ -7,6 +7,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
+import numpy as np
 import pytest
 
 from report.browser.lab_page import lab_page
@@ -15,7 +16,7 @@ from report.browser.recordings import Recording
 from report.browser.system_data import system_data
 from tests.report.browser.node import DRIVER, doubles
 from tests.report.browser.systems import random_system
-from tests.report.browser.test_bits import STEPS, of_reference, same_bits
+from tests.report.browser.test_bits import FEW_STEPS, MOST_DT, NEAR, SOLVING, STEPS, of_reference, same_bits
 from tests.report.chromium import VIEWS, Shown, chromium
 
 #: Scenes that are quick to make, and the lessons'.
@@ -95,6 +96,19 @@ def test_chromium_ends_in_the_reference_s_bits(browser: Any, file: Path) -> None
             rows = doubles(answer).reshape(STEPS, -1)
             expected = of_reference(system, scheme, dt)
             assert same_bits(rows[: len(expected)], expected), (seed, scheme)
+    shown.page.close()
+
+
+def test_chromium_solves_equations_as_the_reference_does(browser: Any, file: Path) -> None:
+    """As Node does (`test_bits`), to the same bound: two random systems by all schemes that solve."""
+    shown = opened(browser, file)
+    for seed in (2, 3):
+        system, dt = random_system(seed)
+        for scheme in SOLVING:
+            question = {"system": system_data(system), "scheme": scheme, "dt": min(dt, MOST_DT), "steps": FEW_STEPS}
+            rows = doubles(shown.page.evaluate(RUN, question)).reshape(FEW_STEPS, -1)
+            expected = of_reference(system, scheme, min(dt, MOST_DT), steps=FEW_STEPS)
+            assert np.abs(rows - expected).max() < NEAR * np.abs(expected).max(), (seed, scheme)
     shown.page.close()
 
 
