@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.behaviour import derived_step, parts, special_cases, terms
+from experiments.exercises.c.changes import CChanges
 from experiments.exercises.c.compiler import DoesNotCompileError, MissingFunctionError, compiled
 from experiments.exercises.c.text import whole_divisions
 from experiments.exercises.exercise import Exercise, Question
@@ -22,7 +23,7 @@ from experiments.exercises.handed_in.parsing import PARSING, parsed
 from experiments.exercises.handed_in.submission import Language
 from experiments.exercises.process import sandbox
 from experiments.exercises.process.sandbox_errors import NotGradedError
-from experiments.exercises.repair.edit import Edit
+from experiments.exercises.repair.repaired import Repair, repairs
 from experiments.exercises.repair.source_edits import edits_of, without_main
 from experiments.exercises.repair.source_search import fields_given
 from experiments.exercises.verdict import findings
@@ -39,8 +40,8 @@ TOLERANCE = 1e-7
 #: The same where students may round: a limit of 0.01 s to six digits.
 TYPED = 2e-4
 
-#: How many lines a student is told at most, and how long a change is in a table.
-MOST_PLACES, LONGEST_CHANGE = 3, 160
+#: How many lines a student is told at most.
+MOST_PLACES = 3
 
 #: Outcomes, and findings, of which no change of the text is looked for.
 NOT_SEARCHED = ("right", "another scheme", "timed out", "crashed")
@@ -57,22 +58,6 @@ class Effort:
     singles: float = 1.2
     pairs: float = 0.7
     named: float = 1.0
-
-
-@dataclass(frozen=True)
-class Repair:
-    """A change that makes the program right.
-
-    Attributes:
-        places: line and kind of each change. function: whose questions it was looked for.
-        change: the lines before and after.
-        cost: how far from the text.
-    """
-
-    function: str
-    places: tuple[tuple[int, str], ...]
-    change: str
-    cost: float
 
 
 @dataclass(frozen=True)
@@ -117,21 +102,17 @@ def look_closer(
     effort: Effort | None = None,
     language: Language = "python",
 ) -> CloserLook:
-    """Look at a submission that is not right. Of one in C its behaviour, and what the compiler warns of."""
+    """Look at a submission that is not right."""
     if verdict.outcome in NOT_SEARCHED or any(f.name in NOT_FOR for f in verdict.findings) or not exercise.searched:
         return CloserLook()
     effort = effort or Effort()
     if _is_named(verdict):
         effort = Effort(effort.named * effort.singles, 0.0)
     if language == "c":
-        return _look_closer_at_c(exercise, source, verdict, limits)
+        return _look_closer_at_c(exercise, source, seed, verdict, limits, effort)
     looks = _Looks(exercise, catalogue_of(exercise, seed, None), verdict)
     groups = _groups(exercise, seed, verdict)
-    task = {
-        "groups": [[_told(exercise, q) for q in group] for group in groups],
-        "seconds": effort.singles,
-        "pair_seconds": effort.pairs,
-    }
+    task = _task(exercise, groups, effort)
     files = exercise.files(seed) if exercise.files else {}
     try:
         reply = sandbox.run(source, looks.asked(), limits, files, task)
@@ -141,29 +122,55 @@ def look_closer(
         return CloserLook(complete=False)
     seen = looks.seen(reply.answers, source, "python")
     with PARSING:
-        repairs = [
-            r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)
-        ]
-    searched = [found["singles_done"] and (bool(found["repairs"]) or found["pairs_done"]) for found in reply.search]
-    tried = sum(found["tried"] for found in reply.search)
-    return CloserLook(tuple(seen), tuple(repairs), tried, all(searched) and len(searched) == len(groups))
+        made = [r for group, found in zip(groups, reply.search, strict=False) for r in _repairs(source, group, found)]
+    return CloserLook(tuple(seen), tuple(made), *_searched(reply.search, groups))
 
 
-def _look_closer_at_c(exercise: Exercise, source: str, verdict: Verdict, limits: sandbox.Limits | None) -> CloserLook:
-    """Nothing is searched for in C."""
+def _task(exercise: Exercise, groups: Sequence[Sequence[Question]], effort: Effort) -> dict[str, Any]:
+    """What is searched, and for how long."""
+    return {
+        "groups": [[_told(exercise, q) for q in group] for group in groups],
+        "seconds": effort.singles,
+        "pair_seconds": effort.pairs,
+    }
+
+
+def _searched(found: Sequence[Mapping[str, Any]], groups: Sequence[Sequence[Question]]) -> tuple[int, bool]:
+    """How many changes were tried, and whether that is all."""
+    done = [one["singles_done"] and (bool(one["repairs"]) or one["pairs_done"]) for one in found]
+    return sum(one["tried"] for one in found), all(done) and len(done) == len(groups)
+
+
+def _look_closer_at_c(
+    exercise: Exercise, source: str, seed: str, verdict: Verdict, limits: sandbox.Limits | None, effort: Effort
+) -> CloserLook:
+    """The same of a program in C, and what its compiler warns of."""
     if any(f.name in ("does_not_compile", "missing_function") for f in verdict.findings):
         return CloserLook()
-    looks = _Looks(exercise, catalogue_of(exercise, "", None), verdict)
+    exposed = limits is not None and limits.exposed
+    looks = _Looks(exercise, catalogue_of(exercise, seed, None), verdict)
+    groups = _groups(exercise, seed, verdict)
     try:
-        made = compiled(exercise.number, source, limits is not None and limits.exposed)
+        made = compiled(exercise.number, source, exposed)
         warned = tuple(findings.of_warning(line, words) for line, words in made.warnings)
         warned += tuple(findings.of_whole_division(line, words) for line, words in whole_divisions(source))
-        reply = sandbox.run(source, looks.asked(), limits, compiled=made, exercise=exercise.number)
+        changes = CChanges.of(exercise.number, source, groups, exposed)
+        reply = None
+        if changes is not None:
+            task = _task(exercise, groups, effort) | changes.task()
+            reply = sandbox.run(source, looks.asked(), limits, {}, task, made, exercise.number, changes.library)
+        if reply is None or reply.ended != "done" or reply.error is not None:  # a change may end the process
+            reply = sandbox.run(source, looks.asked(), limits, compiled=made, exercise=exercise.number)
     except (NotGradedError, DoesNotCompileError, MissingFunctionError):
         return CloserLook(complete=False)
     if reply.ended != "done" or reply.error is not None:
-        return CloserLook(warned)
-    return CloserLook((*warned, *looks.seen(reply.answers, source, "c")))
+        return CloserLook(warned, complete=False)
+    seen = (*warned, *looks.seen(reply.answers, source, "c"))
+    if changes is None or not reply.search:
+        return CloserLook(seen)
+    with PARSING:
+        repaired = [r for found in reply.search for r in changes.repairs(found["repairs"])]
+    return CloserLook(seen, tuple(repaired), *_searched(reply.search, groups))
 
 
 def _is_named(verdict: Verdict) -> bool:
@@ -223,29 +230,9 @@ def _told(exercise: Exercise, question: Question) -> dict[str, Any]:
 
 
 def _repairs(source: str, group: Sequence[Question], found: Mapping[str, Any]) -> list[Repair]:
-    """The changes with these numbers; none where there is no such number."""
+    """What was found for a group of questions."""
     if not found["repairs"]:
         return []
     tree = without_main(parsed(source))
     edits = edits_of(tree, fields_given([question.asked() for question in group]))
-    made = []
-    for numbers in found["repairs"]:
-        if max(numbers) < len(edits):
-            chosen = [edits[i] for i in numbers]
-            places = tuple(sorted((edit.line, edit.family) for edit in chosen))
-            change = _change(tree, chosen)
-            made.append(Repair(group[0].function, places, change, sum(edit.cost for edit in chosen)))
-    return sorted(made, key=lambda repair: repair.cost)
-
-
-def _change(tree: ast.Module, edits: Sequence[Edit]) -> str:
-    """The lines that are other, before and after."""
-    before = ast.unparse(tree).splitlines()
-    if len(edits) == 1:
-        with edits[0].applied():
-            after = ast.unparse(ast.fix_missing_locations(tree)).splitlines()
-    else:
-        with edits[0].applied(), edits[1].applied():
-            after = ast.unparse(ast.fix_missing_locations(tree)).splitlines()
-    gone, new = [s.strip() for s in before if s not in after], [s.strip() for s in after if s not in before]
-    return f"{' / '.join(gone) or 'nothing'} -> {' / '.join(new) or 'another order'}"[:LONGEST_CHANGE]
+    return repairs(group[0].function, edits, found["repairs"], lambda: ast.unparse(ast.fix_missing_locations(tree)))

@@ -185,6 +185,13 @@ def module_of(path: str, exercise: int, lines: Sequence[Sequence[int]]) -> Modul
         library = ctypes.CDLL(path)
     except OSError as error:
         raise LibraryNotLoadedError(str(error)) from None
+    module = ModuleType("submission")
+    vars(module).update(functions_of(library, exercise, lines))
+    return module
+
+
+def functions_of(library: ctypes.CDLL, exercise: int, lines: Sequence[Sequence[int]]) -> dict[str, Callable[..., Any]]:
+    """The function of a library, by its name."""
     called = Called(library, lines)
     functions: dict[int, tuple[str, Callable[..., Any]]] = {
         1: ("step", called.step_of_one),
@@ -193,7 +200,4 @@ def module_of(path: str, exercise: int, lines: Sequence[Sequence[int]]) -> Modul
         4: ("step", called.step),
         7: ("push_out", called.push_out),
     }
-    name, function = functions[exercise]
-    module = ModuleType("submission")
-    setattr(module, name, function)
-    return module
+    return dict([functions[exercise]])

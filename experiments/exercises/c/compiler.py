@@ -21,6 +21,7 @@ from pathlib import Path
 
 from engines.own.c_file import COMPILERS, compiler_found
 from experiments.exercises.c.process import NO_SANDBOX
+from experiments.exercises.c.variants import Variants
 from experiments.exercises.process.sandbox_errors import NotGradedError
 
 #: Multiplications and additions round one by one, as in Python; the program's own arrays are guarded, and a function
@@ -42,6 +43,15 @@ OPTIONS = (
     "-Wno-unknown-pragmas",
     "-Wfloat-conversion",
 )
+
+#: The same for a program with its variants, of which each is run for a moment only; and how often what the compiler
+#: refuses is left out.
+QUICKLY = (
+    "-O0",
+    *(option for option in OPTIONS if not option.startswith(("-O", "-g", "-W"))),
+    *(f"-Werror={what}" for what in ("implicit-function-declaration", "int-conversion", "incompatible-pointer-types")),
+)
+MOST_ROUNDS = 3
 
 #: What makes a local variable that nobody has written into a number that cannot pass: not every compiler has it.
 FILLED = "-ftrivial-auto-var-init=pattern"
@@ -120,6 +130,45 @@ def compiled(exercise: int, source: str, exposed: bool = False) -> Compiled:
                 raise DoesNotCompileError(*_first_error(errors, code))
         lines = _lines(said[2][1]) if len(said) > 2 else []
         return Compiled((folder / "library.so").read_bytes(), tuple(lines), tuple(_warnings(said[0][2])))
+
+
+def with_variants(exercise: int, variants: Variants, exposed: bool = False) -> Compiled | None:
+    """A program with all its variants, compiled quickly; those that the compiler refuses are left out.
+
+    None where it is the program itself that is refused.
+
+    Raises:
+        NotGradedError: where the compiler cannot be kept in.
+    """
+    program = compiler()
+    begin = [program, *QUICKLY, *([FILLED] if _takes(program, FILLED) else []), f"-I{FILES}"]
+    commands = [
+        [*begin, "-c", OWN, "-o", "own.o"],
+        [
+            *begin,
+            f"-DEXERCISE={exercise}",
+            "-DOWN_STACK",
+            str(FILES / "guard.c"),
+            "own.o",
+            "-Wl,-z,defs",
+            "-o",
+            "library.so",
+            "-lm",
+        ],
+    ]
+    for _ in range(MOST_ROUNDS):
+        with _folder(variants.text()) as folder:
+            try:
+                said = _run(commands, folder, exposed)
+            except DoesNotCompileError:  # it takes too long
+                return None
+            if not any(code for code, _, _ in said):
+                return Compiled((folder / "library.so").read_bytes(), (), ())
+        refused = set(re.findall(r"^(variant_\d+_\d+):\d+:(?:\d+:)? (?:fatal )?error: ", said[0][2], re.MULTILINE))
+        if not refused:
+            return None
+        variants.refuse(refused)
+    return None
 
 
 @lru_cache

@@ -51,25 +51,92 @@ static void handle(void)
         sigaction(numbers[i], &action, 0);
 }
 
-#define GUARD(function, ...)                \
-    {                                       \
-        handle();                           \
-        int number = sigsetjmp(back, 1);    \
-        if (number == 0)                    \
-            function(__VA_ARGS__);          \
-        return number;                      \
-    }
-
 #if EXERCISE == 1 || EXERCISE == 2
-SEEN int guarded(double *y, double *v, double dt, const struct spring *spring)
-GUARD(step, y, v, dt, spring)
+#define FUNCTION step
+#define PARAMETERS double *y, double *v, double dt, const struct spring *spring
+#define ARGUMENTS(own) own y, own v, own dt, own spring
+struct given {
+    double *y, *v, dt;
+    const struct spring *spring;
+};
 #elif EXERCISE == 3
-SEEN int guarded(double x[][2], double v[][2], const struct string *string, double f[][2])
-GUARD(forces, x, v, string, f)
+#define FUNCTION forces
+#define PARAMETERS double x[][2], double v[][2], const struct string *string, double f[][2]
+#define ARGUMENTS(own) own x, own v, own string, own f
+struct given {
+    double (*x)[2], (*v)[2];
+    const struct string *string;
+    double (*f)[2];
+};
 #elif EXERCISE == 4
-SEEN int guarded(double x[][2], double v[][2], double dt, const struct string *string)
-GUARD(step, x, v, dt, string)
+#define FUNCTION step
+#define PARAMETERS double x[][2], double v[][2], double dt, const struct string *string
+#define ARGUMENTS(own) own x, own v, own dt, own string
+struct given {
+    double (*x)[2], (*v)[2], dt;
+    const struct string *string;
+};
 #elif EXERCISE == 7
-SEEN int guarded(int count, double x[][2], double v[][2], const struct circle *circle)
-GUARD(push_out, count, x, v, circle)
+#define FUNCTION push_out
+#define PARAMETERS int count, double x[][2], double v[][2], const struct circle *circle
+#define ARGUMENTS(own) own count, own x, own v, own circle
+struct given {
+    int count;
+    double (*x)[2], (*v)[2];
+    const struct circle *circle;
+};
 #endif
+
+static struct given given;
+
+static void call(void)
+{
+    FUNCTION(ARGUMENTS(given.));
+}
+
+#ifdef OWN_STACK
+/* On a stack between two pages that nobody can touch: who writes beyond an array on it stops there, and does not reach
+ * the checker's. Programs are changed by the thousand, and some of them do. What calls the function may be overwritten,
+ * so it comes back by a jump. */
+#include <sys/mman.h>
+
+#define PAGE 65536
+#define STACK (1 << 22)
+#define DONE 1000
+
+static void call_and_jump(void)
+{
+    call();
+    siglongjmp(back, DONE);
+}
+
+static void call_apart(void)
+{
+    static char *room;
+    static ucontext_t there;
+    if (room == 0) {
+        room = mmap(0, STACK + 3 * PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        mprotect(room, PAGE, PROT_NONE);
+        mprotect(room + STACK + 2 * PAGE, PAGE, PROT_NONE);
+    }
+    getcontext(&there);
+    there.uc_stack.ss_sp = room + PAGE;
+    there.uc_stack.ss_size = STACK; /* and a page above it that nobody needs */
+    makecontext(&there, call_and_jump, 0);
+    setcontext(&there);
+}
+#define CALL call_apart
+#else
+#define CALL call
+#define DONE 0
+#endif
+
+SEEN int guarded(PARAMETERS)
+{
+    handle();
+    given = (struct given){ARGUMENTS()};
+    int number = sigsetjmp(back, 1);
+    if (number == 0)
+        CALL();
+    return number == DONE ? 0 : number;
+}

@@ -219,7 +219,8 @@ def main() -> None:
     os.dup2(2, 1)
     preload()
     compiled = task.get("library")
-    search = importlib.import_module(f"{OWN}.exercises.repair.source_search").search if task.get("search") else None
+    searching = "c.switched" if compiled else "repair.source_search"
+    search = importlib.import_module(f"{OWN}.exercises.{searching}").search if task.get("search") else None
     c_calls = importlib.import_module(f"{OWN}.exercises.c.calls") if compiled else None
     library = library_finder.LibraryFinder(os.open(LIBRARY, os.O_RDONLY), LIBRARY)
     wanted = sandbox_layers.wanted()
@@ -270,7 +271,7 @@ def answered(task: Mapping[str, Any], search: Callable[..., Any] | None = None, 
     except BaseException as error:
         return {"error": story(error)}
     if search is not None:
-        found["search"] = search({"source": task["source"], **task["search"]}, fresh, changed)
+        found["search"] = search({**task, **task["search"]}, fresh, changed)
     return found
 
 

@@ -34,8 +34,8 @@ from experiments.exercises.process.sandbox_errors import NotGradedError
 SECONDS, MEMORY = 10, 2**30
 WALL_CLOCK = 20.0
 
-#: What a compiled submission is called in its folder.
-LIBRARY = "submission.so"
+#: What a compiled submission is called in its folder, and what is compiled of it with its changes.
+LIBRARY, VARIANTS = "submission.so", "variants.so"
 
 #: How often its process is looked at [s]; and what a look counts for at most: a machine that stood still is not its
 #: fault.
@@ -67,6 +67,7 @@ def run(
     search: Mapping[str, Any] | None = None,
     compiled: Compiled | None = None,
     exercise: int = 0,
+    variants: Compiled | None = None,
 ) -> Reply:
     """Put questions to a submission.
 
@@ -76,6 +77,7 @@ def run(
         files: what it finds in its folder, by name: what the student was given.
         search: what small changes of it are searched for (`source_search.search`).
         compiled: what was made of it, where it is in C; and the number of its exercise.
+        variants: the same with all its changes, where they are searched.
 
     Raises:
         NotGradedError: where it is not the submission's fault that there is no answer.
@@ -95,10 +97,13 @@ def run(
     }
     try:
         with _folder(files or {}) as folder, _file() as asked, _file() as said, _file() as printed, _file() as mark:
+            for name, library in ((LIBRARY, compiled), (VARIANTS, variants)):
+                if library is not None:
+                    (folder / name).write_bytes(library.library)
+                    (folder / name).chmod(0o644)
             if compiled is not None:
-                (folder / LIBRARY).write_bytes(compiled.library)
-                (folder / LIBRARY).chmod(0o644)
                 task |= {"library": str(folder / LIBRARY), "lines": list(compiled.lines), "exercise": exercise}
+                task |= {"variants": str(folder / VARIANTS)}
             task |= {"folder": str(folder), "readable": [*_readable(), str(folder)], "mark": mark.fileno()}
             asked.write(child.pack(task))
             asked.flush()

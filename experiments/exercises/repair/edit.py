@@ -22,7 +22,7 @@ class Edit:
     Attributes:
         line: of the text, from 1.
         family: of which kind it is, for the student: operator, sign, factor, index, name, condition, copy, order,
-            left out, too much, axis.
+            left out, too much, axis, whole.
         cost: how far from the text it is; likelier changes cost less.
         sites: where, and what is put there.
     """

@@ -147,8 +147,19 @@ def _of_attribute(node: ast.Attribute, names: Names, holder: ast.AST) -> Iterato
         for other in names.fields.get(node.value.id, ()):
             if other != node.attr:
                 yield Replacement("name", 1.8, renewed(node, attr=other))
+    if node.attr == "anchor":
+        yield from _of_the_last(node, names)
     if node.attr == "T":
         yield Replacement("axis", 1.4, node.value)
+
+
+def _of_the_last(node: ast.Attribute, names: Names) -> Iterator[Replacement]:
+    """The one before, of all but the first: only the first hangs on the anchor."""
+    for loop in names.loops:
+        for array in names.arrays:
+            one = expression(f"{array}[{loop} - 1]", node)
+            chosen = ast.copy_location(ast.IfExp(expression(f"{loop} > 0", node), one, node), node)
+            yield Replacement("condition", 2.1, chosen)
 
 
 def _of_items(node: ast.Tuple | ast.List, names: Names, holder: ast.AST) -> Iterator[Replacement]:

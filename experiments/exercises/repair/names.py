@@ -24,7 +24,7 @@ class Names:
         own: of variables, arguments, and numbers outside of functions.
         fields: by object, what is read of it, or can be.
         unread: fields that are given and never read, as in "string.drag".
-        loops: those of `own` that loops count.
+        loops: those of `own` that loops count. arrays: those that have an index somewhere.
         has_numpy: whether NumPy is called np in the program.
     """
 
@@ -32,6 +32,7 @@ class Names:
     fields: Mapping[str, list[str]]
     unread: list[str]
     loops: list[str]
+    arrays: list[str]
     has_numpy: bool
 
     @property
@@ -55,7 +56,7 @@ def names_in(top: ast.stmt, tree: ast.Module, given: Mapping[str, Sequence[str]]
             fields[owner] = _distinct([*fields.get(owner, []), *attributes])
             unread = [f"{owner}.{name}" for name in attributes if name not in read]
     has_numpy = any(isinstance(node, ast.alias) and node.asname == "np" for node in ast.walk(tree))
-    return Names(own, fields, unread, _distinct(_counted(top)), has_numpy)
+    return Names(own, fields, unread, _distinct(_counted(top)), _indexed(top), has_numpy)
 
 
 def _distinct(names: Sequence[str]) -> list[str]:
@@ -102,3 +103,9 @@ def _counted(top: ast.AST) -> list[str]:
     """The names that loops count."""
     targets = [node.target for node in ast.walk(top) if isinstance(node, ast.For | ast.comprehension)]
     return [node.id for target in targets for node in ast.walk(target) if isinstance(node, ast.Name)]
+
+
+def _indexed(top: ast.AST) -> list[str]:
+    """The names that have an index somewhere."""
+    nodes = [node.value for node in ast.walk(top) if isinstance(node, ast.Subscript)]
+    return _distinct([node.id for node in nodes if isinstance(node, ast.Name)])

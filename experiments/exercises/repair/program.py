@@ -102,6 +102,14 @@ class Program:
             else:
                 yield self._names if all(stack.enter_context(self._put(unit)) for unit in units) else None
 
+    @contextmanager
+    def changed_anew(self, edits: Sequence[Edit]) -> Iterator[Mapping[str, Any] | None]:
+        """The same of a module of its own."""
+        with ExitStack() as stack:
+            for edit in edits:
+                stack.enter_context(edit.applied())
+            yield self.anew()
+
     def _of(self, edits: Sequence[Edit]) -> list[Unit] | None:
         """The functions that edits are in; None where one is in none."""
         found = [self._units.get(id(site[0])) for edit in edits for site, _ in edit.sites]

@@ -1,22 +1,22 @@
 """The search for the smallest changes of a submission's own text that make it right, in the submission's process.
 
 Every change of `source_edits` is tried by itself, then pairs: of those that come nearest, each with all others. What it
-takes is processor time, of which there is a limit; a program that loops for ever is stopped by counting. Imports
-NumPy and what stands beside it.
+takes is processor time, of which there is a limit; a program that loops for ever is stopped by counting. The search
+is one for both languages: programs in Python are changed as trees (`program`), those in C have been compiled with all
+their changes, which are switched on (`c.switched`). Imports NumPy and what stands beside it.
 """
 
 from __future__ import annotations
 
 import ast
 import time
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack
-from typing import Any
+from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import AbstractContextManager
+from typing import Any, Protocol
 
 import numpy as np
 
 from experiments.exercises.process.returned import parts_of
-from experiments.exercises.repair.edit import Edit
 from experiments.exercises.repair.program import FAILS, Program
 from experiments.exercises.repair.source_edits import edits_of, without_main
 
@@ -31,20 +31,50 @@ Nearness = tuple[int, float]
 STEMS, ENOUGH, DEARER = 12, 12, 0.3
 
 
+class Change(Protocol):
+    """One change of a text."""
+
+    @property
+    def cost(self) -> float:
+        """How far from the text it is."""
+
+
+class Changeable(Protocol):
+    """A program that can be run with any of its changes."""
+
+    def anew(self) -> Mapping[str, Any] | None:
+        """The names of a module of its own; None where it cannot be read."""
+
+    def begin_call(self) -> None:
+        """A function is about to be called."""
+
+    def reached(self) -> AbstractContextManager[Collection[int]]:
+        """What of it is run meanwhile."""
+
+    def can_matter(self, edit: Any, reached: Collection[int]) -> bool:
+        """Whether a change can make a difference where this is what is run."""
+
+    def changed(self, edits: Sequence[Any]) -> AbstractContextManager[Mapping[str, Any] | None]:
+        """The names of the module with these changes, for a while; None where it cannot be read."""
+
+    def changed_anew(self, edits: Sequence[Any]) -> AbstractContextManager[Mapping[str, Any] | None]:
+        """The same of a module of its own."""
+
+
 class Search:
     """One submission, and the questions with their right answers."""
 
     def __init__(
         self,
-        source: str,
+        edits: Sequence[Change],
+        program: Changeable,
         questions: Sequence[Question],
         fresh: Callable[[Any], Any],
         changed: Callable[..., bool],
     ) -> None:
         """Questions have function, arguments, parts, steps; of the right answer right, scales, tolerance, pairs."""
-        tree = without_main(ast.parse(source))
-        self.edits = edits_of(tree, fields_given(questions))
-        self._program = Program(tree)
+        self.edits = edits
+        self._program = program
         self._questions = list(questions)
         self._fresh, self._changed = fresh, changed
         self.tried = 0
@@ -81,9 +111,8 @@ class Search:
                 return None
         return sum(share >= 1.0 for share in shares), sum(shares)
 
-    def _is_right(self) -> bool:
+    def _is_right(self, names: Mapping[str, Any] | None) -> bool:
         """Whether all questions are answered rightly, all steps, twice over in a fresh module."""
-        names = self._program.anew()
         if names is None:
             return False
         return all(self._share(names, q, 10**6) >= 1.0 for q in self._questions) and all(
@@ -141,17 +170,15 @@ class Search:
                         return found, False
         return found, True
 
-    def _try(self, edits: Sequence[Edit], asked: Sequence[Question]) -> Nearness | None:
+    def _try(self, edits: Sequence[Change], asked: Sequence[Question]) -> Nearness | None:
         """How near the program comes with these changes, by first steps; None where it cannot be read."""
         self.tried += 1
         with self._program.changed(edits) as names:
             return None if names is None else self.nearness(names, asked, self._least)
 
-    def _holds(self, edits: Sequence[Edit]) -> bool:
-        with ExitStack() as stack:
-            for edit in edits:
-                stack.enter_context(edit.applied())
-            return self._is_right()
+    def _holds(self, edits: Sequence[Change]) -> bool:
+        with self._program.changed_anew(edits) as names:
+            return self._is_right(names)
 
 
 def fields_given(questions: Sequence[Question]) -> dict[str, list[str]]:
@@ -199,16 +226,36 @@ def _sorted_pairs(pairs: Any) -> Any:
 
 
 def search(task: Mapping[str, Any], fresh: Callable[[Any], Any], changed: Callable[..., bool]) -> list[dict[str, Any]]:
-    """What `Search.run` finds for each group of questions; nothing where the text cannot be read or is too deep.
+    """What `search_groups` finds; nothing where the text cannot be read or is too deep.
 
     Args:
-        task: source; seconds and pair_seconds, for all groups together; groups, each a list of questions.
+        task: source; seconds, pair_seconds and groups.
     """
-    share = max(1, len(task["groups"]))
+
+    def begun(group: Sequence[Question]) -> tuple[Sequence[Change], Changeable]:
+        tree = without_main(ast.parse(task["source"]))
+        return edits_of(tree, fields_given(group)), Program(tree)
+
     try:
-        return [
-            Search(task["source"], group, fresh, changed).run(task["seconds"] / share, task["pair_seconds"] / share)
-            for group in task["groups"]
-        ]
+        return search_groups(task, begun, fresh, changed)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return []
+
+
+def search_groups(
+    task: Mapping[str, Any],
+    begun: Callable[[Sequence[Question]], tuple[Sequence[Change], Changeable]],
+    fresh: Callable[[Any], Any],
+    changed: Callable[..., bool],
+) -> list[dict[str, Any]]:
+    """What `Search.run` finds for each group of questions.
+
+    Args:
+        task: seconds and pair_seconds, for all groups together; groups, each a list of questions.
+        begun: makes the changes of a program, and the program, for a group.
+    """
+    share = max(1, len(task["groups"]))
+    return [
+        Search(*begun(group), group, fresh, changed).run(task["seconds"] / share, task["pair_seconds"] / share)
+        for group in task["groups"]
+    ]

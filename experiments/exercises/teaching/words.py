@@ -84,6 +84,7 @@ FAMILIES = {
     "left out": "something is left out",
     "too much": "something too much",
     "axis": "the axis",
+    "whole": "what is a whole number, and what is not",
 }
 
 

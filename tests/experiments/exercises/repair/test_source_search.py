@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import ast
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 import pytest
 
+from experiments.exercises.repair.program import Program
 from experiments.exercises.repair.source_search import Search
 
 #: Doubled, and added up.
@@ -58,6 +60,6 @@ def test_a_program_comes_as_near_as_its_share_of_right_numbers(
     program: Callable[[Any], Any], right: int, share: float
 ) -> None:
     """Of three numbers. One that is off by 1e-3 has three right digits, an eighth each; a changed input halves all."""
-    search = Search("", [QUESTION], np.copy, lambda a, b: not np.array_equal(a, b))
+    search = Search([], Program(ast.parse("")), [QUESTION], np.copy, lambda a, b: not np.array_equal(a, b))
     found = search.nearness({"step": program}, [QUESTION])
     assert found == (right, pytest.approx(share, rel=1e-6))
