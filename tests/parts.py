@@ -16,6 +16,7 @@ LONGEST = (
     "tests/soak/test_cluster.py",
     "tests/experiments/engine_versions/test_versions.py",
     "tests/experiments/exercises/test_grading.py",
+    "tests/test_recipes.py",
 )
 
 

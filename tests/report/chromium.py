@@ -15,6 +15,9 @@ import pytest
 VIEWS = [(1280, "light", "screen"), (1280, "dark", "screen"), (360, "light", "screen"), (360, "dark", "screen")]
 VIEWS += [(800, "dark", "print")]
 
+#: So long [ms] anything in a browser may take, on a busy machine.
+PATIENCE = 120_000
+
 
 @contextmanager
 def chromium(*graphics: str) -> Iterator[Any]:
@@ -28,12 +31,19 @@ def chromium(*graphics: str) -> Iterator[Any]:
 
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
-            executable_path=found, args=["--no-sandbox", *(graphics or ["--disable-gpu"])]
+            executable_path=found, args=["--no-sandbox", *(graphics or ["--disable-gpu"])], timeout=PATIENCE
         )
         try:
             yield browser
         finally:
             browser.close()
+
+
+def new_page(browser: Any, **how: Any) -> Any:
+    """A new page of a browser, as Playwright has it, that is patient."""
+    page = browser.new_page(**how)
+    page.set_default_timeout(PATIENCE)
+    return page
 
 
 #: A page that draws so many pictures a second, as the processor alone paints them: for who does not count them.
@@ -53,7 +63,7 @@ class Shown:
         width, colours, medium = view
         self._asked: list[str] = []
         self.complaints: list[str] = []
-        self.page = browser.new_page(viewport={"width": width, "height": 900}, color_scheme=colours)
+        self.page = new_page(browser, viewport={"width": width, "height": 900}, color_scheme=colours)
         self.page.emulate_media(media=medium)
         self._address = file.resolve().as_uri()
         self.page.on("request", lambda request: self._asked.append(request.url))

@@ -13,6 +13,7 @@ from PIL import Image
 
 from report.live.parameters import PRESETS
 from report.live.server import FULL, MOST_VIEWERS
+from tests.report.chromium import new_page
 from tests.report.live.commands import begins, ends_of
 from tests.report.live.visit import SCENE, Visitor, blue, dark, visit
 from tests.soak.guests import Guest
@@ -42,7 +43,7 @@ def test_the_past_can_be_gone_back_to(visitor: Visitor) -> None:
     assert end - then < 1.1
     visitor.type("back [s]", 10.0)
     then = visitor.once(lambda: visitor.time, lambda time, before=then: time < before)
-    visitor.press("Play", exact=True)
+    visitor.play()
     visitor.once(lambda: visitor.time, lambda time: time > then)
     assert visitor.value("back [s]") == 0
     visitor.wait_until(end)
@@ -57,9 +58,8 @@ def test_a_mass_is_pinned_by_a_click_and_let_go_by_another(at_rest: Visitor, tmp
         return bool(dark(at_rest.scene_shown(around)).sum() > 10)
 
     assert not is_dark()
-    at_rest.page.mouse.click(x, y)
-    at_rest.once(is_dark, bool)
-    at_rest.press("Play", exact=True)
+    at_rest.until(is_dark, lambda: at_rest.page.mouse.click(x, y))
+    at_rest.play()
     at_rest.wait_until(0.3)
     at_rest.pause()
     line = at_rest.command("compare string-live.toml ", tmp_path)
@@ -67,21 +67,15 @@ def test_a_mass_is_pinned_by_a_click_and_let_go_by_another(at_rest: Visitor, tmp
     np.testing.assert_array_equal(state.positions[10], begins(line, tmp_path)[10])
     assert "fixed = [0, 10]" in (tmp_path / "string-live.toml").read_text()
     assert is_dark()
-    at_rest.page.mouse.click(x, y)
-    at_rest.once(is_dark, lambda found: not found)
+    at_rest.until(lambda: not is_dark(), lambda: at_rest.page.mouse.click(x, y))
 
 
 def test_the_command_after_a_drag_comes_to_the_same_state(at_rest: Visitor, tmp_path: Path) -> None:
     """A mass is dragged and let go while everything swings; from where it was let go, to rounding."""
-    x, y = at_rest.last_mass()
-    at_rest.page.mouse.move(x, y)
-    at_rest.page.mouse.down()
-    at_rest.page.mouse.move(x - 60, y + 60, steps=6)
-    at_rest.see("Mass 10 hangs on the cursor")
-    at_rest.press_key("Play")
+    at_rest.drag_last_mass(10, right=-60, down=60)
+    at_rest.play(keys=True)
     at_rest.wait_until(0.2)
-    at_rest.page.mouse.up()
-    at_rest.once(at_rest.status.inner_text, lambda said: "hangs" not in said)
+    at_rest.let_go()
     at_rest.wait_until(at_rest.time + 0.2)
     at_rest.pause()
     line = at_rest.command("compare string-live.toml ", tmp_path)
@@ -119,17 +113,14 @@ def test_the_csv_has_what_was_measured(visitor: Visitor, tmp_path: Path) -> None
 def test_gravity_as_on_the_moon_and_on_jupiter(at_rest: Visitor) -> None:
     """The number beside it says so, and the command."""
     for place, gravity in (("Moon", 1.62), ("Jupiter", 24.79), ("Earth", 9.81)):
-        at_rest.press(place)
-        at_rest.once(lambda: at_rest.value("gravity [m/s^2]"), lambda seen, wanted=gravity: seen == wanted)
+        at_rest.press(place, lambda wanted=gravity: at_rest.value("gravity [m/s^2]") == wanted)
         at_rest.command(f"--change=0.0:gravity={gravity}")
 
 
 @pytest.mark.parametrize("slide", PRESETS)
 def test_the_lectures_pictures_in_one_click(visitor: Visitor, slide: str) -> None:
     """The scene, the steppers and the parameters are set, and it moves; on slide 15 Euler blows up."""
-    visitor.press(slide, exact=True)
-    visitor.see(f"{PRESETS[slide].scene}, t = ")
-    visitor.see("heun")
+    visitor.press(slide, lambda: visitor.says(f"{PRESETS[slide].scene}, t = ") and visitor.says("heun"), exact=True)
     for name, number in PRESETS[slide].parameters.items():
         assert visitor.value(f"{name} [N s/m]") == pytest.approx(number)
     if slide == "15":
@@ -143,10 +134,8 @@ def test_an_engine_that_goes_to_nan_is_one_line_on_the_page(visitor: Visitor) ->
     """Pymunk does so in silence; the page pauses and says what happened, and everything goes on from there."""
     visitor.choose("lane 1", "pymunk_springs")
     visitor.see("pymunk_springs")
-    visitor.type("dt [ms]", 100)
-    visitor.alert.filter(has_text="pymunk_springs blew up").wait_for()
-    visitor.press("Start again with dt")
-    visitor.once(lambda: visitor.value("dt [ms]"), lambda dt: dt < 20)
+    visitor.type("dt [ms]", 100, visitor.alert.filter(has_text="pymunk_springs blew up").is_visible)
+    visitor.press("Start again with dt", lambda: visitor.value("dt [ms]") < 20)
     visitor.wait_until(0.2)
     assert not visitor.alert.is_visible()
 
@@ -154,12 +143,12 @@ def test_an_engine_that_goes_to_nan_is_one_line_on_the_page(visitor: Visitor) ->
 def test_a_scheme_with_parameters_is_a_lane_by_name(visitor: Visitor) -> None:
     """It has its limit and its place in the menus; a name that nothing has is one line, and no lane."""
     scheme = "drift_kick_sequential_damping(rounds=3)"
-    for name in (scheme, "huen"):
+    for name, seen in (
+        (scheme, lambda: visitor.says(f"{scheme}: dt is")),
+        ("huen", visitor.page.get_by_text("unknown stepper 'huen': did you mean 'heun'?").first.is_visible),
+    ):
         visitor.box("by name").fill(name)
-        visitor.press("Add lane")
-        if name == scheme:
-            visitor.see(f"{scheme}: dt is")
-    visitor.page.get_by_text("unknown stepper 'huen': did you mean 'heun'?").wait_for()
+        visitor.press("Add lane", seen)
     visitor.command(f"--stepper=kick_drift '--stepper={scheme}' ")
     visitor.choose("lane 1", scheme)
     # each lane goes on from where it was: a command for each
@@ -169,8 +158,7 @@ def test_a_scheme_with_parameters_is_a_lane_by_name(visitor: Visitor) -> None:
 
 def test_what_makes_no_sense_is_one_line_and_put_back(visitor: Visitor) -> None:
     """A mass of nothing; the number is again what it was."""
-    visitor.type("mass [kg]", 0)
-    visitor.page.get_by_text("mass = 0: expected a number > 0").wait_for()
+    visitor.type("mass [kg]", 0, visitor.page.get_by_text("mass = 0: expected a number > 0").first.is_visible)
     visitor.once(lambda: visitor.value("mass [kg]"), lambda mass: mass == 0.02)
 
 
@@ -184,7 +172,7 @@ def test_eight_viewers_have_a_simulation_each_and_the_ninth_none(chromium: Any, 
         other.type("stiffness [N/m]", 50)
         assert other.limit(unlike=limit) == pytest.approx(2 * limit, rel=1e-3)
         assert one.limit() == limit
-        ninth = chromium.new_page()
+        ninth = new_page(chromium)
         ninth.goto(address)
         ninth.get_by_text(FULL.format(MOST_VIEWERS)).wait_for()
         ninth.close()

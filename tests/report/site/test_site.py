@@ -12,7 +12,7 @@ from urllib.parse import unquote, urlsplit
 import pytest
 
 from report.site.__main__ import build
-from tests.report.chromium import Shown, chromium
+from tests.report.chromium import Shown, chromium, new_page
 from tests.report.html import Page
 
 # What takes long here is run every few days, and with --full.
@@ -100,7 +100,7 @@ def test_pages_are_for_everybody(
 
 def test_search_finds_without_a_server(site: Path, browser: Any) -> None:
     """From a file on the disk: the page of schemes, for a scheme."""
-    page = browser.new_page()
+    page = new_page(browser)
     page.goto((site / "search.html").as_uri() + "?q=velocity_verlet")
     page.wait_for_selector("#search-results a")
     assert any("schemes.html" in link.get_attribute("href") for link in page.query_selector_all("#search-results a"))
