@@ -95,6 +95,11 @@ class Driven:
             if driven.count(name) > 1:
                 raise InputError(f"{name} is driven {driven.count(name)} times: expected once")
 
+    @property
+    def ground_moves(self) -> bool:
+        """Whether gravity changes as it does seen from ground that moves, and not by itself."""
+        return any(getattr(drive, "moves_ground", False) for drive in self.drives)
+
     def changes(self, dt: float, duration: float) -> tuple[Change, ...]:
         """What the drives change, one drive after the other. Raises InputError beyond MOST_DRIVEN steps."""
         if self.drives and whole_steps(dt, duration) > MOST_DRIVEN:

@@ -205,7 +205,8 @@ def _setup(
     duration = next(value for value in (duration, content.duration, own_duration) if value is not None)
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
     _refuse_both(changes, driven.drives)
-    setup = Setup(path.stem, driven.system, dt, duration, (*driven.changes(dt, duration), *changes), tuple(remarks))
+    all_changes = (*driven.changes(dt, duration), *changes)
+    setup = Setup(path.stem, driven.system, dt, duration, all_changes, tuple(remarks), driven.ground_moves)
     setup.check()
     return setup
 

@@ -83,7 +83,8 @@ class Scene:
         driven = self.driven(settings)
         dt = self.dt if dt is None else dt
         duration = self.duration if duration is None else duration
-        return Setup(self.name, driven.system, dt, duration, driven.changes(dt, duration))
+        changes = driven.changes(dt, duration)
+        return Setup(self.name, driven.system, dt, duration, changes, ground_moves=driven.ground_moves)
 
     def driven(self, settings: Mapping[str, Any]) -> Driven:
         """The system, and what drives it, if anything does, with some parameters set.
@@ -143,6 +144,7 @@ class Setup:
         duration: how long [s].
         changes: parameters that change on the fly, those by what drives the system included.
         remarks: what there is to say of how it was read.
+        ground_moves: whether gravity changes as it does seen from ground that moves.
     """
 
     name: str
@@ -151,6 +153,7 @@ class Setup:
     duration: float
     changes: tuple[Change, ...] = ()
     remarks: tuple[str, ...] = ()
+    ground_moves: bool = False
 
     @property
     def steps(self) -> int:

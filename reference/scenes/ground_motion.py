@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import Literal, Protocol, get_args
+from typing import ClassVar, Literal, Protocol, get_args
 
 import numpy as np
 import numpy.typing as npt
@@ -53,6 +53,7 @@ class GroundMotion:
 
     ground: Accelerogram
     parameter: str = "gravity"
+    moves_ground: ClassVar[bool] = True
 
     def changes(self, system: MassSpringSystem, dt: float, duration: float) -> list[Change]:
         """Gravity [m/s^2] at every step at which it is another than before; in the end it is the system's own.

@@ -33,6 +33,8 @@ class Equilibrium:
         free: which rows of the state can move.
         scale: a length [m] (for a pendulum an angle [rad]) that perturbations are to be small against.
         contacts: what rests on obstacles; None where nothing does.
+        by_law: the equations of motion with the springs' own law, where `motion` has their tangents at the rest: a step
+            on obstacles stays beside the rest, and sees them there.
     """
 
     motion: Equations
@@ -40,6 +42,12 @@ class Equilibrium:
     free: BoolArray
     scale: float
     contacts: Contacts | None = None
+    by_law: Equations | None = None
+
+    @property
+    def stepped(self) -> Equations:
+        """What a scheme steps on obstacles."""
+        return self.motion if self.by_law is None else self.by_law
 
     @property
     def system(self) -> MassSpringSystem:
@@ -72,7 +80,9 @@ def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:
     _refuse_overlap(system, state)
     _refuse_breaking(system, state)
     scale = min(system.shortest, system.size or 1.0)
-    return Equilibrium(SpringMotion(tangent_system(system, state)), state, ~system.fixed, scale, contacts)
+    tangent = SpringMotion(tangent_system(system, state))
+    by_law = None if system.nonlinear is None else SpringMotion(system)
+    return Equilibrium(tangent, state, ~system.fixed, scale, contacts, by_law)
 
 
 def _refuse_overlap(system: MassSpringSystem, state: State) -> None:

@@ -3,7 +3,8 @@
 A step leads masses that are pressed a little into their obstacles, and its end projects them out. In between, schemes
 with stages have seen the springs of masses inside. So a step stays not at the rest itself but near it, at a state z
 with Phi(z) = z of its own, which Newton's method finds; there the step without its end is differenced, which is smooth,
-and its end is linearised (`contacts.projection_jacobian`).
+and its end is linearised (`contacts.projection_jacobian`). As it is not at the rest, springs that are not linear have
+their own law there, not the tangent at the rest.
 """
 
 from __future__ import annotations
@@ -22,6 +23,9 @@ from reference.theory.layout import layout_of
 #: Newton's steps to where a scheme stays, and how near to it is near enough, as a part of the rest's length.
 MOST_STEPS, NEAR = 10, 1e-12
 
+#: Deeper inside than this part of the rest's length a mass is pressed; nearer to the surface it is rounding.
+INSIDE = 1e-13
+
 #: What is said of steps that do not end inside: x' = x + dt v leads nowhere from rest, and the next step does.
 BY_TURNS = "masses at rest on obstacles enter them in every second step of this scheme only: it has no rest there"
 
@@ -34,7 +38,7 @@ def settled_on_obstacles(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[
     """
     require_pressed(scheme, rest, dt)
     layout, state = layout_of(scheme, rest, dt)
-    step, system = scheme.on(rest.motion), rest.system
+    step, system = scheme.on(rest.stepped), rest.system
     for _ in range(MOST_STEPS):
         inside = step(state, dt)
         jacobian = differences(step, layout, state)
@@ -53,8 +57,8 @@ def settled_on_obstacles(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[
 def require_pressed(scheme: Scheme, rest: Equilibrium, dt: float) -> None:
     """Raises SolverError unless a step from rest ends inside obstacles, for their rule to hold masses there."""
     assert rest.contacts is not None
-    inside = scheme.on(rest.motion)(layout_of(scheme, rest, dt)[1], dt)
+    inside = scheme.on(rest.stepped)(layout_of(scheme, rest, dt)[1], dt)
     for i, k in zip(rest.contacts.masses, rest.contacts.obstacles, strict=True):
         distance, _ = rest.system.obstacles[k].signed_distances(inside.positions[i : i + 1])
-        if not distance[0, 0] < 0:
+        if not distance[0, 0] < -INSIDE * rest.scale:
             raise SolverError(BY_TURNS)

@@ -69,6 +69,7 @@ def _table(setup: Setup, parameter: str) -> dict[str, Any]:
     return {
         "parameter": parameter,
         "dt": setup.dt,
+        "ground": parameter == "gravity" and setup.ground_moves,
         "columns": columns.tolist(),
         "rows": base64.b64encode(table.astype("<f8").tobytes()).decode(),
     }

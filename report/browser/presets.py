@@ -76,6 +76,7 @@ PRESETS: Sequence[Preset] = (
     Preset("string", {"masses": "40"}, name="string_40"),
     Preset("string", {"tension_only": "1"}, name="string_of_ropes"),
     Preset("chain"),
+    Preset("slinky"),
     Preset("barrier"),
     Preset("cloth"),
     Preset("cloth", {"rows": "30", "columns": "30", "rest_length": "0.02"}, name="cloth_30"),

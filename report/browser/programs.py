@@ -55,6 +55,9 @@ _ARRAYS = (
 _LINEAR_FORCE = "spring_force(stiffness[j], stretch, damping[j], rate)"
 _ANY_FORCE = "force_at(j, stretch, rate)"
 
+#: What separations are divided by, as `reference.forces` has it.
+_APART = "length if length > 0.0 else 1.0 if rest_length[j] == 0.0 else length"
+
 #: A spring pulls its first mass towards the second, and the second towards the first.
 _ENDS = (("a", "+="), ("b", "-="))
 
@@ -86,6 +89,10 @@ class PageLoops(Loops):
         before, lines = super()._spring(k)
         kept = [line for line in lines if not line.startswith(tuple(f"force{i}[" for i in self.axes))]
         assert len(kept) == len(lines) - self.dimension, "the loops' text has changed"
+        # one of rest length 0 and no length has no direction, and no force
+        begin = kept.index("unit0 = separation0 / length")
+        units = [line.replace(" / length", " / apart") for line in kept[begin:]]
+        kept = [*kept[:begin], f"apart = {_APART}", *units]
         kept[kept.index(f"force = {_LINEAR_FORCE}")] = f"force = {_ANY_FORCE if self.nonlinear else _LINEAR_FORCE}"
         pulls = [f"pull{i} = unit{i} * force" for i in self.axes]
         return before, [*kept, *pulls, *(f"force{i}[{to}] {how} pull{i}" for to, how in _ENDS for i in self.axes)]

@@ -79,8 +79,6 @@ def refuse_beyond(system: MassSpringSystem) -> None:
     """Refuse what the page cannot do. Raises Unsupported, with the way out."""
     if len(system.masses) > MOST_MASSES:
         raise Unsupported(f"{len(system.masses)} masses: the page takes at most {MOST_MASSES:,}")
-    if not system.rest_lengths.all():
-        raise Unsupported("springs of rest length 0: the page does not know them yet; `springlab live` does")
     for field in fields(system):
         if field.name not in KNOWN and _is_set(system, field.name):
             what = _WORDS.get(field.name, field.name)

@@ -4,15 +4,23 @@
 // Newton's steps to where a scheme stays, and how near is near enough, as a part of the shortest rest length.
 const SETTLING = 10, SETTLED = 1e-12;
 
+// Deeper inside than this part of the shortest rest length a mass is pressed; nearer to the surface it is rounding.
+const INSIDE = 1e-13;
+
+// Above zero [m]; where all are zero, the scene's size.
+function shortestRestLength({F, at}) {
+  const above = Array.from(F.subarray(at.rest_lengths, at.rest_lengths + at.s)).filter(length => length > 0);
+  return above.length ? Math.min(...above) : sizeOf(at, {F, at}) || 1;
+}
+
 // The largest modulus of an eigenvalue of the whole step where it stays; null where it stays nowhere.
 function growthOnObstacles(system, linear, scheme, h) {
-  const {F, at} = linear.memory, {step, end, depth: depthOf, m} = stepOnObstacles(system, linear, scheme, h);
-  let scale = Infinity;
-  for (let j = 0; j < at.s; j++) scale = Math.min(scale, F[at.rest_lengths + j]);
+  const {step, end, depth: depthOf, m} = stepOnObstacles(system, linear, scheme, h);
+  const scale = shortestRestLength(linear.memory);
   let z = new Float64Array(2 * m);
   for (let round = 0; round < SETTLING; round++) {
     const inside = step(z), out = end(inside), depth = depthOf(out, inside);
-    if (!(depth > 0)) return null;
+    if (!(depth > INSIDE * scale)) return null;
     const matrix = product(differences(end, inside, Math.min(7e-4 * scale, depth / 5)), differences(step, z, 7e-4 * scale), 2 * m);
     const moved = out.map((value, k) => value - z[k]);
     if (!moved.every(Number.isFinite)) return Infinity;
@@ -46,7 +54,7 @@ function stepOnObstacles(system, linear, scheme, h) {
 // Whether a step from rest ends inside obstacles, for their rule to hold masses there.
 function isPressed(system, linear, scheme, h) {
   const {step, end, depth, m} = stepOnObstacles(system, linear, scheme, h), inside = step(new Float64Array(2 * m));
-  return depth(end(inside), inside) > 0;
+  return depth(end(inside), inside) > INSIDE * shortestRestLength(linear.memory);
 }
 
 // How far the end of a step has moved a mass.

@@ -1,5 +1,5 @@
-// What drives a scene, drawn with it: a truck where the masses beside it have become larger, and ground with its
-// acceleration.
+// What drives a scene, drawn with it: a truck where the masses beside it have become larger, ground with its acceleration,
+// and gravity that swings by itself.
 
 function drawDriven({world}, k) {
   const [, , width, height] = view.boxes[k];
@@ -7,7 +7,9 @@ function drawDriven({world}, k) {
   paper.save();
   for (const drive of world.drives) {
     if (drive.parameter === "mass") drawTruck(world, drive, k);
-    if (drive.parameter === "gravity") drawGround(world, drive, width / 2 - 12, 16 + 20 * line - height / 2);
+    const [right, top] = [width / 2 - 12, 16 + 20 * line - height / 2];
+    if (drive.ground) drawGround(world, drive, right, top);
+    else if (drive.parameter === "gravity") drawGravity(world, right, top);
   }
   paper.restore();
 }
@@ -47,6 +49,14 @@ function drawGround({system, memory: {F, at}}, drive, right, top) {
   paper.fillStyle = ink(); paper.font = "14px system-ui, sans-serif"; paper.textAlign = "right"; paper.textBaseline = "middle";
   const along = Math.abs(across) >= Math.abs(up) ? across : up;
   paper.fillText(say("ground", {acceleration: along.toFixed(2)}), right, top);
+}
+
+// Gravity as it is, by an arrow of 50 px for 9.81 m/s^2, and in numbers.
+function drawGravity({memory: {F, at}}, right, top) {
+  const pull = Array.from(F.subarray(at.gravity, at.gravity + at.d)), [across, up] = at.d === 1 ? [0, pull[0]] : pull, part = 50 / 9.81;
+  arrow(right - 60, top + 22, right - 60 + part * across, top + 22 - part * up);
+  paper.fillStyle = ink(); paper.font = "14px system-ui, sans-serif"; paper.textAlign = "right"; paper.textBaseline = "middle";
+  paper.fillText(say("gravity_now", {gravity: pull.map(value => value.toFixed(2)).join(", ")}), right, top);
 }
 
 // The largest acceleration of the table [m/s^2]; there is one once a step was taken.

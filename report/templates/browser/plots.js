@@ -54,8 +54,9 @@ function drawEnergy() {
   const rows = lab.series, first = rows.length ? rows[0].energy.find(Number.isFinite) || 0 : 0;
   const given = Math.max(lab.lanes[0].world.given, 1e-9);
   // of stiff scenes what is exchanged is a small part of what would blow them up: the scale is the curves' own
-  let most = Math.max(1e-15 * given, 1e-15);
+  let most = 0;
   for (const {energy} of rows) for (const value of energy) if (Number.isFinite(value)) most = Math.max(most, Math.min(20 * given, Math.abs(value - first)));
+  if (!(most > 1e-15 * given)) most = given;  // before the first step
   const lines = lab.lanes.map((lane, k) => ({k, count: rows.length, at: q => rows[q].time, value: q => rows[q].energy[k] - first}));
   plot("energy", {lines, low: -most, high: most, from: 0, to: until(), unit: "J", axis: "s"});
 }
@@ -67,7 +68,10 @@ function drawDistances() {
   const rows = lab.series, size = Math.max(view.width, view.height) / 2.5;
   let least = size, largest = 0;
   for (const {apart} of rows) for (const value of apart) if (value > 0 && Number.isFinite(value)) { least = Math.min(least, value); largest = Math.max(largest, value); }
-  least = Math.max(1e-16, least); largest = Math.min(Math.max(largest, 10 * least), 1e3 * size);
+  // before lanes are apart, from a millionth of the scene on
+  if (!(largest > 0)) [least, largest] = [1e-6 * size, size];
+  const power = (value, round) => 10 ** round(Math.log10(value));
+  least = power(Math.max(1e-16, least), Math.floor); largest = power(Math.min(Math.max(largest, 10 * least), 1e3 * size), Math.ceil);
   const lines = lab.lanes.map((lane, k) => ({k, count: k ? rows.length : 0, at: q => rows[q].time, value: q => rows[q].apart[k] > 0 ? rows[q].apart[k] : NaN}));
   plot("apart", {lines, low: least, high: largest, logarithmic: true, from: 0, to: until(), unit: "m", axis: "s"});
 }

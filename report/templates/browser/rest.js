@@ -15,9 +15,11 @@ function linearise(memory, rest, contacts = []) {
     }
     const length = Math.sqrt(squares), stretch = length - F[at.rest_lengths + j], k = F[at.stiffness + j];
     if (at.nonlinear && atCorner(memory, j, stretch)) linear.corner = j;
-    for (let axis = 0; axis < d; axis++) unit[d * j + axis] /= length;
+    const divisor = length === 0 && F[at.rest_lengths + j] === 0 ? 1 : length;
+    for (let axis = 0; axis < d; axis++) unit[d * j + axis] /= divisor;
     along[j] = at.nonlinear ? ofSpring(tangent_stiffness, memory, j, stretch) : law.force_by_stretch(k, stretch);
-    across[j] = law.spring_force(at.nonlinear ? ofSpring(secant_stiffness, memory, j, stretch) : k, stretch, 0, 0) / length;
+    const secant = at.nonlinear ? ofSpring(secant_stiffness, memory, j, stretch) : k;
+    across[j] = divisor === length ? law.spring_force(secant, stretch, 0, 0) / length : secant;
     slowed[j] = law.force_by_rate(at.nonlinear ? ofSpring(damping_at, memory, j, stretch) : F[at.damping + j]);
   }
   const root = new Float64Array(size), free = [];

@@ -10,7 +10,9 @@ function startWorld(system, scheme, dt, changes = [], drives = []) {
   const {F, at} = memory, named = changes.filter(change => change.parameter === "break").flatMap(change => change.value);
   // what breaks, now or later, may then be of any length, and so may what only pushes
   world.breaks = Uint8Array.from({length: system.s}, (_, j) => mayBreak(memory, j) || named.includes(j) ? 1 : 0);
-  world.natural = lengthsOf(memory).map((length, j) => world.breaks[j] || F[at.compression_only + j] ? Infinity : Math.max(F[at.rest_lengths + j], length));
+  const scale = Math.max(world.size, ...Array.from(F.subarray(at.x, at.x + at.n * at.d), Math.abs)) || 1;
+  const naturalOf = (length, j) => Math.max(F[at.rest_lengths + j], length, F[at.rest_lengths + j] > 0 ? 0 : scale);
+  world.natural = lengthsOf(memory).map((length, j) => world.breaks[j] || F[at.compression_only + j] ? Infinity : naturalOf(length, j));
   world.reach = sizeOf(system, memory) + world.natural.reduce((sum, length) => length < Infinity ? sum + length : sum, 0) || 1;
   world.fastest = 0; world.pull = 0;
   for (let i = 0; i < system.n; i++) world.fastest = Math.max(world.fastest, Math.hypot(...F.subarray(at.v + at.d * i, at.v + at.d * (i + 1))));

@@ -154,7 +154,7 @@ function drawLane(lane, k) {
   const places = seenAll(lane.world, lane.seenAt);
   paper.strokeStyle = paper.fillStyle = colourOf(k);
   if (recording) paper.setLineDash([4, 3]);
-  strokeSprings(pathsByStrain(memory, places), s > THICK_UP_TO, k);
+  strokeSprings(pathsByStrain(lane.world, places), s > THICK_UP_TO, k);
   paper.setLineDash([]); paper.globalAlpha = 1;
   if (k === 0 || lab.beside) drawDriven(lane, k);
   const size = n > 60 ? 2.5 : 5;
@@ -171,13 +171,13 @@ function drawLane(lane, k) {
 
 // One path for the springs of each class of strain; a spring that begins where the one before it in its class ended goes on
 // from there.
-function pathsByStrain(memory, places) {
+function pathsByStrain({memory, natural}, places) {
   const {F, I, at} = memory, {s, springs, rest_lengths, broken} = at, lengths = lengthsOf(memory);
   const paths = STRAINS.map(() => new Path2D()), ends = STRAINS.map(() => -1);
   for (let j = 0; j < s; j++) {
     if (I[broken + j]) continue;
     const a = I[springs + 2 * j], b = I[springs + 2 * j + 1];
-    const strain = Math.abs(lengths[j] / F[rest_lengths + j] - 1);
+    const rest = F[rest_lengths + j], strain = Math.abs(lengths[j] / (rest > 0 ? rest : natural[j]) - 1);
     const bin = strain <= STRAINS[0] ? 0 : strain <= STRAINS[1] ? 1 : strain <= STRAINS[2] ? 2 : 3;
     if (ends[bin] !== a) paths[bin].moveTo(places[2 * a], places[2 * a + 1]);
     paths[bin].lineTo(places[2 * b], places[2 * b + 1]);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from reference.errors import SolverError
 from reference.obstacles import Circle, Obstacle, Plane
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
+from reference.simulate import simulate
 from reference.state import Array
 from reference.system import MassSpringSystem
 from reference.theory.contacts import projection_jacobian
@@ -161,3 +163,27 @@ def test_the_end_of_a_step_is_linearised() -> None:
 
     differenced = np.stack([(after(1e-6 * e) - after(-1e-6 * e)) / 2e-6 for e in np.eye(12)], axis=1)
     np.testing.assert_allclose(projection_jacobian(system, x, v, dt), differenced, atol=1e-9)
+
+
+#: A short string with springs that are not linear rests on a circle; a dt [s], and whether RK4 lets it blow up there.
+BESIDE_THE_TANGENT = [({"tension_only": 1}, 0.01627, False), ({"hardening": 2e5}, 0.01589, True)]
+
+
+@pytest.mark.parametrize(("kind", "dt", "blows_up"), BESIDE_THE_TANGENT, ids=["rope", "hardening"])
+def test_limits_on_obstacles_are_those_of_the_springs_own_law(kind: dict[str, Any], dt: float, blows_up: bool) -> None:
+    """Between the limits of the law and of its tangents at the rest a run tells which of them holds.
+
+    Steps stay 1.3 mm beside the rest, where ropes are slack and springs harder. Shown to fail: with the tangents both
+    limits are on the other side of dt.
+    """
+    system = find_scene("barrier").system({"masses": 4, "circle_x": 0.2, "circle_y": -0.2, "radius": 0.15, **kind})
+    rest, scheme = spring_equilibrium(system), find("rk4")
+    limit, of_tangents = (stability_limit(scheme, one).dt for one in (rest, replace(rest, by_law=None)))
+    assert limit is not None
+    assert of_tangents is not None
+    assert (limit < dt < of_tangents) if blows_up else (of_tangents < dt < limit)
+    run = simulate(system.at(rest.state), scheme, dt, 3000 * dt)
+    if blows_up:
+        assert len(run) < 3001 or np.abs(run.positions[-1] - rest.state.positions).max() > 0.1
+    else:
+        assert np.abs(run.positions[-1] - run.positions[-2]).max() < 1e-9  # of what blows up 1e-4

@@ -61,6 +61,19 @@ def with_random_kinds(system: MassSpringSystem, seed: int) -> MassSpringSystem:
     return replace(system, nonlinear=law)
 
 
+def with_masses_together(system: MassSpringSystem) -> MassSpringSystem:
+    """The same with every second spring of rest length 0, the first of them of no length at the start, at rest."""
+    rest_lengths, positions, velocities = system.rest_lengths.copy(), system.positions.copy(), system.velocities.copy()
+    rest_lengths[::2] = 0.0
+    a, b = system.springs[0]
+    positions[b], velocities[b] = positions[a], velocities[a]
+    fixed = system.fixed.copy()
+    fixed[[a, b]] = False
+    return replace(
+        system, rest_lengths=rest_lengths, positions=positions, velocities=velocities, fixed=fixed, obstacles=()
+    )
+
+
 def random_obstacles(random: np.random.Generator, d: int) -> tuple[Obstacle, ...]:
     """None, one or two of any kinds that there are in that space."""
 

@@ -27,7 +27,7 @@ from report.browser.lab_page import physics
 from report.browser.programs import page_schemes
 from report.browser.system_data import system_data
 from tests.report.browser.node import ask, doubles
-from tests.report.browser.systems import random_system, with_random_kinds
+from tests.report.browser.systems import random_system, with_masses_together, with_random_kinds
 
 STEPS = 40
 
@@ -60,13 +60,22 @@ EXACT = tuple(name for name in page_schemes() if name not in SOLVING)
 NEAR, FEW_STEPS, MOST_DT = 1e-12, 5, 0.02
 
 
-def compared(seeds: Sequence[int], text: str = "", kinds: bool = False, names: Sequence[str] = EXACT) -> list[bool]:
-    """Of every system and scheme, whether the page ends in the reference's bits. Args: kinds: springs not linear."""
+def compared(
+    seeds: Sequence[int], text: str = "", kinds: bool = False, names: Sequence[str] = EXACT, together: bool = False
+) -> list[bool]:
+    """Of every system and scheme, whether the page ends in the reference's bits.
+
+    Args:
+        kinds: springs that are not linear.
+        together: masses that some springs of rest length 0 begin with in one place.
+    """
     asked, expected = [], []
     for seed in seeds:
         system, dt = random_system(seed)
         if kinds:
             system = with_random_kinds(system, seed)
+        if together:
+            system = with_masses_together(system)
         for name in names:
             question = {"ask": "run", "system": system_data(system), "scheme": name, "dt": dt, "steps": STEPS}
             asked.append(question)
@@ -86,6 +95,15 @@ def test_all_schemes_of_the_page_end_in_the_reference_s_bits(request: pytest.Fix
 def test_springs_that_are_not_linear_end_in_the_reference_s_bits(request: pytest.FixtureRequest) -> None:
     """Ropes, struts, springs that harden, yield and break, mixed in the same systems: no tolerance, as above."""
     assert all(compared(range(200) if request.config.getoption("--full") else range(4), kinds=True))
+
+
+def test_springs_of_rest_length_0_end_in_the_reference_s_bits() -> None:
+    """Also where they have no length: shown to fail where what has no direction is divided by nothing."""
+    assert all(compared(range(6), together=True, kinds=True))
+    text = physics()
+    wrong = text.replace(" === 0.0) ? 1.0", " === 0.0) ? 0.0")
+    assert wrong != text
+    assert not all(compared(range(3), wrong, names=("euler", "rk4"), together=True))
 
 
 @pytest.mark.parametrize(
