@@ -151,8 +151,10 @@ def name_line(explanation: Explanation) -> str:
     if multistep is not None:
         kind = "an explicit" if multistep.explicit else "an implicit"
         words += f": {kind} multistep method of {len(multistep.alpha)} steps and order {multistep.order}"
+    if explanation.begun:
+        return f"{words}{';' if ':' in words else ':'} by its coefficients it is {explanation.begun}"
     # beside a nearest one by motion, which is among the reasons
-    by = "" if explanation.nearest.startswith("its ") else "nearest by coefficients: "
+    by = "" if explanation.nearest.startswith(("its ", "without damping its ")) else "nearest by coefficients: "
     return words + (f"; {by}{explanation.nearest}" if explanation.nearest else "")
 
 

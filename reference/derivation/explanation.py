@@ -10,7 +10,8 @@ import numpy as np
 
 from reference.derivation.consequences import FAR, Consequences, Windows, consequences
 from reference.derivation.difference_equation import DifferenceEquation, difference_equation
-from reference.derivation.near import SAME_TABLEAU, nearest_known
+from reference.derivation.equal_parts import EqualParts
+from reference.derivation.near import SAME_TABLEAU, begun_otherwise, name_of_parts, nearest_known, parts_of
 from reference.derivation.nonlinear_order import nonlinear_order, order_of_two_masses
 from reference.derivation.oscillators import ASIDE, Run, Runs, oscillator, runs_of
 from reference.derivation.oscillators import DT as OSCILLATOR_DT
@@ -90,6 +91,8 @@ class Explanation:
         reasons: why something cannot be told, each a sentence without its stop.
         order_among_masses: the order seen on two masses that move one another, where slopes are not seen.
         difference: what positions obey step after step, of one that remembers earlier steps.
+        parts: the equal sub-steps that its formulas are made of, where they are.
+        begun: which method of several steps it is by its coefficients and how it begins, where it has no name.
     """
 
     stepper: str
@@ -104,6 +107,8 @@ class Explanation:
     reasons: tuple[str, ...] = ()
     order_among_masses: int | None = None
     difference: DifferenceEquation | None = None
+    parts: EqualParts | None = None
+    begun: str = ""
 
     @property
     def updates(self) -> Updates | None:
@@ -142,6 +147,20 @@ class Explanation:
         """Whether its rule is another at another dt: what is derived at one then holds there only."""
         by_matrix = self.matrix is not None and self.matrix.only_at is not None
         return by_matrix or (self.held is not None and self.held.is_another)
+
+    def _rules(self) -> dict[str, Any]:
+        """As JSON has what holds at some dt only: where it was derived, and what it is at which dt."""
+        named = self.identification.identified_as
+        rules: list[tuple[float, str | None]] = [(DT, named)] if named else []
+        if self.held is not None:
+            rules += [(dt, self.held.scheme) for dt in self.held.same]
+            rules += list(zip(self.held.other, self.held.named_there, strict=True))
+        of_slopes = self.updates is not None or self.seen.iterates
+        return {
+            "step_matrix_at_s": OSCILLATOR_DT if self.matrix else None,
+            "slopes_at_s": list(LENGTHS) if of_slopes else None,
+            "rules": [{"dt_s": dt, "identified_as": name} for dt, name in sorted(rules)],
+        }
 
     @property
     def order(self) -> int | None:
@@ -219,6 +238,9 @@ class Explanation:
             "step_matrix": self.matrix.text() if self.matrix else None,
             "step_matrix_of": (OF_RODS if self.matrix.of_swings else OF_SPRINGS) if self.matrix else None,
             "substeps": self.matrix.substeps if self.matrix else None,
+            "substep_scheme": (name_of_parts(self.parts) or None) if self.parts else None,
+            "nearest": self.begun or self.nearest or None,
+            "changes_with_dt": self._rules() if self.changes_with_dt else None,
             "order": self.order,
             "symplectic": self.symplectic,
             "reversible": follows.reversible if follows else None,
@@ -248,16 +270,18 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     if precision == "double" and _rounds_to_single(runs):
         precision = "single"
         reasons.append(IN_SINGLE)
-    begun = (ASIDE, 0.0)
-    first, rest = runs([Run(oscillator(0.5, 0.0, 0.0, x), OSCILLATOR_DT) for x in begun])
+    places = (ASIDE, 0.0)
+    first, rest = runs([Run(oscillator(0.5, 0.0, 0.0, x), OSCILLATOR_DT) for x in places])
     if first.ending in ("crashed", "timed out"):
         nothing = Identification(stepper.name, (), 0.0, first.reason)
         return Explanation(stepper.name, nothing, reasons=(first.reason,))
     tell("its slopes and forces")
     of_slopes: list[str] = []
     asked = slopes_of(stepper, of_slopes)
+    parts = parts_of(asked.tableau, asked.updates)
     tell("its step matrix")
-    matrix = tried(lambda: step_matrix(runs, precision, asked.iterates), reasons, "no step matrix: ")
+    count = parts.count if parts and not parts.undamped else 1
+    matrix = tried(lambda: step_matrix(runs, precision, asked.iterates, count), reasons, "no step matrix: ")
     damped, dragged = (matrix.damped, matrix.dragged) if matrix else (False, False)
     swapped = _swapped(rest)
     if swapped:
@@ -294,7 +318,7 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
     among = order_of_two_masses(runs) if of_one_step and seen.updates is None and not on_rods else None
     tell("its name")
     identification = identified_on_a_string(stepper, damped, dragged)
-    nearest, held = "", None
+    nearest, begun, held = "", "", None
     name = identification.identified_as
     if name is not None and name != stepper.name:
         tell("over which dt it has that name")
@@ -304,9 +328,10 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         reasons += [str(held)] if held.other else []
     if identification.identified_as is None:
         reasons.append(f"not identified by its motion: {identification.reason}")
-        nearest = nearest_known(
-            seen.tableau, seen.updates, None if past is not None and past.one_step is False else matrix
-        )
+        parts = parts or parts_of(seen.tableau, seen.updates)
+        begun = begun_otherwise(seen.updates, seen.multistep, seen.first)
+        of_steps = None if past is not None and past.one_step is False else matrix
+        nearest = nearest_known(seen.tableau, seen.updates, of_steps, parts)
         if nearest.startswith(SAME_TABLEAU):
             reasons.append(CONTRADICTION)
     difference = None
@@ -328,6 +353,8 @@ def explain(stepper: Stepper, tell: Callable[[str], None] = lambda what: None) -
         tuple(reasons),
         among,
         difference,
+        parts,
+        begun,
     )
 
 

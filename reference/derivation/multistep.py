@@ -56,6 +56,11 @@ class Multistep:
             order = q
         return order
 
+    def same(self, other: Multistep) -> bool:
+        """Whether all coefficients are."""
+        pairs = zip((*self.alpha, *self.beta), (*other.alpha, *other.beta), strict=False)
+        return len(self.alpha) == len(other.alpha) and all(abs(float(c) - float(its)) <= OFF for c, its in pairs)
+
     def __str__(self) -> str:
         """As it is written: y1 = 4 y0/3 - y-1/3 + 2 h f(y1)/3."""
         at = ["y1", *(f"y{-j}" for j in range(len(self.alpha)))]

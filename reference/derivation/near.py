@@ -10,8 +10,17 @@ from itertools import product
 
 import numpy as np
 
+from reference.derivation.equal_parts import (
+    EqualParts,
+    by_accelerations,
+    equal_parts,
+    of_tableau,
+    same_updates,
+    without_damping,
+)
 from reference.derivation.formula import Number, number
-from reference.derivation.implicit import implicit_tableau
+from reference.derivation.implicit import implicit_multistep, implicit_tableau
+from reference.derivation.multistep import Multistep
 from reference.derivation.of_schemes import tableau_of_scheme, updates_of_scheme
 from reference.derivation.oscillators import matrices_at, runs_of
 from reference.derivation.step_matrix import StepMatrix, step_matrix
@@ -34,12 +43,78 @@ SAME = 1e-9
 NOTHING = Coefficient(Fraction(0), 0)
 
 
-def nearest_known(tableau: Tableau | None, updates: Updates | None, matrix: StepMatrix | None) -> str:
-    """In words: "b2 is 1/3 where heun has 1/2"; empty where nothing is near."""
+def nearest_known(
+    tableau: Tableau | None, updates: Updates | None, matrix: StepMatrix | None, parts: EqualParts | None = None
+) -> str:
+    """In words: "b2 is 1/3 where heun has 1/2"; empty where nothing is near.
+
+    Args:
+        parts: what the step is made of, where it is made of several equal ones: then of one of these.
+    """
+    if parts is not None:
+        return _by_parts(parts)
     if tableau is not None:
         return _by_tableau(tableau, updates)
     words = _by_updates(updates) if updates is not None else ""
     return words or (_by_matrix(matrix) if matrix is not None else "")
+
+
+def parts_of(tableau: Tableau | None, updates: Updates | None) -> EqualParts | None:
+    """The equal sub-steps that a step is made of, by its formulas; None where it is not, or they are not known."""
+    if updates is None and (tableau is None or not tableau.explicit):
+        return None
+    whole = updates or of_tableau(tableau)  # type: ignore[arg-type]
+    found = equal_parts(whole, known_updates)
+    if found is not None or not whole.asks_only_accelerations or len(whole.points) < 2:
+        return found
+    found = equal_parts(without_damping(whole), known_without_damping)
+    return replace(found, undamped=True) if found is not None else None
+
+
+def name_of_parts(parts: EqualParts) -> str:
+    """The scheme that a sub-step is; empty where it is none."""
+    if not parts.undamped:
+        return name_of_updates(parts.one)
+    return next((name for name, known in known_without_damping().items() if same_updates(parts.one, known)), "")
+
+
+def name_of_updates(updates: Updates) -> str:
+    """The scheme that has these very formulas; empty where there is none."""
+    tableau = tableau_of(updates, timed=False)
+    for name, known in known_tableaux().items():
+        if tableau is not None and tableau.same(replace(known, c=tableau.c)):
+            return name
+    known_ones = known_updates()
+    if updates.asks_only_accelerations:
+        known_ones = {name: by_accelerations(known) for name, known in known_ones.items()}
+    return next((name for name, known in known_ones.items() if same_updates(updates, known)), "")
+
+
+def _by_parts(parts: EqualParts) -> str:
+    n, name = parts.count, name_of_parts(parts)
+    step = "without damping its step" if parts.undamped else "its step"
+    if name:
+        return f"{step} is {n} sub-steps of {name}, each of h/{n}"
+    words = "" if parts.undamped else nearest_known(tableau_of(parts.one, timed=False), parts.one, None)
+    return f"{step} is {n} equal sub-steps of h/{n}" + (f", in each of which {words}" if words else "")
+
+
+def begun_otherwise(updates: Updates | None, multistep: Multistep | None, first: Updates | None) -> str:
+    """In words: "adams_bashforth_2, begun with euler"; empty where it is no known method of several steps.
+
+    Args:
+        updates, multistep: the formulas of later steps. first: those of the first.
+    """
+    name = ""
+    if updates is not None and updates.looks_back:
+        name = name_of_updates(updates)
+    elif multistep is not None:
+        schemes = ((name, implicit_multistep(scheme)) for name, scheme in _known().items())
+        name = next((name for name, known in schemes if known is not None and known.same(multistep)), "")
+    if not name:
+        return ""
+    begun = name_of_updates(first) if first is not None else ""
+    return f"{name}, begun {f'with {begun}' if begun else 'otherwise'}"
 
 
 def _by_tableau(tableau: Tableau, updates: Updates | None) -> str:
@@ -132,6 +207,13 @@ def known_tableaux() -> dict[str, Tableau]:
     """The catalogue's, by scheme."""
     found = {name: tableau_of_scheme(scheme) or implicit_tableau(scheme) for name, scheme in _known().items()}
     return {name: tableau for name, tableau in found.items() if tableau is not None}
+
+
+@cache
+def known_without_damping() -> dict[str, Updates]:
+    """The same without the velocities at which accelerations are taken, of one-step schemes."""
+    known = {name: by_accelerations(updates) for name, updates in known_updates().items()}
+    return {name: without_damping(updates) for name, updates in known.items() if not updates.looks_back}
 
 
 @cache

@@ -7,6 +7,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from reference.derivation.equal_parts import of_tableau
 from reference.derivation.fit import Samples
 from reference.derivation.force_jumps import Taken, forces_taken
 from reference.derivation.implicit import implicit_multistep, implicit_tableau, tableau_by_points
@@ -17,7 +18,7 @@ from reference.derivation.recording import Recording, Solved
 from reference.derivation.stages import MOST, tableau_by_jumps
 from reference.derivation.step_matrix import SOFTER, StepMatrix
 from reference.derivation.tableau import SAME, Tableau, tableau_of
-from reference.derivation.updates import Updates, updates_of
+from reference.derivation.updates import Updates, first_updates_of, updates_of
 from reference.errors import Unsupported
 from reference.stepper import SchemeStepper, Stepper
 
@@ -41,6 +42,7 @@ class Seen(NamedTuple):
         remarks: what it does that a stepper should not.
         iterates: whether it asks more often than any explicit method: it solves equations, or makes steps of its own.
         adapts: whether it makes more steps of its own, or fewer, by what slopes are.
+        first: the update formulas of a first step, of one that asks for slopes.
     """
 
     updates: Updates | None = None
@@ -50,6 +52,7 @@ class Seen(NamedTuple):
     remarks: tuple[str, ...] = ()
     iterates: bool = False
     adapts: bool = False
+    first: Updates | None = None
 
 
 #: Of what neither asks for slopes, nor was looked at from outside.
@@ -86,13 +89,14 @@ def slopes_of(stepper: Stepper, reasons: list[str]) -> Seen:
     updates = tried(lambda: updates_of(recording), reasons, "no update formulas: ")
     tableau = tableau_of(updates, recording.timed) if updates else None
     remarks += tableau.times_at_odds if tableau is not None else ()
-    return Seen(updates, tableau, remarks=remarks)
+    return Seen(updates, tableau, remarks=remarks, first=first_updates_of(recording))
 
 
 def _of_solved(solved: Solved, timed: bool, reasons: list[str]) -> Seen:
     multistep = multistep_of(solved.h, solved.states, solved.rates)
     if multistep is not None:
-        return Seen(multistep=multistep)
+        begun = tableau_by_points(solved.start, solved.end, solved.h, solved.points, solved.slopes)
+        return Seen(multistep=multistep, first=of_tableau(begun) if begun is not None else None)
     times = len({round(part, 9) for part in solved.parts}) if timed else 0
     if times > MOST_TIMES:
         more, fewer = solved.calls

@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from reference.derivation.fit import Entries, Samples, formula_of, formulas_of
+from reference.derivation.fit import POLYNOMIAL, Entries, Samples, formula_of, formulas_of
 from reference.derivation.oscillators import (
     ASIDE,
     DT,
@@ -41,6 +41,9 @@ BOTH_OR_NONE, AGAIN = ((True, True), (False, False)), ((one_by_one, FEW),)
 
 #: Where nothing is found, oscillators are taken so much softer; or values to be off by so many times rounding.
 SOFTER, COARSER = 1 / 8, 1e5
+
+#: Formulas of more terms may be those of several sub-steps, each of which has fewer.
+MANY_TERMS = 10
 
 #: Steps that multiply by more diverge; and nearer than this a step is the true motion.
 HUGE, TRUE = 1e3, 1e-5
@@ -109,7 +112,7 @@ class StepMatrix:
         return [[m11, m12], [m21, m22]]
 
 
-def step_matrix(runs: Runs, precision: Precision = "double", iterates: bool = False) -> StepMatrix:
+def step_matrix(runs: Runs, precision: Precision = "double", iterates: bool = False, parts: int = 1) -> StepMatrix:
     """Found from single steps of many oscillators, with damping and drag where the stepper can do them.
 
     Where that gives nothing, from softer ones, as iterations may converge there only; then to fewer digits, as what is
@@ -117,12 +120,14 @@ def step_matrix(runs: Runs, precision: Precision = "double", iterates: bool = Fa
 
     Args:
         iterates: whether it solves equations by means of its own, which takes long for many unknowns at once.
+        parts: of how many equal sub-steps a step is made, where that is known: formulas are then those of one.
 
     Raises:
         Unsupported: where it can step no such oscillator, or its entries follow no small formula; with the reason.
     """
     try:
-        return _search(runs, precision, product(VARIANTS, AGAIN) if iterates else (*product(VARIANTS, WAYS), LAST))
+        ways = product(VARIANTS, AGAIN) if iterates else (*product(VARIANTS, WAYS), LAST)
+        return _search(runs, precision, ways, parts=parts)
     except NoFormula as error:
         for softer, coarser in ((SOFTER, 1.0), (1.0, COARSER)) if precision == "double" else ():
             try:
@@ -139,7 +144,7 @@ class NoFormula(Unsupported):
 
 
 def _search(
-    runs: Runs, precision: Precision, ways: Iterable[Way], softer: float = 1.0, coarser: float = 1.0
+    runs: Runs, precision: Precision, ways: Iterable[Way], softer: float = 1.0, coarser: float = 1.0, parts: int = 1
 ) -> StepMatrix:
     reason, together, aside = "", set(), ASIDE if precision == "double" else FAR_ASIDE
     last: tuple[Samples, Array, float] | None = None
@@ -160,7 +165,7 @@ def _search(
         size = float(np.abs(measured).max())
         noise = coarser * ROUNDINGS * ROUNDING[precision] * ASIDE / aside * max(1.0, size)
         last = at, measured, noise
-        found = _found(at, measured, noise, damped, dragged) if size < HUGE else None
+        found = _found(at, measured, noise, (damped, dragged), parts) if size < HUGE else None
         if found is not None:
             if np.abs(measured - np.eye(2)).max() <= noise:
                 raise Unsupported("a step changes nothing: the state stays as it is")
@@ -214,13 +219,27 @@ def _lost(at: Samples, measured: Array, noise: float) -> str:
     return ", ".join(f"m{i}{j}" for (i, j), it in zip(product((1, 2), (1, 2)), lost, strict=True) if it)
 
 
-def _found(at: Samples, measured: Array, noise: float, damped: bool, dragged: bool) -> StepMatrix | None:
-    """Of formulas that values follow; else of those that a sub-step follows."""
+def _found(at: Samples, measured: Array, noise: float, seen: tuple[bool, bool], parts: int) -> StepMatrix | None:
+    """Of formulas that values follow, or that a sub-step follows, whichever are shorter; of a sub-step, if it is known.
+
+    Args:
+        seen: whether with damping, and with drag.
+    """
+    if parts > 1:
+        known = of_substeps(at, measured, noise, (parts,), POLYNOMIAL)
+        if known is not None:
+            return StepMatrix(known[1], *seen, at, measured, substeps=parts)
     entries = formulas_of(at, measured, noise)
-    if entries is not None:
-        return StepMatrix(entries, damped, dragged, at, measured)
-    parts = of_substeps(at, measured, noise)
-    return StepMatrix(parts[1], damped, dragged, at, measured, substeps=parts[0]) if parts is not None else None
+    if entries is not None and _terms(entries) <= MANY_TERMS:
+        return StepMatrix(entries, *seen, at, measured)
+    found = of_substeps(at, measured, noise)
+    if found is not None and (entries is None or _terms(found[1]) < _terms(entries)):
+        return StepMatrix(found[1], *seen, at, measured, substeps=found[0])
+    return StepMatrix(entries, *seen, at, measured) if entries is not None else None
+
+
+def _terms(entries: Entries) -> int:
+    return sum(len(entry.numerator) + len(entry.denominator) for entry in entries)
 
 
 def _of_swings(runs: Runs, reason: str) -> StepMatrix:

@@ -111,6 +111,23 @@ def updates_of(recording: Recording) -> Updates:
     return found
 
 
+def first_updates_of(recording: Recording) -> Updates | None:
+    """The formulas of a first step, which may be another method's; None where it has none."""
+    firsts = [row[0] for row in recording.unit]
+    if not firsts or len({len(step.points) for step in firsts}) != 1:
+        return None
+    names = [symbol._replace(age=0) for symbol in _symbols(recording.unit[0][:1])]
+    try:
+        pairs = [
+            (_form(ones[0], twos[0], names), _form(ones[1], twos[1], names))
+            for ones, twos in zip(*map(_pairs, firsts), strict=True)
+        ]
+        parts = tuple(_part(firsts[0], time) for time in firsts[0].times)
+    except Unsupported:
+        return None
+    return Updates(tuple(pairs[:-1]), parts, pairs[-1])
+
+
 def _pairs(step: Step) -> list[tuple[Array, Array]]:
     return [*step.points, step.end]
 
