@@ -15,7 +15,7 @@ from engines.vectors import three
 from reference.state import Array
 from reference.system import MassSpringSystem, Value
 
-#: SAPIEN's defaults: sweeps before the bodies move, and after.
+#: SAPIEN's defaults: sweeps before the bodies move (of TGS sub-steps, each of one sweep), and after.
 SWEEPS, SWEEPS_AFTER = 10, 1
 
 #: Speeds are cut beyond this [m/s]; it is SAPIEN's own 1e16, of whose square PhysX makes no infinity.
@@ -24,29 +24,34 @@ FASTEST = 1e16
 
 @dataclass(frozen=True)
 class PhysxJoints:
-    """Bodies that cannot turn, joined by distance joints, under PhysX's projected Gauss-Seidel solver (PGS).
+    """Bodies that cannot turn, joined by distance joints, under PhysX's projected Gauss-Seidel solver (PGS) or TGS.
 
     Attributes:
-        sweeps: solver_position_iterations.
+        sweeps: solver_position_iterations; of TGS, sub-steps.
+        tgs: whether the solver is temporal Gauss-Seidel.
     """
 
     name: str = "physx_joints"
     sweeps: int = SWEEPS
+    tgs: bool = False
     package: str = "sapien"
     precision: Precision = "single"
     capabilities: frozenset[str] = LINEAR_SPRINGS
 
     @property
     def identified_as(self) -> Mapping[str, str]:
-        """Soft constraints without a warm start, one sub-step a step."""
-        scheme = f"soft_constraints_cold(drag_first=True, substeps=1, sweeps={self.sweeps})"
+        """Soft constraints without a warm start: one sub-step of many sweeps, or many of one."""
+        scheme = f"soft_constraints_cold(drag_first=True, order=newest_first, substeps=1, sweeps={self.sweeps})"
+        if self.tgs:
+            substeps = "" if self.sweeps == SWEEPS else f", substeps={self.sweeps}"
+            scheme = f"temporal_gauss_seidel(damping_as_stiffness=True{substeps})"
         return dict.fromkeys(("plain", "damping", "drag"), scheme)
 
     @property
     def settings(self) -> Mapping[str, object]:
         """What was chosen."""
         return {
-            "enable_tgs": False,
+            "enable_tgs": self.tgs,
             "solver_position_iterations": self.sweeps,
             "solver_velocity_iterations": SWEEPS_AFTER,
             "locked_motion_axes": "rotations",
@@ -56,9 +61,11 @@ class PhysxJoints:
     @property
     def semantics(self) -> str:
         """What its numbers mean."""
+        each = " in each sub-step, and by a sweep more" if self.tgs else ""
+        beside = ", and a little stiffness" if self.tgs else ""
         return (
-            "stiffness is k [N/m] and damping c [N s/m] of each joint's limits, implicit; one mass is stepped by "
-            "backward Euler; drag is linear_damping Cd/m, explicit"
+            f"stiffness is k [N/m] and damping c [N s/m]{beside} of each joint's limits, implicit; one mass is stepped "
+            f"by backward Euler{each}; drag is linear_damping Cd/m, explicit"
         )
 
     def start(self, system: MassSpringSystem, dt: float) -> PhysxSimulation:
@@ -105,7 +112,7 @@ class PhysxSimulation:
     def _begin(self) -> None:
         system, physx = self._system, self._physx
         config = physx.PhysxSceneConfig()
-        config.gravity, config.enable_tgs = three(system.gravity), False
+        config.gravity, config.enable_tgs = three(system.gravity), self._engine.tgs
         physx.set_scene_config(config)
         self._world = physx.PhysxCpuSystem()
         self._world.timestep = self._dt
@@ -154,4 +161,4 @@ class PhysxSimulation:
         self._entities[b].add_component(joint)
 
 
-ENGINES = (PhysxJoints(),)
+ENGINES = (PhysxJoints(), PhysxJoints("physx_joints_tgs", tgs=True))

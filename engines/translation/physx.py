@@ -61,7 +61,7 @@ TRANSLATIONS = (
         "physx",
         "PhysX 5: distance joint, PGS",
         {"stiffness": None, "damping": 0.0},
-        scheme=lambda s: f"soft_constraints_cold(substeps=1, sweeps={s.iterations or 10})",
+        scheme=lambda s: f"soft_constraints_cold(order=newest_first, substeps=1, sweeps={s.iterations or 10})",
         snippet=physx,
         package="sapien",
         iterations=True,

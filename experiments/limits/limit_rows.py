@@ -12,6 +12,7 @@ from experiments.limits.engine_limit import measure_engine
 from experiments.limits.predictions import Predictions, named
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
+from reference.derivation.seen import slopes_of
 from reference.errors import SolverError
 from reference.limit import Limit
 from reference.outcome import Outcome
@@ -19,6 +20,12 @@ from reference.stepper import SchemeStepper, Stepper
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.measured_mode import measured_mode_limit
+
+#: What is said of one that adapts its steps.
+ADAPTS = (
+    "it adapts its steps itself, by a tolerance: in a dt it makes as many as it needs, so that this is no limit of a "
+    "rule, and its error is that tolerance's"
+)
 
 
 @dataclass(frozen=True)
@@ -30,6 +37,7 @@ class Row:
         measured: the same from runs; an engine's with the growth factors of its own step just below and above it.
         outcome: how the measurement ended.
         about: which rest these are of, where the system has obstacles.
+        caveat: what is to be known of the stepper beside its limits.
     """
 
     stepper: str
@@ -39,6 +47,7 @@ class Row:
     measured: Limit
     outcome: str = "done"
     about: str = ""
+    caveat: str = ""
 
     @property
     def relative_difference(self) -> float | None:
@@ -54,8 +63,7 @@ class Row:
         if self.predicted.remark == self.measured.remark:
             reasons = {"predicted and measured": self.predicted.remark}
         told = [f"{word}: {reason}" for word, reason in reasons.items() if reason]
-        if self.about:
-            told.append(self.about)
+        told += [words for words in (self.about, self.caveat) if words]
         return {
             "stepper": self.stepper,
             "damping": float(self.system.damping.max(initial=0.0)),
@@ -93,10 +101,19 @@ def stability_rows_of(
     Raises:
         SolverError: if a system has no equilibrium.
     """
+    caveats = {stepper.name: _caveat(stepper) for stepper in steppers}
     with current().threads() as pool:
         begun = [_AtWork(system, steppers, pool) for system in systems]
         of_schemes = [at_work.rows_of_schemes(tell) for at_work, tell in zip(begun, progress, strict=True)]
-        return [row for at_work, rows in zip(begun, of_schemes, strict=True) for row in at_work.all_rows(rows)]
+        found = [row for at_work, rows in zip(begun, of_schemes, strict=True) for row in at_work.all_rows(rows)]
+        return [replace(row, caveat=caveats[row.stepper]) for row in found]
+
+
+def _caveat(stepper: Stepper) -> str:
+    """Of a user's own stepper that makes more steps of its own, or fewer, by what forces are."""
+    if stepper.kind != "own" or not slopes_of(stepper, []).adapts:
+        return ""
+    return ADAPTS
 
 
 class _AtWork:

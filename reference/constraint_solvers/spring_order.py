@@ -7,6 +7,8 @@ Those of ORDERS are
     colours     springs that share no moving mass are of one colour; colour after colour, each in the order made
     apart       the same, of springs that share no mass at all
     fixed_last  colours of springs between moving masses; then those to fixed ones, the first colour of them last
+    newest_first  colours of springs between moving masses, begun with the last made; then those to fixed ones, the
+                last made first, as PhysX has them
     from_fixed  those nearest to a fixed mass along springs first, as Jolt puts them (up to 128 masses)
     island      as Box2D 2 walks from body to body: the newest first, along the newest joints first
 """
@@ -20,7 +22,7 @@ import numpy as np
 from reference.errors import unknown_name
 from reference.system import BoolArray, IntArray, MassSpringSystem
 
-ORDERS = ("made", "reversed", "colours", "apart", "fixed_last", "from_fixed", "island")
+ORDERS = ("made", "reversed", "colours", "apart", "fixed_last", "newest_first", "from_fixed", "island")
 
 
 def in_order(system: MassSpringSystem, order: str) -> IntArray:
@@ -37,8 +39,12 @@ def in_order(system: MassSpringSystem, order: str) -> IntArray:
         return np.array(_island(system), dtype=np.int64)
     if order == "from_fixed":
         return _from_fixed(system, made)
-    if order == "reversed":
+    if order in ("reversed", "newest_first"):
         made = made[::-1]
+    if order == "newest_first":
+        to_fixed = system.fixed[system.springs[made]].any(axis=1)
+        first = made[~to_fixed]
+        made = np.concatenate([first[np.argsort(_colours(system, first, system.fixed), kind="stable")], made[to_fixed]])
     if order in ("colours", "apart", "fixed_last"):
         held = np.zeros_like(system.fixed) if order == "apart" else system.fixed
         to_fixed = system.fixed[system.springs[made]].any(axis=1) & (order == "fixed_last")

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from engines.engine import Engine, demands, registry, version
-from engines.process.isolation import EngineStepper
+from engines.own.stepper import OwnStepper, own_stepper
+from engines.process.isolation import EngineStepper, in_this_process
 from engines.process.packages import APART
+from experiments.limits import limit_rows
 from experiments.limits.engine_limit import HIDDEN, measure_engine
 from experiments.limits.limit_rows import Row, stability_rows
 from experiments.limits.predictions import Predictions
@@ -139,3 +143,29 @@ def test_a_listing_is_unsupported_with_its_reason() -> None:
     assert row.outcome == "unsupported"
     assert (row.predicted.dt, row.measured.dt) == (None, None)
     assert row.document["reason"]
+
+
+OF_ITS_OWN = """
+def step(f, y, t, dt):
+    n = 64 if {more} else 16
+    for i in range(n):
+        y = y + dt / n * f(y, t + i * dt / n)
+    return y
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "adapts"), [("abs(f(y, t)).max() > 0.01", True), ("True", False), ("dt > 0.001", False)]
+)
+def test_a_step_that_adapts_itself_is_told_beside_its_limit(
+    more: str, adapts: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """More steps of its own where forces are larger; as many whatever they are, or by dt alone: nothing is said.
+
+    Where its limit is, is not what is asked here: it is not measured.
+    """
+    monkeypatch.setattr(limit_rows, "measure_engine", lambda *_: Limit(1.0))
+    (tmp_path / "mine.py").write_text(OF_ITS_OWN.format(more=more), encoding="utf-8")
+    mine = OwnStepper(own_stepper(str(tmp_path / "mine.py")).engine, isolate=in_this_process)
+    (row,) = stability_rows(find("oscillator").system({}), [mine], quiet)
+    assert (limit_rows.ADAPTS in row.document["reason"]) == adapts

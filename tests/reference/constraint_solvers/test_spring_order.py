@@ -17,6 +17,7 @@ BY_HAND = {
     "colours": [0, 2, 4, 1, 3],
     "apart": [0, 2, 4, 1, 3],
     "fixed_last": [1, 3, 2, 4, 0],
+    "newest_first": [4, 2, 3, 1, 0],
     "from_fixed": [0, 1, 2, 3, 4],
     "island": [4, 3, 2, 1, 0],
 }
@@ -40,6 +41,13 @@ def test_of_springs_between_a_mass_and_several_fixed_ones_the_first_is_the_very_
     string = find_scene("string").system({"masses": 4})
     held = replace(string, fixed=np.array([True, False, True, False, False]))
     assert in_order(held, "fixed_last").tolist() == [3, 1, 0, 2]
+
+
+def test_the_newest_springs_begin_the_colours_and_those_to_fixed_masses_end_the_row() -> None:
+    """Of a string held at both ends and in between: only spring 3 has two masses that move."""
+    string = find_scene("string").system({"masses": 5})
+    held = replace(string, fixed=np.array([True, False, True, False, False, True]))
+    assert in_order(held, "newest_first").tolist() == [3, 4, 2, 1, 0]
 
 
 @pytest.mark.parametrize("order", ORDERS)
