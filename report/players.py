@@ -52,12 +52,19 @@ CLOTH_ENGINES = (
     "drake_discrete",
 )
 
-#: Of which packages no two versions are kept, and why.
+#: Of which packages no two versions are kept, and why. `pip download --no-deps --only-binary :all: --python-version
+#: 3.11 PACKAGE==VERSION` says whether there is a wheel.
 NOT_TWO = {
-    "box2d": "one: 2.3.2 has no wheel, and needs SWIG to be built",
-    "box2d-python": "one: 0.1.1 has wheels for Python 3.12 only, where its environment has 3.13",
+    "box2d": "one: 2.3.2 has no wheel for Python 3.11, and needs SWIG to be built",
     "exudyn": "the lab's own version is tested each day",
     "pyPBD": "one: there is no other",
+}
+
+
+#: What is to be known beside the versions of others.
+BESIDE = {
+    "box2d-python": "both by Python 3.12, the only one that both have wheels for",
+    "pybullet": "3.2.5 has no wheel for Python 3.11 and is compiled, 3.2.6 and 3.2.7 have",
 }
 
 
@@ -139,7 +146,8 @@ def versions_table() -> list[list[str]]:
             if change.measure.startswith(("identified", "runs", "4 Hz"))
         ]
         same = "the same scheme in all" if len(kept) > 1 else NOT_TWO[package]
-        rows.append([package, ", ".join(kept) or "-", "; ".join(told) or same])
+        beside = [BESIDE[package]] if package in BESIDE else []
+        rows.append([package, ", ".join(kept) or "-", "; ".join([*(told or [same]), *beside])])
     return rows
 
 

@@ -18,7 +18,7 @@ class Package:
     Attributes:
         version: which is taken.
         module: what is imported of it.
-        python: on which Python, such as "3.13"; None for the lab's own.
+        python: on which Python, such as "3.12"; None for the lab's own.
         beside: what else it needs, as pip is told.
         npm: whether it is a package of npm, for Node; its environment has both, and what is imported of it is Node's.
         start_up: how long importing it and its first step may take [s], apart from what a run may take.
@@ -34,7 +34,7 @@ class Package:
 
 APART: Mapping[str, Package] = {
     "box2d": Package("2.3.10", "Box2D"),
-    "box2d-python": Package("0.1.2", "box2d", python="3.13"),
+    "box2d-python": Package("0.1.2", "box2d", python="3.12"),
     "rapier3d": Package("0.36.1", "rapier3d"),
     "drake": Package("1.51.1", "pydrake"),
     "pyPBD": Package("2.2.2", "pypbd"),

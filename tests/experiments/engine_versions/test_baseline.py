@@ -18,9 +18,11 @@ from tests.experiments.engine_versions.spring_versions import LIMIT, MEASURED, m
 
 #: What the project promised to keep.
 KEPT = {
+    "box2d-python": ["0.1.1", "0.1.2"],
     "mujoco": ["3.2.7", "3.3.7", "3.17.0", "4.0.0"],
     "pybullet": ["3.2.5", "3.2.6", "3.2.7"],
     "pymunk": ["6.8.1", "6.11.1", "7.0.1", "7.3.1"],
+    "sapien": ["3.0.2", "3.0.3"],
 }
 
 
