@@ -7,8 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from engines.engine import Engine
+from engines.engine import Engine, precision
 from reference.scenes import find as find_scene
+from reference.stepper import stepper_named
 from tests.conformance.case import Case
 from tests.conformance.checks import (
     EXACT_SOLVE,
@@ -75,17 +76,25 @@ def test_a_blow_up_is_told_and_is_the_schemes_own(engine: Engine) -> None:
 
     Semi-implicit Euler is stable up to h = 2/w = 0.0101 s here, w being the fastest mode's frequency, and RK4 up to
     sqrt(2) times that. Until a spring is three times its length, the engine must follow its scheme; then both must end
-    as diverged.
+    as diverged. Sweeps that damp swing wildly, and whether a spring has torn by then may be a matter of rounding: of an
+    engine in single precision the scheme has to do so in both.
     """
     require(engine, "2d")
     if on_rods(engine):
         pytest.skip("distance constraints do not stretch: no spring can show that it tore")
     case = Case("too large a step", CASES["plain"].system, 0.02, 200)
-    if expected(engine.identified_as["plain"], case).ending == "done":
-        pytest.skip("its scheme does not blow up at this step")
+    if "done" in [expected(scheme, case).ending for scheme in in_its_precision(engine)]:
+        pytest.skip("its scheme does not blow up at this step, or by rounding only")
     outcome = outcome_of(engine, case)
     assert outcome.ending == "diverged"
     check_follows(engine, case, outcome)
+
+
+def in_its_precision(engine: Engine) -> list[str]:
+    """The scheme it claims to be, and the same in single precision, where the engine is and the scheme can be."""
+    scheme = stepper_named(engine.identified_as["plain"]).scheme
+    single = precision(engine) == "single" and "single" in scheme.parameters
+    return [engine.identified_as["plain"], *([scheme.with_parameters(single=True).name] if single else [])]
 
 
 @pytest.mark.rotating(2)
