@@ -8,7 +8,8 @@ from pathlib import Path
 from tests.report.commands.terminal import springlab
 
 KEYS = ["stepper", "identified_as", "one_step", "explicit", "deterministic", "slope_evaluations", "tableau"]
-KEYS += ["step_matrix", "step_matrix_of", "substeps", "order", "symplectic", "reversible", "stability"]
+KEYS += ["step_matrix", "step_matrix_of", "substeps", "substep_scheme", "nearest", "changes_with_dt"]
+KEYS += ["order", "symplectic", "reversible", "stability"]
 KEYS += ["multistep", "difference_equation", "reason"]
 
 
@@ -22,6 +23,7 @@ def test_the_json_has_exactly_the_promised_form() -> None:
     assert document["step_matrix"][0] == ["1 - a/2", "1 - b/2 - d/2"]
     assert document["stability"] == {"real_axis": 2.0, "imaginary_axis": 0.0}
     assert (document["slope_evaluations"], document["order"], document["explicit"]) == (2, 2, True)
+    assert (document["substep_scheme"], document["nearest"], document["changes_with_dt"]) == (None, None, None)
 
 
 def test_what_cannot_be_told_is_null_with_its_reason(tmp_path: Path) -> None:
