@@ -49,9 +49,14 @@ def equal_parts(whole: Updates, known: Callable[[], Mapping[str, Updates]]) -> E
     calls = len(whole.points)
     for count in range(calls, 1, -1):
         one = _part(whole, count) if calls % count == 0 else None
-        if one is not None and same_updates(repeated(one, count), whole):
+        if one is not None and _kicks_once(one) and same_updates(repeated(one, count), whole):
             return EqualParts(count, one)
     return _of_shared(_merged(whole), known()) if calls > 2 and _ends_with_a_slope(whole) else None
+
+
+def _kicks_once(one: Updates) -> bool:
+    """Whether it takes slopes with weights that add up to h, as a step of h does: else it is one of another length."""
+    return abs(sum(float(c.number) for s, c in one.end[1].items() if s.kind == "q") - 1) <= SAME
 
 
 def _ends_with_a_slope(whole: Updates) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,7 @@ from reference.derivation.equal_parts import equal_parts, repeated
 from reference.derivation.explanation import Explanation, explain
 from reference.derivation.near import known_tableaux, known_updates, name_of_updates, parts_of
 from reference.derivation.of_schemes import updates_of_scheme
-from reference.derivation.updates import Updates, updates_of
+from reference.derivation.updates import Coefficient, Symbol, Updates, updates_of
 from reference.schemes.catalogue import find
 from report.derived import matrix_lines, name_line
 
@@ -128,6 +129,19 @@ def test_two_half_steps_of_heun(tmp_path: Path) -> None:
     assert matrix_lines(found)[-1].endswith("s = h/2: a step of h is 2 of these")
     assert found.limits[1] is not None
     assert found.limits[1][0][1] == pytest.approx(4, abs=1e-6)  # Heun alone: 2
+
+
+def test_two_whole_steps_are_no_halves() -> None:
+    """Euler's step twice, each of h: the mistake of Heun without its half, which is told as that."""
+    one = updates_of_scheme(find("euler"))
+    twice = repeated(replace(one, end=tuple({s: _doubled(s, c) for s, c in form.items()} for form in one.end)), 2)
+    assert twice is not None
+    assert [float(c.number) for s, c in twice.end[1].items() if s.kind == "q"] == [1.0, 1.0]
+    assert equal_parts(twice, known_updates) is None
+
+
+def _doubled(symbol: Symbol, c: Coefficient) -> Coefficient:
+    return c._replace(number=2 * c.number) if symbol.kind in "pq" else c
 
 
 def test_two_steps_of_other_lengths_are_no_halves(tmp_path: Path) -> None:
