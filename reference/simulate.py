@@ -47,19 +47,19 @@ def simulate(
     motion = equations(system)
     state = motion.start
     states = [state]
-    step = step_of(scheme, motion)
+    step = step_of(scheme, motion, steps)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         for i in range(steps):
             for change in pending.get(i, ()):
                 system, state = applied(change, system, state)
                 motion = equations(system)
-                step = step_of(scheme, motion)
+                step = step_of(scheme, motion, steps - i)
             state = projected(system, step(state, dt), (i + 1) * dt)
             states.append(state)
             if system.nonlinear is not None and (left := after_breaking(system, state)) is not system:
                 system = left
                 motion = equations(system)
-                step = step_of(scheme, motion)
+                step = step_of(scheme, motion, steps - i)
             if not (np.isfinite(state.positions).all() and np.isfinite(state.velocities).all()):
                 break
         return motion.trajectory(states)

@@ -25,6 +25,9 @@ from reference.theory.equilibria import Equilibrium, equilibrium_of, spring_equi
 #: Steps of every point's run, for a scheme and for an engine.
 SWEPT_STEPS, ENGINE_STEPS = 2000, 400
 
+#: Fewer points are swept by one thread before loops for many, which take twice as long to compile, are there.
+THREADS_FROM = 32_768
+
 #: Systems swept at once: what fits the processor's caches, and how often progress is told.
 STRIPE = 8192
 
@@ -35,11 +38,12 @@ AtRest = tuple[MassSpringSystem, Array]
 def swept_growth(scheme: Scheme, plane: Plane, points: Sequence[Point], progress: Progress) -> Array:
     """The growth of a scheme per step at every point, by sweeps of systems with equally many masses."""
     growth = np.full(len(points), np.nan)
+    threads = 1 if len(points) < THREADS_FROM else None
     done = 0
     for stripe in _stripes(points):
         chosen = [points[i] for i in stripe]
         dt = np.array([plane.step(point) for point in chosen])
-        growth[stripe] = _growth_of_sweep(scheme, _at_rest(plane, chosen), dt)
+        growth[stripe] = _growth_of_sweep(scheme, _at_rest(plane, chosen), dt, threads)
         done += len(stripe)
         progress(f"{done} of {len(points)} runs")
     return growth
@@ -106,7 +110,7 @@ def _at_rest(plane: Plane, points: Sequence[Point]) -> list[AtRest]:
     return result
 
 
-def _growth_of_sweep(scheme: Scheme, systems: Sequence[AtRest], dt: Array) -> Array:
+def _growth_of_sweep(scheme: Scheme, systems: Sequence[AtRest], dt: Array, threads: int | None) -> Array:
     """All systems perturbed alike, swept, and how each perturbation grew."""
     first = systems[0][0]
     rest = np.array([positions for _, positions in systems])
@@ -115,7 +119,7 @@ def _growth_of_sweep(scheme: Scheme, systems: Sequence[AtRest], dt: Array) -> Ar
     offset[first.fixed] = 0.0
     start = float(np.linalg.norm(offset, axis=1).max())
     varied = _varied([system for system, _ in systems])
-    run = sweep(first, scheme, dt, SWEPT_STEPS, varied, rest + offset, rest, limit=GROWN * start)
+    run = sweep(first, scheme, dt, SWEPT_STEPS, varied, rest + offset, rest, limit=GROWN * start, threads=threads)
     return _growth(run.distances, start)
 
 

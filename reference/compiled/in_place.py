@@ -26,6 +26,7 @@ the bits that the function ends in. Else the function runs as it is written.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -44,8 +45,11 @@ from reference.springs.linear_law import spring_force
 from reference.state import State
 from reference.system import MassSpringSystem
 
-#: From this many masses on, loops are worth being compiled.
+#: From this many masses on, loops are worth being compiled, ...
 COMPILED_FROM = 200
+
+#: ... in runs of at least so many steps of masses (200 masses' 100 steps, say): some of the function take less time.
+LONG_FROM = 20_000
 
 #: What a system gives to `one_acceleration`, by the names of its arguments.
 _SYSTEM = ["springs", "rest_lengths", "stiffness", "damping", "masses", "drag", "gravity", "fixed"]
@@ -72,8 +76,11 @@ class InPlaceLoops:
     texts: tuple[str, ...] = ()
 
 
-def step_of(scheme: Scheme, motion: Equations) -> Step:
+def step_of(scheme: Scheme, motion: Equations, steps: float = math.inf) -> Step:
     """The scheme's step on equations of motion; of an in-place scheme on many masses by its loops, to the same bits.
+
+    Args:
+        steps: how many are to be taken; left out, nobody knows.
 
     Raises:
         Unsupported: where the equations do not have what the scheme needs.
@@ -83,7 +90,9 @@ def step_of(scheme: Scheme, motion: Equations) -> Step:
         return as_written
     system = motion.system
     plain = system.nonlinear is None and system.angular_springs is None and not system.pulls.any()
-    loops = _trusted(scheme) if plain and len(system.masses) >= COMPILED_FROM else None
+    masses = len(system.masses)
+    worth_it = plain and masses >= COMPILED_FROM and masses * steps >= LONG_FROM
+    loops = _trusted(scheme) if worth_it else None
     return as_written if loops is None else _step_by(loops, motion.system)
 
 

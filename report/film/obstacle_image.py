@@ -75,6 +75,8 @@ def obstacle_image(obstacles: Sequence[Obstacle], view: View, window: Window) ->
 def _nearest(obstacles: Sequence[Obstacle], points: Array) -> tuple[Array, Array]:
     """Signed distance from points (..., d) to the nearest obstacle [m], shape (...), and its normal there, (..., d)."""
     distances, normals = zip(*(o.signed_distances(points) for o in obstacles), strict=True)
+    if len(obstacles) == 1:
+        return distances[0][..., 0], normals[0]
     which = np.argmin(np.stack(distances), axis=0)
     nearest = np.take_along_axis(np.stack(distances), which[None], axis=0)[0, ..., 0]
     return nearest, np.take_along_axis(np.stack(normals), which[None], axis=0)[0]
@@ -84,14 +86,17 @@ def _touched(obstacles: Sequence[Obstacle], eye: Array, rays: Array, distance: f
     """Where rays (h, w, 3) come to from the eye [m]: to an obstacle, or far beyond anything that is drawn."""
     towards = rays.reshape(-1, 3)
     points = np.tile(eye, (len(towards), 1))
-    moving = np.arange(len(towards))
+    moving, ends = np.arange(len(towards)), points
     for _ in range(MOVES):
-        signed_distance, _ = _nearest(obstacles, points[moving])
-        points[moving] += np.maximum(signed_distance, 0)[:, None] * towards[moving]
-        near = np.linalg.norm(points[moving] - eye, axis=1) < 3 * distance
-        moving = moving[(signed_distance > TOUCH / 10 * distance) & near]
+        signed_distance, _ = _nearest(obstacles, ends)
+        ends = ends + np.maximum(signed_distance, 0)[:, None] * towards
+        near = np.linalg.norm(ends - eye, axis=1) < 3 * distance
+        goes_on = (signed_distance > TOUCH / 10 * distance) & near
+        points[moving[~goes_on]] = ends[~goes_on]
+        moving, ends, towards = moving[goes_on], ends[goes_on], towards[goes_on]
         if not len(moving):
             break
+    points[moving] = ends
     return points.reshape(rays.shape)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Callable
 
@@ -26,8 +27,9 @@ MESHES = {d: random_mesh(4, 9, d, anchors=2) for d in (2, 3)}
 
 @pytest.fixture
 def for_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Systems of any size have loops."""
+    """Systems of any size have loops, in runs of any length."""
     monkeypatch.setattr(in_place, "COMPILED_FROM", 0)
+    monkeypatch.setattr(in_place, "LONG_FROM", 0)
 
 
 def is_by_loops(scheme: Scheme, system: MassSpringSystem) -> bool:
@@ -53,6 +55,16 @@ def check_same_bits(scheme: Scheme, system: MassSpringSystem) -> None:
     end = simulate(system, scheme, DT, STEPS * DT)
     assert end.positions[-1].tolist() == state.positions.tolist()
     assert end.velocities[-1].tolist() == state.velocities.tolist()
+
+
+def test_short_runs_are_as_written(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two steps of the function take less than compiling its loops, or loading them: a run of two asks for none."""
+    scheme, system = find("euler_in_place"), moving_string(in_place.COMPILED_FROM)
+    shortest = math.ceil(in_place.LONG_FROM / len(system.masses))
+    made = [hasattr(step_of(scheme, SpringMotion(system), steps), "func") for steps in (shortest - 1, shortest)]
+    assert made == [True, False]
+    monkeypatch.setattr(in_place, "_trusted", lambda scheme: pytest.fail("loops are asked for"))
+    assert len(simulate(system, scheme, DT, 2 * DT).times) == 3
 
 
 def test_small_systems_and_other_equations_run_as_written(monkeypatch: pytest.MonkeyPatch) -> None:
