@@ -207,7 +207,7 @@ class Lab:
         """By stepper, for the parameters last answered for."""
         return self._predictor.found
 
-    def wait_for_predictions(self, seconds: float = 10.0) -> None:
+    def wait_for_predictions(self, seconds: float = 600.0) -> None:
         """Until the predictions are those for the parameters there are now, but not longer than that [s]."""
         self._predictor.wait(seconds)
 

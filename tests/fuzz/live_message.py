@@ -21,7 +21,7 @@ from tests.fuzz.doors import Enter
 from tests.soak.guests import CAMERA, Guest
 
 #: How long a page may take for its next frame [s], and how many messages are looked at together.
-PATIENCE, TOGETHER = 9.0, 20
+PATIENCE, TOGETHER = 120.0, 20
 
 #: Parts that are set to what they can have, so that more than the start of a page is seen.
 SOUND: list[tuple[str, list[Any]]] = [

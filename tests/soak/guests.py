@@ -23,7 +23,7 @@ CAMERA: dict[str, Any] = {
 }
 
 #: So long something may take to be seen, on a busy machine [s].
-PATIENCE = 60.0
+PATIENCE = 600.0
 
 #: Where a viewer comes from, unless told otherwise: from the page of the lab itself.
 OWN = "own"

@@ -24,7 +24,7 @@ def test_a_swept_map_changes_colour_at_the_predicted_boundary() -> None:
     """Growth per step is over 1 % beyond 1.02 of the predicted limit and none below 0.98 of it."""
     system_at, dt = system_maker("string", {"masses": "2"})
     x, y = axes_for(("dt", "drag"), {"drag": (0.05, 0.2)}, system_at({}))
-    found = stability_map(SchemeStepper(catalogue.find("rk4")), system_at, dt, x, y, resolution=20)
+    found = stability_map(SchemeStepper(catalogue.find("kick_drift")), system_at, dt, x, y, resolution=20)
     limit = np.interp(found.y_values, found.boundary[:, 1], found.boundary[:, 0])[:, None]
     assert (found.growth[found.x_values > 1.02 * limit] > 0.01).all()
     assert (found.growth[(found.x_values < 0.98 * limit)] < 1e-3).all()

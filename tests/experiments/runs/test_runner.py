@@ -222,11 +222,11 @@ def test_a_task_given_to_the_executor_after_it_was_stopped_is_stopped_too(store:
     class Executor(FakeExecutor):
         def do_one(self, task: Task) -> Any:
             if task.arguments == (0,):
-                looking.wait(10)
+                looking.wait(600)
                 raise StoreError("store: the disk is full")
             looking.set()
             before = len(stops)
-            for _ in range(500):
+            for _ in range(60_000):
                 if len(stops) >= before + 2:
                     raise InterruptedError("stopped")
                 time.sleep(0.01)

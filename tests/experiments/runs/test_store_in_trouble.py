@@ -181,7 +181,7 @@ def test_two_who_write_at_once_lose_nothing(store_file: Path) -> None:
         subprocess.Popen([sys.executable, "-c", WRITER, str(store_file), first, last], env=known, cwd=ROOT)
         for first, last in (("0", "150"), ("100", "250"))
     ]
-    assert [writer.wait(60) for writer in writers] == [0, 0]
+    assert [writer.wait(600) for writer in writers] == [0, 0]
     assert endings(store_file, retired=True) == [(number, "done") for number in range(250)]
     with closing(Store(store_file)) as store:
         assert all(alike(kept(store, n), n if n % 3 else ended("done")) for n in (0, 1, 99, 120, 200, 249))

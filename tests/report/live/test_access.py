@@ -27,7 +27,7 @@ def lab() -> Iterator[LiveServer]:
 
 def status(lab: LiveServer, **headers: str) -> int:
     """What a plain request is answered with."""
-    connection = http.client.HTTPConnection("127.0.0.1", port_of(lab), timeout=30)
+    connection = http.client.HTTPConnection("127.0.0.1", port_of(lab), timeout=600)
     connection.putrequest("GET", "/", skip_host=True)
     for name, value in headers.items():
         connection.putheader(name, value.format(port=port_of(lab)))

@@ -69,7 +69,7 @@ def test_the_last_question_is_answered() -> None:
     system = find_scene("string").system({})
     for stiffness in range(100, 200, 5):
         predictor.ask(["kick_drift"], system.with_parameter("stiffness", stiffness), 1e-3)
-    predictor.wait(10)
+    predictor.wait(600)
     wanted = predict("kick_drift", system.with_parameter("stiffness", 195), 1e-3)
     assert predictor.found["kick_drift"].limit == pytest.approx(wanted.limit, rel=1e-12)
     predictor.end()
