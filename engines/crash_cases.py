@@ -15,7 +15,7 @@ import numpy as np
 
 from engines.engine import modules
 from reference.outcome import Outcome
-from reference.registry import Registry
+from reference.registry import Registry, summary_of
 
 #: How long a case may take before it counts as hanging [s].
 TIME_LIMIT = 5.0
@@ -44,7 +44,7 @@ class CrashCase:
     @property
     def summary(self) -> str:
         """The first line of the function's docstring."""
-        return (self.function.__doc__ or "").splitlines()[0]
+        return summary_of(self.function)
 
 
 _CASES = Registry[CrashCase]("crash case", modules)

@@ -114,6 +114,11 @@ def imported(module: str) -> ModuleType:
         raise InputError(f"plug-in {module}: it cannot be imported: {type(error).__name__}: {error}") from error
 
 
+def summary_of(function: Callable[..., object]) -> str:
+    """The first line of a function's docstring, wherever it begins; empty where there is none."""
+    return (function.__doc__ or "").strip().partition("\n")[0]
+
+
 def origin(module: str) -> str:
     """Where something comes from: the package of a plug-in, empty for the lab's own."""
     package = module.partition(".")[0]

@@ -17,6 +17,7 @@ from reference.changes import Change, changes_by_step
 from reference.line import parameter_in_plane, system_in_plane, trajectory_on_line, value_in_plane
 from reference.obstacles import Circle
 from reference.outcome import Outcome, outcome_of
+from reference.registry import summary_of
 from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 
@@ -195,7 +196,7 @@ class LectureListing:
     @property
     def summary(self) -> str:
         """The first line of the listing's docstring."""
-        return (self.advance.__doc__ or "").splitlines()[0]
+        return summary_of(self.advance)
 
     def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
         """See reference.stepper.Stepper. A string along a line hangs straight down in the plane."""

@@ -18,7 +18,7 @@ from reference.changes import Change, Driven, changes_by_step, whole_steps
 from reference.checked_numbers import check_sizes
 from reference.collisions.round_masses import Collisions
 from reference.errors import InputError, unknown_name
-from reference.registry import Registry, origin, plug_ins
+from reference.registry import Registry, origin, plug_ins, summary_of
 from reference.scenes.parameters import PerItem, chosen, converted
 from reference.springs.bending import with_bending
 from reference.springs.kinds import KINDS, with_kinds
@@ -57,7 +57,7 @@ class Scene:
     @property
     def summary(self) -> str:
         """The first line of the function's docstring."""
-        return (self.build.__doc__ or "").splitlines()[0]
+        return summary_of(self.build)
 
     @property
     def parameters(self) -> Mapping[str, Any]:

@@ -19,7 +19,7 @@ from typing import Any, Literal, TypeVar, cast, get_type_hints
 import reference.schemes
 from reference.errors import InputError, Unsupported, unknown_name
 from reference.motion import EveryMotion, Motion, MotionByMass, MotionOfRods, MotionOfSprings
-from reference.registry import Registry, origin, plug_ins
+from reference.registry import Registry, origin, plug_ins, summary_of
 from reference.state import State
 
 #: How a scheme stands to the theory: right; used by an engine; of those, a solver of constraints with parameters;
@@ -96,7 +96,7 @@ class Scheme:
     @property
     def summary(self) -> str:
         """The first line of the function's docstring."""
-        return (self.step.__doc__ or "").strip().splitlines()[0]
+        return summary_of(self.step)
 
     @cached_property
     def needs(self) -> Needs:

@@ -124,6 +124,24 @@ def test_what_makes_no_sense_is_told(words: tuple[str, ...], why: str) -> None:
     assert why in said.err
 
 
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf, -1.0])
+def test_times_that_are_no_finite_number_are_refused(wrong: float) -> None:
+    """Each number of a drive but those that may be below zero; and a ramp that ends as it begins, a sine of 0 Hz."""
+    drives = [
+        lambda: Ramp("damping", wrong, 0.3, 1.0),
+        lambda: Ramp("damping", 0.0, wrong, 1.0),
+        lambda: Sine("drag", wrong, 1.0, 5.0),
+        lambda: Sine("drag", 0.0, 1.0, wrong),
+        lambda: Ramp("damping", 0.3, 0.3, 1.0),
+        lambda: Sine("drag", 0.0, 1.0, 0.0),
+        *([] if np.isfinite(wrong) else [lambda: Sine("drag", 0.0, wrong, 5.0)]),
+    ]
+    for drive in drives:
+        with pytest.raises(InputError, match="expected"):
+            drive()
+    assert Ramp("damping", 0.0, 0.3, -1.0).begin == Sine("drag", 0.0, -1.0, 5.0).begin == 0.0
+
+
 def test_files_have_them_too(tmp_path: Path) -> None:
     """The same numbers as the command line's."""
     file = tmp_path / "own.toml"

@@ -9,7 +9,7 @@ from types import ModuleType
 import pytest
 
 from reference.errors import InputError
-from reference.registry import Registry
+from reference.registry import Registry, summary_of
 
 
 @pytest.fixture
@@ -79,3 +79,23 @@ def test_what_is_entered_on_trial_is_gone_afterwards(files: list[str]) -> None:
     assert dict(found.all()) == before
     with pytest.raises(TypeError):
         found.all()["white"] = 9  # type: ignore[index]
+
+
+@pytest.mark.parametrize(
+    ("docstring", "summary"),
+    [
+        ("Falls.", "Falls."),
+        ("Falls.\n\n    Then it stops.\n    ", "Falls."),
+        ("\n    Falls.\n\n    Then it stops.\n    ", "Falls."),
+        ("", ""),
+        (None, ""),
+    ],
+)
+def test_what_is_listed_of_a_function_is_its_first_line(docstring: str | None, summary: str) -> None:
+    """Also where a plug-in's begins on the next line, or is not there."""
+
+    def function() -> None:
+        pass
+
+    function.__doc__ = docstring
+    assert summary_of(function) == summary

@@ -105,7 +105,7 @@ def compiler() -> str:
 
 
 @lru_cache(maxsize=256)
-def compiled(exercise: int, source: str, exposed: bool = False) -> Compiled:
+def compiled(exercise: int, source: str, exposed: bool) -> Compiled:
     """A C submission, compiled; kept for the checks that follow.
 
     Args:

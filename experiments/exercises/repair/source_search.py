@@ -127,8 +127,7 @@ class Search:
             wrong = [q for q in self._questions if names is None or self._share(names, q, 10**6) < 1.0]
         if not wrong:
             return {"repairs": [], "tried": 0, "singles_done": True, "pairs_done": True}
-        wrong.sort(key=_size)
-        asked = [wrong[0], *wrong[1:-1][len(wrong) // 2 - 1 :][:1], *wrong[1:][-1:]]
+        asked = _few_of(wrong)
         base = self.nearness(names, asked) if names is not None else None
         self._least = self._share(names, asked[0], 1) - 1e-12 if names is not None else 0.0
         self._mattering = [i for i, e in enumerate(self.edits) if names is None or self._program.can_matter(e, reached)]
@@ -188,6 +187,12 @@ def fields_given(questions: Sequence[Question]) -> dict[str, list[str]]:
         for question in questions
         if question["arguments"] and isinstance(question["arguments"][-1], Mapping)
     }
+
+
+def _few_of(questions: Sequence[Question]) -> list[Question]:
+    """The smallest, one of the middle and the largest: a change is tried on these first, the quickest before all."""
+    in_order = sorted(questions, key=_size)
+    return [in_order[i] for i in sorted({0, len(questions) // 2, len(questions) - 1})]
 
 
 def _size(question: Question) -> int:

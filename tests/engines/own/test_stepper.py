@@ -185,6 +185,28 @@ def test_what_a_step_should_not_do_is_told(text: str, word: str | None, tmp_path
 
 
 @pytest.mark.parametrize(
+    ("form", "written"),
+    [
+        ("f, y, t, dt", "y"),
+        ("a, x, v, dt", "x"),
+        ("a, x, v, dt", "v"),
+        ("x, v, dt, system", "x"),
+        ("x, v, dt, system", "v"),
+        ("x, v, dt, string", "x"),
+        ("x, v, dt, string", "v"),
+    ],
+)
+def test_who_writes_into_what_it_is_given_is_told_in_every_form(form: str, written: str, tmp_path: Path) -> None:
+    """Each array that a form has: what is written into is a copy, so that it can be told and no state is another."""
+    end = "y" if written == "y" else "(x, v)"
+    text = f"def step({form}):\n    {written}[...] += 1.0\n    return {end}\n"
+    assert here(tmp_path / "mine.py", text).remarks() == (
+        "mine.py changes the arrays it is given: it was given copies",
+    )
+    assert here(tmp_path / "mine.py", text.replace("+=", "==")).remarks() == ()
+
+
+@pytest.mark.parametrize(
     ("text", "word", "said"),
     [
         ("x = 1\n", "", "expected a function step, it has none"),

@@ -11,6 +11,7 @@ import pytest
 from experiments.exercises.e10_bridge.exercise import heaviest
 from experiments.exercises.exercise import Exercise, exercises, find
 from experiments.exercises.solutions.links import random_string
+from experiments.exercises.solutions.on_strings import crumpled_string, wild_string
 from tests.reference.systems import label
 
 
@@ -40,6 +41,42 @@ def test_random_strings_are_stretched_and_pushed_together_in_all_downward_direct
     assert (steps[:, 1] < 0).all()
     assert (steps[:, 0] < 0).any()
     assert (steps[:, 0] > 0).any()
+
+
+def test_wild_strings_have_all_that_a_law_must_hold_for() -> None:
+    """As their docstring says, whatever the key: lengths, pulls, quarters and speeds, a mass heavier than it was drawn.
+
+    Springs pull or push by k |l - l0| [N]; speeds are no more than a hundred metres a second and a fifth.
+    """
+    for seed in range(20):
+        positions, velocities, string = wild_string(np.random.default_rng(seed))
+        steps = np.diff(positions, axis=0, prepend=string["anchor"][None])
+        lengths = np.linalg.norm(steps, axis=1)
+        ratios = lengths / string["rest_lengths"]
+        pulls = string["stiffness"] * (lengths - string["rest_lengths"])
+        speeds = np.linalg.norm(velocities, axis=1)
+        assert (ratios.max() < 5, ratios.min() > 0.2) == (True, True)
+        assert ((ratios > 3.9).sum(), (ratios < 1 / 3).sum()) == (1, 1)
+        assert (1e3 < pulls.max() < 2e4, np.sort(pulls)[-2] < 1e2) == (True, True)
+        assert (0.3 < speeds.min() < 1, 80 <= speeds.max() <= 120, (speeds > 30).sum()) == (True, True, 2)
+        for vectors in (steps, velocities):
+            assert {(x > 0, y > 0) for x, y in vectors.tolist()} == {
+                (a, b) for a in (True, False) for b in (True, False)
+            }
+        assert (string["masses"] >= 0.05).all()
+        assert (string["masses"] <= 0.3).all()
+
+
+def test_crumpled_strings_are_crumpled() -> None:
+    """The first mass half a millimetre from its anchor, the second 6 to 13 cm from that, above it."""
+    for seed in range(20):
+        positions, _, string = crumpled_string(np.random.default_rng(seed))
+        steps = np.diff(positions, axis=0, prepend=string["anchor"][None])
+        near, far = np.linalg.norm(steps, axis=1)
+        assert near == pytest.approx(5e-4, rel=1e-9)
+        assert 0.06 * 2**0.5 <= far <= 0.09 * 2**0.5
+        assert steps[1, 1] > 0
+        assert string["drag"] == 0.0
 
 
 @pytest.mark.parametrize("hidden", [False, True])

@@ -104,7 +104,7 @@ def test_starters_compile_and_are_not_written_yet(tmp_path: Path) -> None:
         submission = read(own, own.name)
         assert (submission.exercise.number, submission.language) == (number, "c")
         assert judge(exercise, submission.source, language="c").name == "not_written_yet"
-        compiled(number, submission.source)
+        compiled(number, submission.source, False)
 
 
 def test_a_comment_that_nobody_closed_is_what_the_compiler_says() -> None:
@@ -139,7 +139,9 @@ def test_a_compiler_opens_nothing_of_the_teachers(tmp_path: Path) -> None:
     for way in ways:
         with pytest.raises(DoesNotCompileError) as refused:
             compiled(
-                1, f"{start}{way}void step(double *y, double *v, double dt, const struct spring *s) {{ *y = 0; }}\n"
+                1,
+                f"{start}{way}void step(double *y, double *v, double dt, const struct spring *s) {{ *y = 0; }}\n",
+                False,
             )
         assert "sesame" not in str(refused.value)
 
@@ -161,7 +163,7 @@ def test_without_a_compiler_nothing_is_graded(monkeypatch: pytest.MonkeyPatch) -
     """That is not the student's fault, and it says what is needed."""
     monkeypatch.setattr(compiler, "compiler_found", lambda: None)
     with pytest.raises(NotGradedError, match="gcc"):
-        compiled(1, "int other_than_before;")
+        compiled(1, "int other_than_before;", False)
 
 
 #: A right step of exercise 1 in C, up to its last line.

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import errno
+import mmap
+import os
 import platform
 import re
+import signal
 import struct
 import sys
 from pathlib import Path
@@ -22,9 +26,13 @@ from experiments.exercises.process.allowed_calls import (
     LOAD,
     MACHINES,
     MISSING,
+    NOT_READING,
     PLAIN,
+    PROT_EXEC,
     REFUSE,
     SIGNAL_THREAD,
+    SIGNALS,
+    THREADS,
     filter_of,
     program,
 )
@@ -113,6 +121,53 @@ def test_numbers_are_those_of_the_kernels_own_tables(machine: str) -> None:
     for name, both in {**known, "tgkill": SIGNAL_THREAD, "clone3": (CLONE3, CLONE3)}.items():
         generic = {"newfstatat": "fstatat"}.get(name, name) if machine == "aarch64" else name
         assert both[which] == numbers.get(name, numbers.get(generic)), name
+
+
+#: The flags of a thread (man 2 clone), which Python has no names for: VM, FS, FILES, SIGHAND, THREAD, SYSVSEM, SETTLS,
+#: PARENT_SETTID and CHILD_CLEARTID; and DETACHED, which musl sets besides.
+CLONE = (0x100, 0x200, 0x400, 0x800, 1 << 16, 1 << 18, 1 << 19, 1 << 20, 1 << 21)
+DETACHED = 1 << 22
+
+#: What memory may be advised, of the kernel's newer advice (include/uapi/asm-generic/mman-common.h).
+MADV_COLLAPSE = 25
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Python has Linux's numbers on Linux")
+def test_numbers_of_arguments_are_those_that_python_knows() -> None:
+    """Flags, signals and errors by their names, as the C library of this machine has them."""
+    import fcntl
+    import termios
+
+    among = {name: set(condition.among) for name, (_, condition) in CHECKED.items()}
+    duplicate, read, write, flags = fcntl.F_DUPFD, fcntl.F_GETFD, fcntl.F_SETFD, fcntl.F_GETFL
+    assert among["fcntl"] == {duplicate, read, write, flags, fcntl.F_DUPFD_CLOEXEC}
+    assert among["ioctl"] == {termios.TCGETS, termios.TIOCGWINSZ, termios.FIONCLEX, termios.FIOCLEX}
+    advice = {getattr(mmap, f"MADV_{name}") for name in ("WILLNEED", "DONTNEED", "FREE", "HUGEPAGE", "NOHUGEPAGE")}
+    assert among["madvise"] == {*advice, MADV_COLLAPSE}
+    assert among["clone"] == set(THREADS) == {sum(CLONE), sum(CLONE) | DETACHED}
+    writing = ("WRONLY", "RDWR", "CREAT", "TRUNC", "APPEND", "ASYNC")
+    flags = sum(getattr(os, f"O_{name}") for name in writing) | os.O_TMPFILE & ~os.O_DIRECTORY
+    assert flags == NOT_READING
+    assert mmap.PROT_EXEC == PROT_EXEC
+    handled = ("INT", "ILL", "ABRT", "FPE", "USR1", "SEGV", "USR2", "ALRM", "TERM")
+    assert [getattr(signal, f"SIG{name}") for name in handled] == list(SIGNALS)
+    assert (0x50000 | errno.EPERM, 0x50000 | errno.ENOSYS) == (REFUSE, MISSING)
+
+
+@pytest.mark.parametrize("machine", MACHINES)
+def test_what_may_be_among_numbers_may_be_no_other(machine: str) -> None:
+    """Each condition by the filter itself: its values are let through, their neighbours and other bits are not."""
+    which = MACHINES[machine][0]
+    for name, (numbers, condition) in CHECKED.items():
+        call = numbers[which]
+        if call is None or not condition.among:
+            continue
+        near = {value + by for value in condition.among for by in (-1, 0, 1)} - {-1}
+        for value in sorted(near):
+            arguments = [*[0] * condition.argument, value]
+            assert answer(machine, call, *arguments) == (ALLOW if value in condition.among else REFUSE), (name, value)
+            beyond = answer(machine, call, *arguments[:-1], value | 1 << 40)
+            assert beyond == (ALLOW if value in condition.among and not condition.whole else REFUSE), (name, value)
 
 
 @pytest.mark.skipif(sys.platform != "linux" or platform.machine() != "x86_64", reason="by the calls of x86-64")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from experiments.exercises.repair.program import Program
-from experiments.exercises.repair.source_search import Search
+from experiments.exercises.repair.source_search import Search, _few_of
 
 #: Doubled, and added up.
 QUESTION = {
@@ -63,3 +63,20 @@ def test_a_program_comes_as_near_as_its_share_of_right_numbers(
     search = Search([], Program(ast.parse("")), [QUESTION], np.copy, lambda a, b: not np.array_equal(a, b))
     found = search.nearness({"step": program}, [QUESTION])
     assert found == (right, pytest.approx(share, rel=1e-6))
+
+
+@pytest.mark.parametrize(
+    ("sizes", "asked"),
+    [
+        ([7], [7]),
+        ([7, 2], [2, 7]),
+        ([7, 2, 4], [2, 4, 7]),
+        ([7, 2, 9, 4], [2, 7, 9]),
+        ([7, 2, 9, 4, 1, 3], [1, 4, 9]),
+    ],
+)
+def test_changes_are_tried_on_a_small_question_first(sizes: list[int], asked: list[int]) -> None:
+    """Then on one of the middle, and on the largest; each once, counted by all numbers in arguments and fields."""
+    questions = [{"arguments": [np.zeros(size - 1), {"field": 1.0}]} for size in sizes]
+    found = _few_of(questions)
+    assert [question["arguments"][0].size + 1 for question in found] == asked
