@@ -73,6 +73,7 @@ function showLanes() {
     if (lab.lanes.length > 1) item.append(element("button", {type: "button", "aria-label": say("remove_lane", {k: k + 1}), onclick: () => setLanes(lab.lanes.filter((_, q) => q !== k).map(one => one.scheme))}, "×"));
     return item;
   }));
+  $("solving").hidden = !lab.lanes.some(({scheme}) => (schemes[scheme] || {}).implicit);
   const refused = Object.values(lab.scene.engines || {}).filter(Boolean);
   $("engines-refused").textContent = refused.length ? `${refused.join("; ")}.` : "";
   $("add").disabled = lab.lanes.length >= 4;
