@@ -51,7 +51,8 @@ def bends_and_torques(springs: AngularSprings | None, positions: Array) -> tuple
 
 def energy_of_bends(springs: AngularSprings, positions: Array) -> Array:
     """In every angular spring [J], shape (..., k)."""
-    return np.asarray(springs.stiffness * bends(springs, positions) ** 2 / 2)
+    energy: Array = springs.stiffness * bends(springs, positions) ** 2 / 2
+    return energy
 
 
 def forces_on_masses(springs: AngularSprings, positions: Array) -> Array:

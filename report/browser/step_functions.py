@@ -18,7 +18,7 @@ from reference import assembly
 from reference.assembly import Blocks, damping_blocks, spring_blocks
 from reference.errors import InputError, SolverError, Unsupported
 from reference.schemes.catalogue import Scheme
-from reference.springs.angular_law import derivatives, forces_on_masses
+from reference.springs.angular_law import derivatives, energy_of_bends, forces_on_masses
 from reference.state import Slope, State
 from reference.theory.step_coefficients import coefficients
 from report.browser.array_functions import ArrayFunctions
@@ -84,6 +84,7 @@ def _of_springs() -> tuple[str, ...]:
         f"const spring_blocks = {{{blocks}}};",
         f"const damping_block = {_by_dimension({d: _damping_block(d) for d in DIMENSIONS})};",
         f"const bending_forces = {_by_dimension({d: _bending(forces_on_masses, d) for d in BENDING})};",
+        f"const bending_energy = {_by_dimension({d: _bending(energy_of_bends, d) for d in BENDING})};",
         f"const bending_derivatives = {_by_dimension({d: _bending(derivatives, d) for d in BENDING})};",
     )
 

@@ -27,7 +27,7 @@ MOST_MASSES = 2_500
 KNOWN = frozenset(
     {
         *("positions", "springs", "masses", "rest_lengths", "stiffness", "damping", "drag", "gravity"),
-        *("velocities", "fixed", "obstacles", "nonlinear"),
+        *("velocities", "fixed", "obstacles", "nonlinear", "angular_springs"),
     }
 )
 
@@ -35,7 +35,6 @@ KNOWN = frozenset(
 _WORDS = {
     "collisions": "masses that collide",
     "pulls": "forces that pull on masses",
-    "angular_springs": "springs that resist bending",
 }
 
 
@@ -59,6 +58,7 @@ def system_data(system: MassSpringSystem) -> dict[str, Any]:
         "stiffness": _compact(system.stiffness),
         "damping": _compact(system.damping),
         **_kinds(system),
+        **_bending(system),
         "drag": system.drag,
         "gravity": system.gravity.tolist(),
         "fixed": np.flatnonzero(system.fixed).tolist(),
@@ -73,6 +73,15 @@ def _kinds(system: MassSpringSystem) -> dict[str, Any]:
         return {}
     values = {name: getattr(law, name).astype(float).tolist() for name in law.asked}
     return {"nonlinear": {name: [v if np.isfinite(v) else None for v in row] for name, row in values.items()}}
+
+
+def _bending(system: MassSpringSystem) -> dict[str, Any]:
+    """What resists bending, where anything does: three masses of each, stiffness and rest angle."""
+    angular = system.angular_springs
+    if angular is None:
+        return {}
+    numbers = {name: getattr(angular, name).tolist() for name in ("stiffness", "rest_angles")}
+    return {"angular": {"masses": angular.masses.ravel().tolist(), **numbers}}
 
 
 def refuse_beyond(system: MassSpringSystem) -> None:

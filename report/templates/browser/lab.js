@@ -185,11 +185,11 @@ function rewind(k) {
 // The limits of all lanes as things are set: asked of a worker, so that the page goes on meanwhile.
 let worker = null, asked = 0;
 function askLimits() {
-  const {memory} = lab.lanes[0].world, {F, I, at} = memory;
+  const {memory} = lab.lanes[0].world, {F, I, at, angular} = memory;
   const names = [...new Set(lab.lanes.map(lane => lane.recording ? lane.recording.scheme : lane.scheme).filter(name => schemes[name]))];
   lab.limits = {};
   if (!lab.scene.rest.length) return limitsCame();
-  const question = {id: ++asked, memory: {F: F.slice(), I: I.slice(), at}, system: {obstacles: lab.scene.system.obstacles}, rest: lab.scene.rest, contacts: lab.scene.contacts, alone: lab.scene.alone, names};
+  const question = {id: ++asked, memory: {F: F.slice(), I: I.slice(), at, angular}, system: {obstacles: lab.scene.system.obstacles}, rest: lab.scene.rest, contacts: lab.scene.contacts, alone: lab.scene.alone, names};
   if (!worker) {
     const code = document.getElementById("physics").textContent + "\nonmessage = ({data}) => postMessage(answerLimits(data));";
     worker = new Worker(URL.createObjectURL(new Blob([code], {type: "text/javascript"})));

@@ -32,7 +32,7 @@ function memoryOf(system) {
   for (const name of ["rest_lengths", "stiffness", "damping", "none", ...Object.keys(KINDS)]) room(name, s);
   room("sign", 2 * s); room("forces", Math.max(n, s) * d); room("gravity", d); room("drag", 1); room("room", ROOMS * n * d);
   list("springs", 2 * s); list("first", n + 1); list("spring", 2 * s); list("fixed", n); list("broken", s);
-  const F = new Float64Array(doubles), I = new Int32Array(whole), memory = {F, I, at};
+  const F = new Float64Array(doubles), I = new Int32Array(whole), memory = {F, I, at, angular: angularOf(system)};
   F.set(spread(system.positions, n * d), at.x); F.set(spread(system.velocities, n * d), at.v);
   F.set(spread(system.masses, n), at.masses);
   for (const name of ["rest_lengths", "stiffness", "damping"]) F.set(spread(system[name], s), at[name]);
@@ -44,6 +44,9 @@ function memoryOf(system) {
   derive(memory);
   return memory;
 }
+
+// What resists bending, or null: three masses of each, stiffness [N m/rad] and rest angle [rad].
+const angularOf = ({angular}) => angular ? {masses: Int32Array.from(angular.masses), stiffness: Float64Array.from(angular.stiffness), rest_angles: Float64Array.from(angular.rest_angles)} : null;
 
 // Which springs each mass feels, in the springs' order; the sign is + where it is the spring's first mass.
 function springsOfMasses({F, I, at}) {
@@ -82,13 +85,25 @@ function setParameter(memory, name, value) {
 }
 
 // Springs that are gone for good, and those that were before: no parameter brings one back.
-function breakSprings({F, I, at}, springs) {
+function breakSprings({F, I, at, angular}, springs) {
   for (const j of springs) I[at.broken + j] = 1;
   for (let j = 0; j < at.s; j++) {
     if (!I[at.broken + j]) continue;
     F[at.stiffness + j] = F[at.damping + j] = 0;
     for (const [name, none] of Object.entries(KINDS)) F[at[name] + j] = none;
   }
+  if (angular && springs.length) partArms({I, at, angular});
+}
+
+// What bends between springs has no stiffness once all that joined the masses of an arm are broken.
+function partArms({I, at, angular}) {
+  const left = new Set(), gone = new Set(), key = (i, j) => at.n * Math.min(i, j) + Math.max(i, j);
+  for (let j = 0; j < at.s; j++) (I[at.broken + j] ? gone : left).add(key(I[at.springs + 2 * j], I[at.springs + 2 * j + 1]));
+  const parted = (i, j) => gone.has(key(i, j)) && !left.has(key(i, j));
+  angular.stiffness.forEach((_, k) => {
+    const [a, b, c] = angular.masses.subarray(3 * k, 3 * k + 3);
+    if (parted(a, b) || parted(b, c)) angular.stiffness[k] = 0;
+  });
 }
 
 // The springs that break as they are: stretched too far, or pulling with too much force, their dampers' part included.
@@ -136,6 +151,7 @@ function energies({memory, start}) {
   }
   const lengths = lengthsOf(memory);
   for (let j = 0; j < s; j++) elastic += energyOf(memory, j, lengths[j] - F[rest_lengths + j]);
+  elastic += bentEnergy(memory, F.subarray(x, x + n * d));
   return {kinetic, elastic, potential, total: kinetic + elastic + potential};
 }
 

@@ -75,7 +75,7 @@ class LinearMotion {
           made.data[d * a + axis] += force; made.data[d * b + axis] -= force;
         }
       }
-      if (angular) addBending(angular, blocks.angles.data, d, q, (i, axis, force) => { made.data[d * i + axis] += force; });
+      if (angular && blocks.angles.data.length > 1) addBending(angular, blocks.angles.data, d, q, (i, axis, force) => { made.data[d * i + axis] += force; });
     };
     pull(byPosition, state.positions.data);
     pull(damping ? byVelocity : Blocks.of_masses(system, system.drag), state.velocities.data);
@@ -133,16 +133,33 @@ function assembled(system, blocks) {
   };
 }
 
-// What springs that bend add to the accelerations of masses.
-function bend({F, I, at, angular}, x, out) {
-  const {n, d} = at, forces = new Float64Array(n * d), one = new Float64Array(3 * d);
+// The forces of springs that bend on all masses, with masses at x.
+function bendingForces({F, at: {n, d}, angular}, x) {
+  const forces = new Float64Array(n * d), one = new Float64Array(3 * d);
   for (let k = 0; k < angular.stiffness.length; k++) {
     if (!(angular.stiffness[k] > 0)) continue;
     const three = angular.masses.subarray(3 * k, 3 * k + 3);
     bending_forces[d](F, placesOf(three, d, x), angular.stiffness[k], angular.rest_angles[k], one, 0);
     three.forEach((i, which) => { for (let axis = 0; axis < d; axis++) forces[d * i + axis] += one[d * which + axis]; });
   }
-  for (let i = 0; i < n; i++) if (!I[at.fixed + i]) for (let e = d * i; e < d * (i + 1); e++) out[e] += forces[e] / F[at.masses + i];
+  return forces;
+}
+
+// What they add to the accelerations of masses.
+function bend(memory, x, out) {
+  const {F, I, at} = memory, {n, d} = at, forces = bendingForces(memory, x);
+  for (let i = 0; i < n; i++) for (let e = d * i; e < d * (i + 1); e++) out[e] += I[at.fixed + i] ? 0 : forces[e] / F[at.masses + i];
+}
+
+// Their energy [J].
+function bentEnergy({F, at: {d}, angular}, x) {
+  const one = new Float64Array(1);
+  let sum = 0;
+  for (let k = 0; angular && k < angular.stiffness.length; k++) {
+    bending_energy[d](F, placesOf(angular.masses.subarray(3 * k, 3 * k + 3), d, x), angular.stiffness[k], angular.rest_angles[k], one, 0);
+    sum += one[0];
+  }
+  return sum;
 }
 
 const placesOf = (masses, d, x) => Array.from(masses).flatMap(i => Array.from(x.subarray(d * i, d * (i + 1))));

@@ -30,6 +30,7 @@ function linearise(memory, rest, contacts = []) {
   Object.assign(linear, {root, free});
   linear.damped = slowed.some(value => value > 0);
   linear.drag = F[at.drag];
+  if (memory.angular) linear.angles = bendingDerivatives(memory.angular, d, Float64Array.from(rest)).data;
   return linear;
 }
 
@@ -55,7 +56,7 @@ function alongSurfaces({memory: {I, at}, contacts}, moves) {
 }
 
 // The force against small moves: K q (along, across) or C q (slowed along, the drag besides), written to `out`.
-function resist({memory: {I, F, at}, unit}, along, across, drag, q, out) {
+function resist({memory: {I, F, at, angular}, unit, angles}, along, across, drag, q, out) {
   const {s, d} = at;
   for (let e = 0; e < out.length; e++) out[e] = drag * q[e];
   for (let j = 0; j < s; j++) {
@@ -68,6 +69,7 @@ function resist({memory: {I, F, at}, unit}, along, across, drag, q, out) {
       out[d * a + axis] -= force; out[d * b + axis] += force;
     }
   }
+  if (angles && across) addBending(angular, angles, d, q, (i, axis, force) => { out[d * i + axis] -= force; });
   return out;
 }
 
@@ -119,7 +121,7 @@ function equilibrium(memory, guess, contacts = []) {
   let x = Float64Array.from(guess);
   const largest = Math.max(...carried.map(Math.abs), ...Array.from({length: s}, (_, j) => F[at.stiffness + j] * F[at.rest_lengths + j] * 1e-6), 1e-300);
   const energyAt = y => {
-    let sum = 0;
+    let sum = bentEnergy(memory, y);
     for (let e = 0; e < size; e++) sum -= carried[e] * y[e];
     for (let j = 0; j < s; j++) {
       const a = I[at.springs + 2 * j], b = I[at.springs + 2 * j + 1];
@@ -141,6 +143,7 @@ function equilibrium(memory, guess, contacts = []) {
         force[d * a + axis] += pull; force[d * b + axis] -= pull;
       }
     }
+    if (memory.angular) bendingForces(memory, x).forEach((value, e) => { force[e] += value; });
     alongSurfaces(linear, force);
     off = Math.max(...force.map(Math.abs), 0);
     if (off <= 1e-11 * largest) break;

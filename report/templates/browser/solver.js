@@ -17,7 +17,7 @@ function solveVelocities(system, blocks, right) {
 function matrixOf(system, blocks) {
   const {dimension: d, masses, fixed, springs, angular} = system;
   const weights = Float64Array.from(masses.data, (mass, i) => mass + blocks.masses.data[i]);
-  return {d, n: weights.length, fixed: fixed.data, springs: springs.data, weights, blocks: blocks.springs.data, system, bends: Boolean(angular), angular, angles: blocks.angles.data};
+  return {d, n: weights.length, fixed: fixed.data, springs: springs.data, weights, blocks: blocks.springs.data, system, bends: angular && blocks.angles.data.length > 1, angular, angles: blocks.angles.data};
 }
 
 // A v, for fixed masses without springs.

@@ -20,6 +20,7 @@ function startWorld(system, scheme, dt, changes = [], drives = []) {
   const {kinetic, elastic} = energies(world);
   world.given = kinetic + elastic;
   for (let j = 0; j < system.s; j++) world.given += energyOf(memory, j, world.natural[j] < Infinity ? world.natural[j] : F[at.rest_lengths + j]);
+  if (memory.angular) for (const stiffness of memory.angular.stiffness) world.given += stiffness / 2;  // bent by 1 rad
   world.changes = changes.slice().sort((a, b) => a.time - b.time);
   return world;
 }
@@ -140,7 +141,7 @@ function blowUp(world) {
   }
   if (isNear(world, kinetic)) return flown;
   const lengths = lengthsOf(memory);
-  let energy = kinetic;
+  let energy = kinetic + bentEnergy(memory, F.subarray(x, x + n * d));
   for (let j = 0; j < s; j++) {
     if (lengths[j] > RATIO * natural[j]) return {what: "spring", which: j};
     if (!breaks[j]) energy += energyOf(memory, j, lengths[j] - F[rest_lengths + j]);
@@ -163,7 +164,8 @@ function isNear({memory, natural, breaks, given}, kinetic) {
       if (!breaks[j]) memory.most.energy += Math.max(energyOf(memory, j, most), energyOf(memory, j, -rest));
     }
   }
-  const {squares, energy} = memory.most;
+  const bent = memory.angular ? memory.angular.stiffness.reduce((sum, value) => sum + value, 0) * Math.PI ** 2 / 2 : 0;  // at most by half a turn
+  const {squares, energy: most} = memory.most, energy = most + bent;
   if (!(2 * (kinetic + energy) < RATIO * RATIO * given)) return false;
   for (let j = 0; j < s; j++) {
     const a = x + d * I[springs + 2 * j], b = x + d * I[springs + 2 * j + 1];

@@ -24,14 +24,14 @@ def test_a_scene_of_one_s_own_is_written(tmp_path: Path) -> None:
     assert "http" not in text.replace("http-equiv", "")
 
 
-#: Springs that resist bending, which the page cannot do.
-BENT = 'scene = "string"\n[parameters]\nangular_stiffness = 0.1\n'
+#: Masses that collide, which the page cannot do.
+ROUND = 'scene = "string"\n[parameters]\nradii = 0.01\n'
 
 
 @pytest.mark.parametrize(("scene", "said"), [("rope.toml", "rope"), ("strng", "strng")])
 def test_what_cannot_be_is_refused_by_name(scene: str, said: str, tmp_path: Path) -> None:
     """In one line, and nothing is written."""
-    (tmp_path / "rope.toml").write_text(BENT, encoding="utf-8")
+    (tmp_path / "rope.toml").write_text(ROUND, encoding="utf-8")
     out, given = tmp_path / "lab.html", tmp_path / scene if scene.endswith("toml") else scene
     with pytest.raises(InputError, match=said):
         CliRunner().invoke(page_command, [str(given), "--out", str(out)], catch_exceptions=False)
