@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -39,6 +39,9 @@ TOLERANCE = 1e-7
 
 #: The same where students may round: a limit of 0.01 s to six digits.
 TYPED = 2e-4
+
+#: Seconds of computing beside the search, in C: a change that ends in none costs no more than these.
+BESIDE = 4
 
 #: How many lines a student is told at most.
 MOST_PLACES = 3
@@ -158,7 +161,8 @@ def _look_closer_at_c(
         reply = None
         if changes is not None:
             task = _task(exercise, groups, effort) | changes.task()
-            reply = sandbox.run(source, looks.asked(), limits, {}, task, made, exercise.number, changes.library)
+            short = replace(limits or sandbox.Limits(), seconds=int(effort.singles + effort.pairs) + BESIDE)
+            reply = sandbox.run(source, looks.asked(), short, {}, task, made, exercise.number, changes.library)
         if reply is None or reply.ended != "done" or reply.error is not None:  # a change may end the process
             reply = sandbox.run(source, looks.asked(), limits, compiled=made, exercise=exercise.number)
     except (NotGradedError, DoesNotCompileError, MissingFunctionError):

@@ -56,6 +56,9 @@ MOST_ROUNDS = 3
 #: What makes a local variable that nobody has written into a number that cannot pass: not every compiler has it.
 FILLED = "-ftrivial-auto-var-init=pattern"
 
+#: What makes an error stand where a macro is used, not where it is defined: not every compiler has it.
+WHERE_USED = "-ftrack-macro-expansion=0"
+
 #: Where a submission, and the exercise's own C files, are while they are compiled.
 OWN, FILES = "submission.c", Path(__file__).parent
 
@@ -141,15 +144,16 @@ def with_variants(exercise: int, variants: Variants, exposed: bool = False) -> C
         NotGradedError: where the compiler cannot be kept in.
     """
     program = compiler()
-    begin = [program, *QUICKLY, *([FILLED] if _takes(program, FILLED) else []), f"-I{FILES}"]
+    options = [option for option in (FILLED, WHERE_USED) if _takes(program, option)]
+    begin = [program, *QUICKLY, *options, f"-I{FILES}"]
     commands = [
         [*begin, "-c", OWN, "-o", "own.o"],
         [
             *begin,
             f"-DEXERCISE={exercise}",
             "-DOWN_STACK",
+            "own.o",  # before the other, which ends with a page that nobody can touch
             str(FILES / "guard.c"),
-            "own.o",
             "-Wl,-z,defs",
             "-o",
             "library.so",

@@ -100,8 +100,35 @@ class _Changes:
             before, after = block[:i], block[i + 1 :]
             for line, family, cost, new in self._instead(one):
                 yield Edit(line, family, cost, ((place, [*before, *new, *after]),))
+            mirrored = self._mirrored(one)
+            if mirrored is not None:
+                yield Edit(one.lineno, "left out", 2.1, ((place, [*before, one, mirrored, *after]),))
+                yield Edit(one.lineno, "left out", 2.2, ((place, [*before, mirrored, one, *after]),))
             if isinstance(one, ast.If | ast.For | ast.While) and after:
                 yield from self._taken_in(place, before, one, after)
+
+    def _mirrored(self, one: ast.stmt) -> ast.stmt | None:
+        """The same of the other component, or of velocity for position: of a line that is missing the twin is there."""
+        if not isinstance(one, ast.Assign | ast.AugAssign) or getattr(one, "declared", None):
+            return None
+        made = copy.deepcopy(one)
+        for node in ast.walk(made):
+            if isinstance(node, ast.Name):
+                node.id = self._twin(node.id)
+            if isinstance(node, ast.Subscript):
+                last = node.slice.elts[-1] if isinstance(node.slice, ast.Tuple) else node.slice
+                if isinstance(last, ast.Constant) and last.value in (0, 1):
+                    last.value = 1 - last.value
+        return made if ast.dump(made) != ast.dump(one) else None
+
+    def _twin(self, name: str) -> str:
+        """A name with y for x, or v for y, where there is one; else itself."""
+        for a, b in (("x", "y"), ("y", "x"), ("y", "v"), ("v", "y")):
+            for i, letter in enumerate(name):
+                other = name[:i] + b + name[i + 1 :]
+                if letter == a and other in self._kinds and self._kinds[other] == self._kinds.get(name):
+                    return other
+        return name
 
     def _instead(self, one: ast.stmt) -> Iterator[tuple[int, str, float, list[ast.stmt]]]:
         """What may stand in place of a statement: line, kind, cost, statements."""

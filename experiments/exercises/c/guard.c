@@ -110,18 +110,45 @@ static void call_and_jump(void)
     siglongjmp(back, DONE);
 }
 
+/* So many bytes, a page above them, and pages about both that nobody can touch. */
+static char *apart(size_t size)
+{
+    char *room = mmap(0, size + 3 * PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    mprotect(room, PAGE, PROT_NONE);
+    mprotect(room + size + 2 * PAGE, PAGE, PROT_NONE);
+    return room + PAGE;
+}
+
+/* Memory that a call has asked for is given back when it is over. What nobody has written into is no number. */
+#define HEAP (1 << 20)
+SEEN size_t springlab_taken;
+
+__attribute__((visibility("hidden"))) void *springlab_malloc(size_t size)
+{
+    static char *room;
+    room = room ? room : apart(HEAP);
+    if (size > HEAP - springlab_taken)
+        __builtin_trap();
+    char *start = room + springlab_taken;
+    springlab_taken += (size + 127) / 64 * 64;
+    springlab_taken = springlab_taken < HEAP ? springlab_taken : HEAP;
+    return __builtin_memset(start, 255, size);
+}
+
+/* The last of what the program itself writes into (`switches.h`): beyond it is what brings it back. */
+extern char springlab_tail[2 * PAGE] __attribute__((visibility("hidden")));
+
 static void call_apart(void)
 {
     static char *room;
     static ucontext_t there;
     if (room == 0) {
-        room = mmap(0, STACK + 3 * PAGE, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        mprotect(room, PAGE, PROT_NONE);
-        mprotect(room + STACK + 2 * PAGE, PAGE, PROT_NONE);
+        room = apart(STACK);
+        mprotect(springlab_tail, sizeof springlab_tail, PROT_NONE);
     }
     getcontext(&there);
-    there.uc_stack.ss_sp = room + PAGE;
-    there.uc_stack.ss_size = STACK; /* and a page above it that nobody needs */
+    there.uc_stack.ss_sp = room;
+    there.uc_stack.ss_size = STACK;
     makecontext(&there, call_and_jump, 0);
     setcontext(&there);
 }

@@ -62,6 +62,8 @@ def _of_call(node: ast.Call, name: str) -> Kind:
         return NUMBER if name in ("(double)", "(float)") else UNKNOWN
     if name in ("abs", "min", "max", "sqrt", "pow", "hypot", "sin", "cos", "tan", "atan", "atan2", "floor", "ceil"):
         return NUMBER
+    if name in ("malloc", "calloc", "realloc"):
+        return Kind("void", 1)
     return WHOLE if name in ("abs_c_", "sizeof") else UNKNOWN
 
 
@@ -76,9 +78,19 @@ def may_replace(
     before, then = kind_in(old, kinds, fields), kind_in(new, kinds, fields)
     if is_index and not isinstance(new, ast.Tuple) and then not in (WHOLE, UNKNOWN):
         return False
+    if isinstance(new, ast.Call) and isinstance(old, ast.Call) and not _same_arguments(new, old, kinds, fields):
+        return False
     if before.depth >= 0 and then.depth >= 0 and (before.depth != then.depth or _is_struct(before) != _is_struct(then)):
         return False
     return all(_makes_sense(node, kinds, fields) for node in ast.walk(new))
+
+
+def _same_arguments(new: ast.Call, old: ast.Call, kinds: Mapping[str, Kind], fields: Mapping[str, Kind]) -> bool:
+    """Whether what a function is given is of the same kinds as before, where it is the same function."""
+    if not (isinstance(new.func, ast.Name) and isinstance(old.func, ast.Name) and new.func.id == old.func.id):
+        return True
+    pairs = [[kind_in(a, kinds, fields) for a in both] for both in zip(new.args, old.args, strict=False)]
+    return all(one.depth == other.depth and _is_struct(one) == _is_struct(other) for one, other in pairs)
 
 
 def _is_struct(kind: Kind) -> bool:
@@ -92,7 +104,10 @@ def _makes_sense(node: ast.AST, kinds: Mapping[str, Kind], fields: Mapping[str, 
         whole_step = isinstance(node.op, ast.Add | ast.Sub) and sides[1].base == "whole" and sides[1].depth == 0
         return all(side.depth <= 0 and not _is_no_number(side) for side in sides) or (sides[0].depth > 0 and whole_step)
     if isinstance(node, ast.UnaryOp):
-        return kind_in(node.operand, kinds, fields).depth <= 0 or isinstance(node.op, ast.Not)
+        of = kind_in(node.operand, kinds, fields)
+        return isinstance(node.op, ast.Not) or (of.depth <= 0 and not _is_no_number(of))
+    if isinstance(node, ast.IfExp):
+        return kind_in(node.body, kinds, fields).depth == kind_in(node.orelse, kinds, fields).depth
     if isinstance(node, ast.Subscript):
         of = kind_in(node.value, kinds, fields)
         parts = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
@@ -102,4 +117,4 @@ def _makes_sense(node: ast.AST, kinds: Mapping[str, Kind], fields: Mapping[str, 
 
 
 def _is_no_number(kind: Kind) -> bool:
-    return kind.base.startswith("struct") or kind.base == "function"
+    return kind.base not in ("number", "whole", "")

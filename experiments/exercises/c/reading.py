@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +60,8 @@ class _Reader(Expressions):
     def __init__(self, types: int) -> None:
         super().__init__()
         self._types = types
+        #: What names of types stand for.
+        self._named: Kinds = {}
         self._kinds: Kinds = {}
 
     def program(self, parsed: c_ast.FileAST, directives: list[str]) -> ReadProgram:
@@ -67,7 +69,9 @@ class _Reader(Expressions):
         outside: Kinds = {}
         made = ReadProgram(ast.Module([], []), directives, {"": fields})
         for node in parsed.ext[self._types :]:
-            _note_fields(node, fields)
+            _note_fields(node, fields, self._named)
+            if isinstance(node, c_ast.Typedef):
+                self._named[node.name] = kind_of(node.type, self._named)
             if node.coord is not None and node.coord.file != "own":
                 continue
             if isinstance(node, c_ast.FuncDef):
@@ -86,7 +90,7 @@ class _Reader(Expressions):
         """With the names that it is given; the one that holds the fields of what is given comes last."""
         given = [p for p in (node.decl.type.args.params if node.decl.type.args else []) if getattr(p, "name", None)]
         for one in given:
-            self._kinds[python_name(one.name)] = kind_of(one.type)
+            self._kinds[python_name(one.name)] = kind_of(one.type, self._named)
         given.sort(key=lambda one: self._kinds[python_name(one.name)].base.startswith("struct"))
         arguments = ast.arguments([], [ast.arg(python_name(p.name)) for p in given], None, [], [], None, [])
         made = at(node.decl, ast.FunctionDef(python_name(node.decl.name), arguments, self._block(node.body), [], None))
@@ -160,7 +164,7 @@ class _Reader(Expressions):
         return made
 
     def _note(self, declared: c_ast.Decl) -> None:
-        name, kind = python_name(declared.name), kind_of(declared.type)
+        name, kind = python_name(declared.name), kind_of(declared.type, self._named)
         known = self._kinds.get(name, kind)
         self._kinds[name] = kind if known == kind else Kind("", -1)
 
@@ -239,8 +243,12 @@ class _Reader(Expressions):
         raise UnreadableError("a loop that begins in another way")
 
 
-def kind_of(declared: Any) -> Kind:
-    """Of which kind a declared name is: of which type its numbers are, and how many indices it takes to reach one."""
+def kind_of(declared: Any, types: Mapping[str, Kind]) -> Kind:
+    """Of which kind a declared name is: of which type its numbers are, and how many indices it takes to reach one.
+
+    Args:
+        types: what names of types stand for.
+    """
     depth = 0
     while isinstance(declared, c_ast.ArrayDecl | c_ast.PtrDecl):
         declared, depth = declared.type, depth + 1
@@ -249,18 +257,27 @@ def kind_of(declared: Any) -> Kind:
     inner = getattr(declared, "type", None)
     if isinstance(inner, c_ast.IdentifierType):
         words = set(inner.names)
+        if inner.names[0] in types:
+            kind = types[inner.names[0]]
+            return Kind(kind.base, kind.depth + depth)
         base = "number" if words & {"double", "float"} else "whole" if words & WHOLE_WORDS else " ".join(inner.names)
         return Kind(base, depth)
-    return Kind(f"struct {getattr(inner, 'name', '')}", depth)
+    return Kind(kind_of_struct(inner), depth)
 
 
-def _note_fields(node: Any, fields: Kinds) -> None:
+def kind_of_struct(struct: Any) -> str:
+    """How a struct is called among kinds; one that has no name by its line."""
+    name = getattr(struct, "name", None)
+    return f"struct {name}" if name else f"struct at {getattr(struct, 'coord', '')}"
+
+
+def _note_fields(node: Any, fields: Kinds, types: Kinds) -> None:
     """The kinds of the fields of structs that are declared, by "struct name.field"."""
     for inner in _below(node):
         if isinstance(inner, c_ast.Struct):
             for one in inner.decls or []:
                 if isinstance(one, c_ast.Decl) and one.name:
-                    fields[f"struct {inner.name or ''}.{python_name(one.name)}"] = kind_of(one.type)
+                    fields[f"{kind_of_struct(inner)}.{python_name(one.name)}"] = kind_of(one.type, types)
 
 
 def _below(node: Any) -> Iterator[Any]:

@@ -32,6 +32,7 @@ class SwitchedProgram:
 
     def __init__(self, path: str, exercise: int, places: int) -> None:
         self._path, self._exercise, self._places = path, exercise, places
+        self._on: dict[int, int] = {}
         self._load()
 
     def _load(self) -> None:
@@ -45,11 +46,16 @@ class SwitchedProgram:
 
     def anew(self) -> Mapping[str, Any]:
         """Loaded anew, so that it remembers nothing, with the changes that are switched on."""
-        on = list(self._at)
         _ctypes.dlclose(self._library._handle)
         self._load()
-        self._at[:] = on
+        self._switch()
         return self._names
+
+    def _switch(self) -> None:
+        """These changes and no others, whatever a program that ran wild has written there."""
+        ctypes.memset(self._at, 0, ctypes.sizeof(self._at))
+        for place, number in self._on.items():
+            self._at[place] = number
 
     def begin_call(self) -> None:
         """Rounds of loops are counted from 0, and memory is given back."""
@@ -71,14 +77,13 @@ class SwitchedProgram:
     def changed(self, edits: Sequence[Switched]) -> Iterator[Mapping[str, Any] | None]:
         """The functions with these changes, for a while; None where two are at one place."""
         on = [switch for edit in edits for switch in edit.switches]
-        places = [place for place, _ in on]
-        for place, number in on:
-            self._at[place] = number
+        self._on = dict(on)
+        self._switch()
         try:
-            yield self._names if len(set(places)) == len(places) else None
+            yield self._names if len(self._on) == len(on) else None
         finally:
-            for place in places:
-                self._at[place] = 0
+            self._on = {}
+            self._switch()
 
     @contextmanager
     def changed_anew(self, edits: Sequence[Switched]) -> Iterator[Mapping[str, Any] | None]:

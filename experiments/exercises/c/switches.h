@@ -11,6 +11,9 @@ SPRINGLAB_SEEN int springlab_at[SPRINGLAB_PLACES];
 SPRINGLAB_SEEN char springlab_reached[SPRINGLAB_PLACES];
 #define SPRINGLAB_AT(place) (springlab_reached[place] = 1, springlab_at[place])
 
+/* The last of what a program writes into: pages that nobody can touch, once it is called (`guard.c`). */
+__attribute__((aligned(65536), section(".bss.springlab_tail"))) char springlab_tail[2 * 65536];
+
 /* Rounds of loops in one call: past so many it is stopped. */
 #define SPRINGLAB_MOST 20000
 SPRINGLAB_SEEN int springlab_rounds;
@@ -21,24 +24,12 @@ static inline void springlab_tick(void)
         __builtin_trap();
 }
 
-/* Memory that a call has asked for is given back when it is over: who writes beyond it harms nobody else. What nobody
- * has written into is no number. */
-#define SPRINGLAB_ROOM (1 << 20)
-SPRINGLAB_SEEN size_t springlab_taken;
-static char springlab_room[SPRINGLAB_ROOM] __attribute__((aligned(16)));
-
-static inline void *springlab_malloc(size_t size)
-{
-    void *start = springlab_room + springlab_taken;
-    if (size > SPRINGLAB_ROOM - 256 - springlab_taken)
-        __builtin_trap();
-    springlab_taken += (size + 127) / 64 * 64;
-    return memset(start, 255, size);
-}
+/* Memory that a call has asked for (`guard.c`). */
+void *springlab_malloc(size_t size);
 
 static inline void *springlab_calloc(size_t count, size_t size)
 {
-    if (size && count > SPRINGLAB_ROOM / size)
+    if (size && count > (1 << 24) / size)
         __builtin_trap();
     return memset(springlab_malloc(count * size), 0, count * size);
 }

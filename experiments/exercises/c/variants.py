@@ -9,11 +9,12 @@ one with it, as each has lines of its own.
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Collection, Iterator, Sequence
 from typing import Any
 
 from experiments.exercises.c.kinds import Kinds, may_replace
-from experiments.exercises.c.tree import ReadProgram, Verbatim, c_name, functions_in
+from experiments.exercises.c.tree import ReadProgram, Verbatim, Word, c_name, functions_in
 from experiments.exercises.c.written import TICK, NotInCError, Writer, begun, header_of
 from experiments.exercises.repair.edit import Edit, Site, what_stands_at
 
@@ -142,6 +143,8 @@ class Variants:
             own = [child for child in ast.iter_child_nodes(statement) if id(child) not in inside]
             counted = _counted(statement)
             known = names | counted | (_names_of(statement) if isinstance(statement, ast.Assign) else frozenset())
+            if isinstance(statement, Verbatim):
+                own, known = [statement], known | frozenset(statement.names)
             if not all(_used(node, kinds) <= known for node in own):
                 return False
             if not all(self._in_order(block, names | counted, kinds) for block in blocks):
@@ -279,7 +282,7 @@ class _Switching(Writer):
             return [f"{declared} = {_chosen(free, number, texts, plain, 'springlab_value = {};')};"]
         assert isinstance(node.targets[0], ast.Name)
         name = c_name(node.targets[0].id)
-        put = [(i, f"memcpy((void *){name}, (__typeof__({name})){text}, sizeof {name});") for i, text in texts]
+        put = [(i, f"memcpy((void *)&{name}, &(__typeof__({name})){text}, sizeof {name});") for i, text in texts]
         return [f"{declared} = {plain};", *_switched(number, put, ";")]
 
 
@@ -322,8 +325,10 @@ def _counted(statement: ast.stmt) -> frozenset[str]:
 
 
 def _used(node: ast.AST, kinds: Kinds) -> set[str]:
-    """The names of values of a function that are used in an expression."""
+    """The names of values of a function that are used in an expression, or in what is copied."""
     names = {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
+    copied = [inner.text for inner in ast.walk(node) if isinstance(inner, Word | Verbatim)]
+    names.update(word for text in copied for word in re.findall(r"(?<![.\w>])[A-Za-z_]\w*", text))
     return {name for name in names if name in kinds and kinds[name].base != "function"}
 
 

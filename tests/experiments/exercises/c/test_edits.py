@@ -39,6 +39,10 @@ SLIPS = {
     "no value yet": ("double a;\na += dt;\n*y = a;", "double a = 0;\na += dt;\n*y = a;"),
     "not cleared": ("x[0][0] += dt;", "memset(x, 0, sizeof *x * (n));\nx[0][0] += dt;"),
     "kept between calls": ("static double a = 0;\n*y = a;", "double a = 0;\n*y = a;"),
+    "the other component": (
+        "x[0][0] += dt * v[0][0];",
+        "x[0][0] += dt * v[0][0];\nx[0][1] += dt * v[0][1];",
+    ),
     "the component": ("x[0][1] = v[0][0];", "x[0][1] = v[0][1];"),
     "the size of a pointer": ("memcpy(x, v, sizeof(v));", "memcpy(x, v, sizeof(v[0]) * (n));"),
     "two lines the wrong way": ("*y += dt * *p;\n*p += dt * *y;", "*p += dt * *y;\n*y += dt * *p;"),
