@@ -6,6 +6,7 @@ import gc
 from collections import Counter
 from collections.abc import Generator, Iterator
 from pathlib import Path
+from typing import Any
 from zlib import crc32
 
 import hypothesis
@@ -65,6 +66,16 @@ def pytest_configure(config: pytest.Config) -> None:
             find(name)
         except InputError as error:
             raise pytest.UsageError(f"--engine: {error}") from None
+
+
+@pytest.hookimpl(optionalhook=True, tryfirst=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    """Which worker runs what; of anything else than `--dist loadfile` xdist knows it."""
+    if config.getvalue("dist") != "loadfile":
+        return None
+    from tests.worker_queue import ByFile
+
+    return ByFile(config, log)
 
 
 def pytest_report_header(config: pytest.Config) -> str:
