@@ -149,7 +149,7 @@ def test_a_variant_answers_as_the_changed_text_does(tmp_path: Path) -> None:
     for edit, on in tried[:: len(tried) // 6]:
         with edit.applied():
             text = with_copies(text_of(changes.program).replace("#define EX", "#include <string.h>\n#define EX", 1))
-        (tmp_path / "plain.so").write_bytes(compiled(1, text).library)
+        (tmp_path / "plain.so").write_bytes(compiled(1, text, False).library)
         plain = SwitchedPlain(str(tmp_path / "plain.so"))
         with program.changed([Switched(edit.cost, on)]) as names:
             now = answer(names)
