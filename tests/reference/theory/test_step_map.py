@@ -5,7 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from reference.theory.step_map import resisted
+from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find, schemes, wide_schemes
+from reference.theory.differences import differences
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.layout import layout_of
+from reference.theory.step_map import resisted, step_jacobian
 
 
 @pytest.mark.parametrize(
@@ -28,3 +33,21 @@ def test_a_pair_that_rounding_tears_apart_is_left_out_and_growth_of_one_in_a_hun
 def test_no_more_are_left_out_than_nothing_resists() -> None:
     """The others near 1 are slow motion."""
     assert len(resisted(np.array([1, 1, 1 + 1e-7, 0.5], dtype=complex), 2, 1.0)) == 2
+
+
+#: Those of one step: what others remember is laid out elsewhere.
+LINEAR = [name for name, one in {**schemes(), **wide_schemes()}.items() if one.linear and one.one_step]
+
+
+@pytest.mark.parametrize("name", LINEAR)
+def test_a_scheme_that_says_it_is_linear_steps_many_states_at_once(name: str) -> None:
+    """The whole step map at one go is that by differences: with masses, damping and drag all different.
+
+    Differences of fourth order are good to 1e-9 of what is of size 1.
+    """
+    system = find_scene("string").system({"masses": 3, "mass": [0.02, 0.03, 0.05], "damping": 0.1, "drag": 0.1})
+    rest = spring_equilibrium(system)
+    scheme, dt = find(name), 4e-3
+    layout, settled = layout_of(scheme, rest, dt)
+    by_differences = differences(scheme.on(rest.motion), layout, settled)
+    assert np.abs(step_jacobian(scheme, rest, dt) - by_differences).max() < 1e-7
