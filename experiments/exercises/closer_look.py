@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from experiments.exercises.behaviour import derived_step, parts, special_cases, terms
-from experiments.exercises.c.changes import CChanges
+from experiments.exercises.c.changes import MOST, CChanges
 from experiments.exercises.c.compiler import DoesNotCompileError, MissingFunctionError, compiled
 from experiments.exercises.c.text import whole_divisions
 from experiments.exercises.exercise import Exercise, Question
@@ -55,12 +55,14 @@ NOT_FOR = ("not_written_yet", "syntax", "missing_module", "missing_function", "r
 class Effort:
     """How long is searched, of processor time [s]: single changes, and pairs of them.
 
-    Where the mistake has a name already no pairs are tried, and single changes for this share of the time.
+    Where the mistake has a name already no pairs are tried, and single changes for this share of the time. In C so many
+    changes are compiled.
     """
 
     singles: float = 1.2
     pairs: float = 0.7
     named: float = 1.0
+    compiled: int = MOST
 
 
 @dataclass(frozen=True)
@@ -110,7 +112,7 @@ def look_closer(
         return CloserLook()
     effort = effort or Effort()
     if _is_named(verdict):
-        effort = Effort(effort.named * effort.singles, 0.0)
+        effort = replace(effort, singles=effort.named * effort.singles, pairs=0.0)
     if language == "c":
         return _look_closer_at_c(exercise, source, seed, verdict, limits, effort)
     looks = _Looks(exercise, catalogue_of(exercise, seed, None), verdict)
@@ -157,7 +159,7 @@ def _look_closer_at_c(
         made = compiled(exercise.number, source, exposed)
         warned = tuple(findings.of_warning(line, words) for line, words in made.warnings)
         warned += tuple(findings.of_whole_division(line, words) for line, words in whole_divisions(source))
-        changes = CChanges.of(exercise.number, source, groups, exposed)
+        changes = CChanges.of(exercise.number, source, groups, exposed, effort.compiled)
         reply = None
         if changes is not None:
             task = _task(exercise, groups, effort) | changes.task()

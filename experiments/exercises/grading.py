@@ -46,7 +46,7 @@ COLUMNS = (
 
 
 #: How long is searched unless told otherwise; and in a class, where many wait.
-EFFORT, EFFORT_IN_CLASS = Effort(), Effort(0.7, 0.3, named=0.3)
+EFFORT, EFFORT_IN_CLASS = Effort(), Effort(0.7, 0.3, named=0.3, compiled=1200)
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,7 @@ class CChanges:
 
     @classmethod
     def of(
-        cls, exercise: int, source: str, groups: Sequence[Sequence[Question]], exposed: bool = False
+        cls, exercise: int, source: str, groups: Sequence[Sequence[Question]], exposed: bool = False, most: int = MOST
     ) -> CChanges | None:
         """All changes of a program; None for one that is not read, or not compiled as it was read."""
         question = groups[0][0]
@@ -49,7 +49,7 @@ class CChanges:
                 program = read(source)
                 edits = [*edits_of(program.tree, _given(program, question)), *c_edits_of(program)]
                 edits.sort(key=lambda edit: edit.cost)
-                variants = Variants(program, edits, MOST)
+                variants = Variants(program, edits, most)
         except (UnreadableError, SyntaxError, ValueError, RecursionError):
             return None
         library = compiler.with_variants(exercise, variants, exposed)

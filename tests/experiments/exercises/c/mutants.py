@@ -57,7 +57,7 @@ def mutants(text: str) -> Iterator[tuple[int, str]]:
     start = next(i for i, line in enumerate(lines) if line.startswith("{"))
     for i in range(start, end):
         line = lines[i]
-        if line.startswith(("#", "static", "void", "double", "/*")):
+        if line.startswith(("#", "static", "void", "double")) or "/*" in line:
             continue
         for found in TOKEN.finditer(line):
             other = OTHERS.get(found[0])
