@@ -73,10 +73,3 @@ def test_all_schemes_and_scenes_have_german_descriptions(browser: Any, page: Pat
     assert german["about_backward_euler"] in shown.page.inner_text("#equations")
     assert "Newton's" not in shown.page.inner_text("#equations")
     shown.page.close()
-
-
-def test_every_word_of_one_language_is_there_in_the_other() -> None:
-    """But for descriptions of scenes and schemes, of which the catalogue has the English ones."""
-    own = {f"about_{name}" for name in page_schemes()}
-    names = [{key for key in words if not key.startswith("scene_")} - own for words in WORDS.values()]
-    assert all(names[0] == other for other in names)

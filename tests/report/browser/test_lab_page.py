@@ -12,6 +12,7 @@ import pytest
 
 from report.browser.lab_page import lab_page
 from report.browser.presets import PRESETS, Preset
+from report.browser.programs import page_schemes
 from report.browser.recordings import Recording
 from report.browser.system_data import system_data
 from tests.report.browser.node import DRIVER, doubles
@@ -377,7 +378,7 @@ def test_the_keyboard_does_what_a_pointer_does(browser: Any, file: Path) -> None
 
 
 def test_words_are_there_in_every_language() -> None:
-    """The same keys, with the same blanks to be filled in; and every scene's text, which English has from the scene."""
+    """The same keys, with the same blanks; and every scene's and scheme's text, which English has from these."""
     import json
     import re
 
@@ -385,10 +386,10 @@ def test_words_are_there_in_every_language() -> None:
 
     words = json.loads((TEMPLATES / "browser" / "words.json").read_text(encoding="utf-8"))
     english = words.pop("en")
-    scenes = {f"scene_{preset.scene}" for preset in PRESETS}
+    described = {f"scene_{preset.scene}" for preset in PRESETS} | {f"about_{name}" for name in page_schemes()}
     for language, own in words.items():
-        assert own.keys() == english.keys() | scenes, language
+        assert own.keys() == english.keys() | described, language
         for key, text in own.items():
-            if key in scenes:
+            if key in described:
                 continue
             assert set(re.findall(r"{\w+}", text)) == set(re.findall(r"{\w+}", english[key])), (language, key)
