@@ -12,7 +12,7 @@ from reference.derivation.oscillators import runs_of
 from reference.derivation.over_dts import DTS, SHORT, UNNAMED, OverDts, over_dts
 from reference.scenes import find
 from reference.stepper import stepper_named
-from report.derived import name_line, property_lines, sections
+from report.derived import name_line, sections
 
 
 def told(rule: Any) -> Explanation:
@@ -55,18 +55,6 @@ def test_other_rules_at_other_dt_are_told(smallest: float, largest: float, other
         assert found.held.named_there[other.index(2e-4)] == "euler"
 
 
-def test_what_is_derived_at_one_dt_is_marked_with_it() -> None:
-    """Heun up to 0.05 s, Euler above: the tableau, the matrix and the order are Euler's, and no limits follow."""
-    found = told(lambda dt: dt <= 0.05)
-    assert found.limits == (None, None)
-    titles = [title for title, _ in sections(found) if title.startswith("Derived")]
-    assert len(titles) == 3
-    assert all(title.endswith((", at dt = 0.0625 s", ", at dt = 0.25 and 0.125 s")) for title in titles)
-    lines = list(property_lines(found))
-    assert any(line.startswith("Order 1, by the conditions on its tableau, at dt = 0.25 and") for line in lines)
-    assert not any(line.startswith(("Stable", "Unstable")) for line in lines)
-
-
 def test_a_step_that_is_off_and_still_named_is_no_other_rule() -> None:
     """Of what iterates with differences rounding grows as h gets smaller: told by how much, without a cause."""
     held = OverDts("newmark", (2e-4,), (2e-5,), ("newmark",), (3e-12,), (2e-6,), iterates=True)
@@ -85,19 +73,3 @@ def test_every_dt_that_was_tried_is_told_of() -> None:
     assert held.drowned[0] == DTS[0]
     assert sorted((*held.same, *held.other, *held.drowned, *held.failed)) == sorted(DTS)
     assert "; not told at 2e-06 s, where rounding drowns it" in str(held)
-
-
-def test_periods_are_marked_too() -> None:
-    """Drift-kick below 0.01 s, kick-drift above: the periods told are those of kick-drift, at 0.0625 s."""
-
-    def step(x, v, dt, system):  # type: ignore[no-untyped-def]
-        a = system.acceleration(x, v)
-        drifted = x + dt * v if dt < 1e-2 else x
-        v = v + dt * (system.acceleration(drifted, v) if dt < 1e-2 else a)
-        return (drifted, v) if dt < 1e-2 else (x + dt * v, v)
-
-    found = explain(stepper_of(step))
-    assert found.identification.identified_as == "drift_kick"
-    periods = [line for line in property_lines(found) if line.startswith("At h w")]
-    assert periods
-    assert all(line.endswith(", at dt = 0.0625 s") for line in periods)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
+from reference.theory import large_steps
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
 from reference.theory.large_steps import limit_of_large
 from reference.theory.limits import stability_limit
@@ -20,9 +22,9 @@ from reference.theory.runge_kutta import first_limits_along, stability_polynomia
 PRECISION = 3e-8
 
 
-def cloth(damping: float) -> Equilibrium:
-    """Of 25 masses that hangs by an edge, with damping that differs from spring to spring."""
-    system = find_scene("cloth").system({"rows": 5, "columns": 5, "pinned": "edge", "damping": damping})
+def cloth(damping: float, side: int = 5) -> Equilibrium:
+    """Of 25 masses, or of another square, that hangs by an edge, with damping that differs from spring to spring."""
+    system = find_scene("cloth").system({"rows": side, "columns": side, "pinned": "edge", "damping": damping})
     uneven = np.random.default_rng(0).uniform(0.5, 1.5, len(system.springs))
     return spring_equilibrium(replace(system, damping=damping * uneven))
 
@@ -49,6 +51,22 @@ def test_a_limit_of_a_few_moves_fails_on_its_relative() -> None:
     rest = cloth(0.02)
     with pytest.raises(AssertionError):
         check_limit(find("velocity_verlet"), rest, stability_limit(find("kick_drift"), rest).dt)
+
+
+@pytest.mark.parametrize(("part", "told"), [(1.0, True), (1.05, False)])
+def test_a_limit_above_which_another_move_grows_is_not_told(
+    part: float, told: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Few moves that miss the one that grows first would give a limit that is too long: all moves show that one."""
+    scheme, rest = find("velocity_verlet"), cloth(0.02, side=3)
+    limit = stability_limit(scheme, rest).dt
+    assert limit is not None
+    assert rest.linear is not None
+    seen = part * limit
+    misses = SimpleNamespace(beyond=lambda dt: dt - seen)
+    monkeypatch.setattr(large_steps, "Outermost", lambda *_: misses)
+    found = large_steps._near_a_relative(scheme, rest.linear, rest, 1 / fastest_rate(rest), seen)
+    assert found == (pytest.approx(seen, rel=PRECISION) if told else None)
 
 
 @pytest.mark.parametrize("name", ["euler", "heun", "rk4"])

@@ -84,6 +84,20 @@ def test_a_long_string_hangs_straight() -> None:
     assert np.abs(least_energy(system).positions - straight.positions).max() < 1e-11 * system.size
 
 
+@pytest.mark.parametrize("times", [1e-12, 1e-6, 1.0, 1e6, 1e12])
+def test_what_stands_on_its_head_falls_however_soft_or_stiff(times: float) -> None:
+    """Masses and stiffness times as large are the same motion: off the ridge, and down to where the string hangs.
+
+    To 1e-11 of the size, as above. On the ridge forces balance as well: that is not where it may stay.
+    """
+    hanging = find("string").system({"masses": 4, "angle": 0.0})
+    hanging = replace(hanging, masses=times * hanging.masses, stiffness=times * hanging.stiffness)
+    straight = hanging_string(hanging)
+    over = replace(hanging_string(replace(hanging, gravity=-hanging.gravity)), velocities=np.zeros((5, 2)))
+    standing = replace(hanging, positions=over.positions)
+    assert np.abs(least_energy(standing).positions - straight.positions).max() < 1e-11 * hanging.size
+
+
 def test_what_is_torn_off_is_at_rest_as_it_falls() -> None:
     """The half that nothing holds falls flat, none of its springs stretched; the other hangs in balance."""
     cloth = find("cloth").system({"rows": 6, "columns": 20})
