@@ -20,6 +20,9 @@ import numpy as np
 #: Arrays that are given to a function, at most, and pages of each.
 SLOTS, PAGES = 8, 4
 
+#: Around each as many bytes that nobody can touch: an index that is a product goes far.
+FAR = 2**21
+
 NUMBER = ctypes.POINTER(ctypes.c_double)
 
 
@@ -73,11 +76,11 @@ class Guarded:
         self._blocks = []
         protect = ctypes.CDLL(None, use_errno=True).mprotect
         for _ in range(SLOTS):
-            block = mmap.mmap(-1, self._room + 2 * page)
+            block = mmap.mmap(-1, self._room + 2 * FAR)
             first = ctypes.addressof(ctypes.c_char.from_buffer(block))
-            for closed in (first, first + page + self._room):
-                protect(ctypes.c_void_p(closed), ctypes.c_size_t(page), 0)
-            self._blocks.append((block, first + page))
+            for closed in (first, first + FAR + self._room):
+                protect(ctypes.c_void_p(closed), ctypes.c_size_t(FAR), 0)
+            self._blocks.append((block, first + FAR))
         self.at_end = True
         self._next = 0
 

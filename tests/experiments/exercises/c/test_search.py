@@ -207,6 +207,7 @@ def test_what_writes_beyond_its_arrays_ends_no_search(number: int, name: str, ol
         "memset(asked, 0, (size_t)-1);",
         "for (int i = 0; i >= 0; i++) local[i] = 1;",
         "for (int i = 0; i <= 0; i--) v[i][0] = 1;",
+        *(f"x[{far}][0] = 1;" for far in (3000, 20000, 60000, -3000, -20000, -60000)),
         "for (;;) ;",
         "step(x, v, dt, s);",
         "abort();",
