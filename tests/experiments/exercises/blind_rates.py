@@ -1,8 +1,8 @@
 """Rates on programs of people who had only texts and starters: passed, refused, and led by which way.
 
-Four samples, kept apart: `blind`, which the checker has been mended by since; `blind2`, written after that by somebody
-who had seen some of the first one's list; `blind3` and `blind4`, by two who had seen texts and starters only. Some
-of the last one are in C.
+Five samples, kept apart: `blind`, which the checker has been mended by since; `blind2`, written after that by somebody
+who had seen some of the first one's list; `blind3`, `blind4` and `blind5`, by three who had seen texts and starters
+only. Some of the last two are in C.
 
 python -m tests.experiments.exercises.confusion --blind
 """
@@ -63,13 +63,14 @@ def _samples() -> Mapping[str, list[Program]]:
         "blind2": _with_lines(HERE / "blind2"),
         "blind3": _with_lines(HERE / "blind3"),
         "blind4": _with_lines(HERE / "blind4", "ada"),
+        "blind5": _with_lines(HERE / "blind5"),
     }
 
 
 def _with_lines(folder: Path, seed: str = "example") -> list[Program]:
     entries = tomllib.loads((folder / "expected.toml").read_text(encoding="utf-8"))
     return [
-        Program(folder / name, name, entry["kind"] == "right", entry["words"], tuple(entry.get("lines", ())), seed)
+        Program(folder / name, name, entry["kind"] == "right", entry.get("words", ""), tuple(entry.get("lines", ())), seed)
         for name, entry in entries.items()
     ]
 

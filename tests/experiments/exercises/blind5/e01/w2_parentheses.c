@@ -1,0 +1,26 @@
+/* Exercise 1: one mass on a spring, by Euler's step. Build me: cc -Wall -o euler euler.c -lm */
+#define EXERCISE 1
+#include "exercise.h"
+#include <stdio.h>
+
+/* From height *y [m] and velocity *v [m/s], those after dt [s]. */
+void step(double *y, double *v, double dt, const struct spring *spring)
+{
+    double stretch = *y + spring->rest_length;
+    double f_spring = spring->stiffness * stretch;
+    double f_other = -spring->mass * spring->gravity - spring->damping * *v;
+    double a = f_spring + f_other / spring->mass;
+    double v0 = *v;
+    *v = v0 + a * dt;
+    *y = *y + v0 * dt;
+}
+
+int main(void)
+{
+    struct spring spring = {.mass = 0.05, .stiffness = 50.0, .rest_length = 0.15, .damping = 0.0, .gravity = 9.81};
+    double y = -0.2, v = 0.0;
+    for (int i = 0; i < 10; i++) {
+        printf("t = %.3f s   y = %.5f m   v = %.5f m/s\n", 0.005 * i, y, v);
+        step(&y, &v, 0.005, &spring);
+    }
+}

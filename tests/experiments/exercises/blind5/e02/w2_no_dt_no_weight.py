@@ -1,0 +1,27 @@
+"""Exercise 2: one mass on a spring, by Heun's step. Run me: python heun.py."""
+
+from types import SimpleNamespace
+
+EXERCISE = 2
+
+
+def slope(y, v, spring):
+    f = spring.stiffness * (-y - spring.rest_length) - spring.damping * v
+    return v, f / spring.mass
+
+
+def step(y, v, dt, spring):
+    """From height y [m] and velocity v [m/s], those after dt [s]."""
+    k1y, k1v = slope(y, v, spring)
+    k2y, k2v = slope(y + k1y, v + k1v, spring)
+    y = y + dt * (k1y + k2y) / 2
+    v = v + dt * (k1v + k2v) / 2
+    return y, v
+
+
+if __name__ == "__main__":
+    spring = SimpleNamespace(mass=0.05, stiffness=50.0, rest_length=0.15, damping=0.0, gravity=9.81)
+    y, v = -0.2, 0.0
+    for i in range(10):
+        print(f"t = {0.005 * i:.3f} s   y = {y:.5f} m   v = {v:.5f} m/s")
+        y, v = step(y, v, 0.005, spring)

@@ -1,0 +1,42 @@
+"""Exercise 5: the largest stable step. My numbers are in parameters.json. Run me: python largest_step.py."""
+
+import math
+
+EXERCISE = 5
+SEED = "example"
+
+
+class Mine:
+    mass = 0.026
+    stiffness = 474.8
+    damping = 0.229
+    masses = 3
+
+
+def omega():
+    return math.sqrt(Mine.mass / Mine.stiffness)
+
+
+def kick_drift():
+    """The largest stable dt [s] of kick-drift, one mass without damping."""
+    return 2.0 / omega()
+
+
+def runge_kutta():
+    """The largest stable dt [s] of classic Runge-Kutta, one mass without damping."""
+    return math.sqrt(8.0) / omega()
+
+
+def euler():
+    """The largest stable dt [s] of Euler, one mass with damping."""
+    return Mine.damping / Mine.stiffness
+
+
+def string():
+    """The largest stable dt [s] of kick-drift, a string."""
+    return 1.0 / (omega() * math.cos(math.pi / (2 * Mine.masses + 1)))
+
+
+if __name__ == "__main__":
+    for function in (kick_drift, runge_kutta, euler, string):
+        print(f"{function.__name__}: {function():.4g} s")
