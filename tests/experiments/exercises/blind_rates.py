@@ -70,7 +70,9 @@ def _samples() -> Mapping[str, list[Program]]:
 def _with_lines(folder: Path, seed: str = "example") -> list[Program]:
     entries = tomllib.loads((folder / "expected.toml").read_text(encoding="utf-8"))
     return [
-        Program(folder / name, name, entry["kind"] == "right", entry.get("words", ""), tuple(entry.get("lines", ())), seed)
+        Program(
+            folder / name, name, entry["kind"] == "right", entry.get("words", ""), tuple(entry.get("lines", ())), seed
+        )
         for name, entry in entries.items()
     ]
 
