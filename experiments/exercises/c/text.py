@@ -27,8 +27,18 @@ def unwritten_in_c(source: str, functions: Iterable[str]) -> list[str]:
 
 
 def without_comments(source: str) -> str:
-    """The text without its comments; what stands in quotes stays."""
-    return SILENT.sub(lambda found: " " if found[0].startswith("/") else found[0], source)
+    """The text without its comments, line by line; what stands in quotes stays."""
+    return SILENT.sub(lambda found: re.sub(r"[^\n]+", " ", found[0]) if found[0].startswith("/") else found[0], source)
+
+
+def includes_the_exercise(source: str) -> bool:
+    r"""Whether the file that says what the function is given is included, or its structures are written out.
+
+    >>> includes_the_exercise('#include "exercise.h"'), includes_the_exercise('// #include "exercise.h"')
+    (True, False)
+    """
+    text = without_comments(source)
+    return bool(re.search(r"#\s*include\s*[\"<][^\">\n]*exercise\.h|\bstruct\s+(spring|string|circle)\s*{", text))
 
 
 def whole_divisions(source: str) -> list[tuple[int, str]]:

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from experiments.exercises.c.text import includes_the_exercise, without_comments
 from experiments.exercises.exercise import Answer, Question
 from experiments.exercises.verdict.answer_catalogue import AnswerCatalogue
 from experiments.exercises.verdict.answer_distance import answer_distance
@@ -95,8 +96,9 @@ OF_C: Mapping[str, Mapping[str, tuple[str, str, str]]] = {
         "SIGFPE": ("division_by_zero", "your program divides a whole number by zero", "What is zero there, and when?"),
         "": (
             "crashed",
-            "your program was ended by its own library: memory was given back twice, or written past its end",
-            "Do you need malloc and free here? Arrays of a function's own will do.",
+            "your program ended itself: it called abort, or an assert failed; or the C library ended it, where memory "
+            "was given back twice or written past its end",
+            "Is there an assert or abort, and what does it ask? If there is none: do you need malloc and free?",
         ),
     },
 }
@@ -117,11 +119,27 @@ def of_the_end(word: str, reason: str) -> Finding:
     return Finding(word.replace(" ", "_"), f"It was stopped: {reason}.", hint)
 
 
-def of_compiler(line: int | None, words: str) -> Finding:
-    """What a compiler refused."""
+def of_own_trap(found: Finding, source: str) -> Finding:
+    """The same finding, or, where the program's own trap stands on its line, that: both are one instruction."""
+    by_memory = BY_MEMORY[1] in found.words
+    lines = without_comments(source).splitlines() if found.name == "outside_an_array" and not by_memory else []
+    text = lines[found.line - 1] if found.line is not None and found.line <= len(lines) else ""
+    if "__builtin_trap" not in text:
+        return found
+    other = ", or an index there is outside its array" if "[" in text else ""
+    words = f"line {found.line}: an illegal instruction ended your program: it came to its own __builtin_trap{other}."
+    return Finding("crashed", words, "Under which condition does it stand, and why is that so?", found.line)
+
+
+def of_compiler(line: int | None, words: str, source: str) -> Finding:
+    """What a compiler refused; that the exercise's own file is not included, where it is not."""
     said = f"{f'line {line}: ' if line else ''}the compiler says: {clean(words).rstrip('.')}."
+    if not includes_the_exercise(source):
+        said = f'#include "exercise.h" is missing; {said}'
     is_other = re.search(r"\b(iostream|vector|cmath|std|using|namespace|class|template)\b", words)
     hint = "Is it C++? It is compiled as C." if is_other else "Look at that line, and at the one before it."
+    if not is_other and not includes_the_exercise(source):
+        hint = 'Write #include "exercise.h" below #define EXERCISE, as the starter does.'
     return Finding("does_not_compile", said, hint, line)
 
 

@@ -125,7 +125,7 @@ def _judge_c(
     except MissingFunctionError as error:
         return _failed(catalogue, "error", findings.missing_function(str(error)))
     except DoesNotCompileError as error:
-        return _failed(catalogue, "error", findings.of_compiler(error.line, str(error)))
+        return _failed(catalogue, "error", findings.of_compiler(error.line, str(error), source))
     aside = list(exercise.aside_in_c())
     asked = [question.asked() for question in [*catalogue.questions, *aside]]
     later: list[Mapping[str, Any]] = []
@@ -140,7 +140,8 @@ def _judge_c(
     if other is not None:
         return _another(verdict, other)
     remarks = tuple(findings.of_warning(line, words) for line, words in made.warnings if verdict.right)
-    return replace(verdict, remarks=remarks, findings=tuple(findings.in_c(f) for f in verdict.findings))
+    told = tuple(findings.of_own_trap(findings.in_c(f), source) for f in verdict.findings)
+    return replace(verdict, remarks=remarks, findings=told)
 
 
 def not_asked(exercise: Exercise, seed: str, key: str | None, before: Verdict) -> Verdict:

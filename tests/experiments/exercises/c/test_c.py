@@ -193,6 +193,32 @@ def test_a_crash_by_memory_may_be_an_earlier_lines() -> None:
         assert ("an earlier line may have written over" in finding.words) == by_memory
 
 
+def test_a_program_that_ends_itself_is_told_so() -> None:
+    """By abort, or an assert that fails."""
+    begin = STEP.replace("void step", "#include <assert.h>\n#include <stdlib.h>\nvoid step")
+    for call in ("abort();", "assert(dt < 0);"):
+        (finding,) = judge(find("1"), f"{begin}    {call}\n}}\n", language="c").findings
+        assert "your program ended itself: it called abort, or an assert failed" in finding.words
+
+
+def test_a_programs_own_trap_is_no_arrays() -> None:
+    """Though the compiler's check of an index is the same instruction."""
+    trapped = f"{STEP}    /* a\n       b */\n    if (dt > 0) __builtin_trap();\n}}\n"
+    (finding,) = judge(find("1"), trapped, language="c").findings
+    assert (finding.name, finding.line) == ("crashed", 9)
+    assert "illegal instruction" in finding.words
+    assert "array" not in finding.words
+
+
+def test_a_missing_include_is_named() -> None:
+    """Only where the text lacks it."""
+    lacks = STEP.replace('#include "exercise.h"', '// #include "exercise.h"')
+    for text, missing in ((f"{lacks}}}\n", True), (f"{STEP}    *v += ;\n}}\n", False)):
+        (finding,) = judge(find("1"), text, language="c").findings
+        assert finding.name == "does_not_compile"
+        assert ('#include "exercise.h" is missing' in finding.words) == missing
+
+
 def test_in_c_nothing_is_returned() -> None:
     """What is told of a C program speaks of what it writes; of the lines that do; C++ is told as such."""
     still = judge(find("1"), f"{STEP.split('    double')[0]}    if (dt < 0) *y = 0;\n}}\n", language="c")
