@@ -116,6 +116,11 @@ def of_bends(system: MassSpringSystem, bends: Array, torques: Array, when: str) 
     return Shown(f"Angular springs {when}", ["spring", "masses", "bend [rad]", "torque [N m]"], rows)
 
 
+def _gave_up(run: Any) -> bool:
+    """Whether a step found no solution, so that no state is known that had blown up: the reason below has t and dt."""
+    return run.outcome.ending == "diverged" and run.motion is None
+
+
 def _of_motion(cell: Callable[[Any], Any]) -> Callable[[Any], Any]:
     return lambda run: None if run.motion is None else cell(run.motion)
 
@@ -143,7 +148,7 @@ def _vector(values: Any) -> str:
 #: What is said of every run of a simulation.
 SUMMARY: dict[str, Callable[[Any], Any]] = {
     "outcome": lambda run: run.outcome.ending,
-    "blew up at [s]": lambda run: run.blew_up_at,
+    "blew up at [s]": lambda run: "no: see below" if _gave_up(run) else run.blew_up_at,
     "largest sag": _of_motion(lambda m: _largest(m.sag, "mass", "m")),
     "largest stretch": _of_motion(lambda m: _largest(m.stretched, "spring", "m")),
     "largest tension": _of_motion(lambda m: None if m.forces is None else _largest(m.tension, "spring", "N")),

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from reference.checked_numbers import refuse_below
+from reference.checked_numbers import refuse, refuse_below
 from reference.errors import InputError
 from reference.state import Array
 from reference.system import check_parameter
@@ -64,6 +64,13 @@ def converted(name: str, value: Any, default: Any, several: bool) -> Any:
         expected = "a whole number" if whole else "a number"
         raise InputError(f"{name} = {value!r}: expected {expected}") from None
     if name == "rest_length":  # a system's may be 0; but scenes are laid out by it
+        works = "--change 0:rest_length=0 makes it 0 from the start, as does [[changes]] in a scene file"
+        refuse(
+            name,
+            np.asarray(numbers),
+            np.asarray(numbers) == 0,
+            f"a number > 0 [m], as scenes are laid out by it; {works}",
+        )
         refuse_below(name, np.asarray(numbers, dtype=np.float64), "m", above_zero=True)
     for number in numbers:
         check_parameter(name, number)

@@ -1,7 +1,7 @@
 // What people do: buttons, sliders, the pointer and the keyboard.
 
 function setPlaying(wanted) {
-  lab.playing = wanted && !lab.lanes.every(lane => lane.world.blownUp || lane.recording);
+  lab.playing = wanted && canGoOn();
   lab.debt = 0;
   showState();
 }
@@ -10,7 +10,7 @@ function stepOnce() { lab.playing = false; oneStep(); keepPast(); showState(); }
 function stepBack() { if (lab.past.length > 1) { lab.playing = false; rewind(lab.past.length - 2); showAll(); } }
 
 function togglePin(mass) {
-  const {I, at} = lab.lanes[0].world.memory, held = I[at.fixed + mass];
+  const {I, at} = furthest().world.memory, held = I[at.fixed + mass];
   change(held ? "release" : "hold", [mass]);
   $("shared").textContent = say(held ? "released" : "held", {which: mass});
 }

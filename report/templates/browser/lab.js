@@ -16,7 +16,12 @@ const lab = {
 };
 
 const sceneNamed = name => DATA.scenes.find(scene => scene.name === name);
-const laneTime = () => lab.lanes.length ? timeOf(lab.lanes[0].world) : 0;
+
+// The lane that is furthest, the first of those: one that stopped stays where it was, with the parameters it had then.
+const furthestOf = lanes => lanes.reduce((most, lane) => timeOf(lane.world) > timeOf(most.world) ? lane : most);
+const furthest = () => furthestOf(lab.lanes);
+const laneTime = () => lab.lanes.length ? timeOf(furthest().world) : 0;
+const canGoOn = () => lab.lanes.some(lane => !lane.recording && !lane.world.blownUp);
 
 // A scene with lanes, from its start, with changes on the way besides the scene's own.
 function openScene(name, {lanes, dt, changes = [], magnified} = {}) {
@@ -33,7 +38,7 @@ function openScene(name, {lanes, dt, changes = [], magnified} = {}) {
 function startLanes(names) {
   const chosen = names.filter(name => schemes[name] || recordingNamed(name) || engineNamed(name)).slice(0, MOST_LANES);
   lab.lanes = (chosen.length ? chosen : ["kick_drift"]).map(startLane);
-  Object.assign(lab, {past: [], series: [], touched: false, debt: 0, grabbed: null, firstDt: lab.dt});
+  Object.assign(lab, {past: [], series: [], touched: false, debt: 0, grabbed: null, short: false, firstDt: lab.dt});
   keepPast();
   askLimits();
 }
@@ -86,7 +91,7 @@ function stepLanes(seconds) {
   const begin = performance.now(), wanted = Math.floor(lab.debt / lab.dt);
   let done = 0;
   for (; done < wanted && performance.now() - begin < lab.budget; done++) {
-    if (lab.lanes.every(lane => lane.recording || lane.world.blownUp)) break;
+    if (!canGoOn()) break;
     oneStep();
   }
   lab.debt = done < wanted ? 0 : lab.debt - done * lab.dt;
@@ -101,8 +106,10 @@ function oneStep() {
     if (lane.recording) showRecording(lane, laneTime());
     else if (!lane.world.blownUp) advance(lane.world, 1);
   }
-  const first = lab.lanes.find(lane => !lane.recording);
-  if (first) for (const lane of lab.lanes) if (lane.recording) { lane.world.steps = first.world.steps; lane.world.origin = first.world.origin; lane.world.dt = first.world.dt; }
+  const stepped = lab.lanes.filter(lane => !lane.recording);
+  if (!stepped.length) return;
+  const {steps, origin, dt} = furthestOf(stepped).world;
+  for (const lane of lab.lanes) if (lane.recording) Object.assign(lane.world, {steps, origin, dt});
 }
 
 // A recorded run at a time: between two frames, in a straight line.
@@ -149,12 +156,13 @@ function brokenOf({I, at}) {
   return found;
 }
 
+// How far lanes are apart is known at one time only: not of one that stopped and one that went on.
 function measured() {
-  const first = lab.lanes[0].world;
+  const first = lab.lanes[0].world, apartOf = ({world}) => timeOf(world) === timeOf(first) ? apart(first, world) : NaN;
   return {
     time: laneTime(),
     energy: lab.lanes.map(lane => lane.recording ? NaN : energies(lane.world).total),
-    apart: lab.lanes.map((lane, k) => k ? apart(first, lane.world) : 0),
+    apart: lab.lanes.map((lane, k) => k ? apartOf(lane) : 0),
   };
 }
 
@@ -175,7 +183,7 @@ function rewind(k) {
     if (fresh.put) for (let i = 0; i < at.n; i++) fresh.put(i);
     lane.world = fresh;
   });
-  lab.dt = lab.lanes[0].world.dt;
+  lab.dt = furthest().world.dt;
   lab.past = lab.past.slice(0, k + 1);
   lab.series = lab.series.filter(row => row.time <= frame.time);
   lab.debt = 0;
@@ -185,7 +193,7 @@ function rewind(k) {
 // The limits of all lanes as things are set: asked of a worker, so that the page goes on meanwhile.
 let worker = null, asked = 0;
 function askLimits() {
-  const {memory} = lab.lanes[0].world, {F, I, at, angular} = memory;
+  const {memory} = furthest().world, {F, I, at, angular} = memory;
   const names = [...new Set(lab.lanes.map(lane => lane.recording ? lane.recording.scheme : lane.scheme).filter(name => schemes[name]))];
   lab.limits = {};
   if (!lab.scene.rest.length) return limitsCame();

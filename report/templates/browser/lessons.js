@@ -26,16 +26,16 @@ const LESSONS = [
     },
   },
   {slides: "2, 5", state: "s=oscillator&w=kick_drift,kick_drift_implicit_damping&dt=0.001&at=0:damping:1&speed=0.2", check: () => {
-    const {limit} = lab.limits.kick_drift || {}, {F, at} = lab.lanes[0].world.memory;
+    const {limit} = lab.limits.kick_drift || {}, {F, at} = furthest().world.memory;
     return limit > 0 && limit <= 0.01 && F[at.damping] > 0 && lab.scene.name === "oscillator" && F[at.stiffness] === 200 && F[at.masses + 1] === 0.02;
   }},
   {slides: "18-22", state: "s=cloth&w=kick_drift&dt=0.001", check: () => {
-    const {I, at} = lab.lanes[0].world.memory, fixed = I.subarray(at.fixed, at.fixed + at.n).reduce((sum, one) => sum + one, 0);
+    const {I, at} = furthest().world.memory, fixed = I.subarray(at.fixed, at.fixed + at.n).reduce((sum, one) => sum + one, 0);
     if (fixed !== 1 || lab.scene.name !== "cloth") { lessonState.hungAt = null; return false; }
     if (lessonState.hungAt === null || lessonState.hungAt > laneTime()) lessonState.hungAt = laneTime();
-    return laneTime() >= lessonState.hungAt + 0.3 && !lab.lanes[0].world.blownUp;
+    return laneTime() >= lessonState.hungAt + 0.3 && !furthest().world.blownUp;
   }},
-  {slides: "13, 15", state: "s=cloth&w=kick_drift,rk4&dt=0.002", answer: value => Math.abs(value / 0.5 - 1) < 0.02 && lab.scene.name === "cloth" && lab.lanes[0].world.memory.F[lab.lanes[0].world.memory.at.stiffness] >= 160},
+  {slides: "13, 15", state: "s=cloth&w=kick_drift,rk4&dt=0.002", answer: value => Math.abs(value / 0.5 - 1) < 0.02 && lab.scene.name === "cloth" && furthest().world.memory.F[furthest().world.memory.at.stiffness] >= 160},
 ];
 
 // Whether the task of the lesson that is open is done, as things are now.

@@ -4,7 +4,7 @@ function stateText() {
   const words = [["v", FORMAT], ["s", lab.scene.name], ["w", lab.lanes.map(lane => lane.scheme).join(",")], ["dt", String(startDt())]];
   const changes = lab.changes.filter(change => !(change.time === 0 && change.parameter === "dt"));
   if (changes.length) words.push(["at", changes.map(({time, parameter, value}) => `${timeText(time)}:${parameter}:${[value].flat().join("+")}`).join(",")]);
-  const {steps} = lab.lanes[0].world;
+  const {steps} = furthest().world;
   if (steps) words.push(["n", steps]);
   if (lab.speed !== 1) words.push(["speed", lab.speed]);
   if (lab.beside) words.push(["beside", 1]);
@@ -84,9 +84,9 @@ function openState(state) {
   lab.firstDt = lab.dt;
   const begin = performance.now();
   let taken = 0;
-  for (; taken < state.steps && performance.now() - begin < 3000; taken++) { oneStep(); if (taken % 16 === 15) keepPast(); }
+  for (; taken < state.steps && canGoOn() && performance.now() - begin < 3000; taken++) { oneStep(); if (taken % 16 === 15) keepPast(); }
   if (taken) keepPast();
-  lab.dt = lab.lanes[0].world.dt;
+  lab.dt = furthest().world.dt;
   lab.short = taken < state.steps;
   askLimits();
 }

@@ -148,7 +148,7 @@ const ofSlider = (place, [low, high]) => +(low > 0 ? low * (high / low) ** (plac
 
 // A parameter as one number, gravity downwards, and whether that is all there is to it.
 function oneNumber(name) {
-  const {F, at} = lab.lanes[0].world.memory, [begin, count] = PARAMETERS[name](at), values = F.subarray(begin, begin + count);
+  const {F, at} = furthest().world.memory, [begin, count] = PARAMETERS[name](at), values = F.subarray(begin, begin + count);
   if (name === "gravity") return {same: -values[Math.min(1, at.d - 1)], all: true};
   return {same: values[0], all: values.every(value => value === values[0])};
 }
@@ -231,7 +231,7 @@ function showEquations() {
 let bannerKey = "";
 function showBanner() {
   const blown = lab.lanes.filter(lane => lane.world.blownUp && !lane.recording);
-  const key = blown.map(lane => `${lane.scheme} ${lane.world.steps} ${language} ${Boolean(lab.mode)}`).join();
+  const key = blown.map(lane => `${lane.scheme} ${lane.world.steps} ${language} ${Boolean(lab.mode)} ${Boolean(lab.limits[lane.scheme])}`).join();
   if (key === bannerKey) return;
   bannerKey = key;
   if (!blown.length) return $("said").replaceChildren();
@@ -239,18 +239,27 @@ function showBanner() {
     const {what, which} = lane.world.blownUp;
     return element("p", {}, `${say(`blew_${what}`, {name: lane.scheme, time: number(timeOf(lane.world)), which})} ${whyBlown(lane)}`);
   });
-  const limits = lab.lanes.map(one => (lab.limits[one.scheme] || {}).limit).filter(value => value > 0 && value < Infinity);
-  const buttons = [element("button", {type: "button", onclick: goBack}, say("go_back"))];
-  if (blown.some(({scheme}) => (lab.limits[scheme] || {}).limit > 0 && lab.limits[scheme].limit < lab.dt)) {
-    const shorter = +(0.9 * Math.min(...limits)).toPrecision(2);
+  const first = blown.reduce((one, other) => timeOf(other.world) < timeOf(one.world) ? other : one).world.blownUp.what;
+  const buttons = [element("button", {type: "button", onclick: goBack}, say(["unsolved", "refused"].includes(first) ? "go_back_stopped" : "go_back"))];
+  const shorter = shorterDt(blown);
+  if (shorter >= SHORTEST_DT && shorter < Infinity) {
     buttons.push(element("button", {type: "button", onclick: () => { lab.dt = shorter; reset(); showAll(); }}, say("shorter", {dt: number(1e3 * shorter)})));
   }
   $("said").replaceChildren(element("div", {className: "banner"}, ...said, element("div", {className: "row"}, ...buttons)));
 }
 
+// A dt at which lanes that blew up may go on: below all limits, and half of one at which equations were not solved.
+function shorterDt(blown) {
+  const limits = lab.lanes.map(one => (lab.limits[one.scheme] || {}).limit).filter(value => value > 0 && value < Infinity);
+  const beyond = blown.some(({scheme}) => (lab.limits[scheme] || {}).limit > 0 && lab.limits[scheme].limit < lab.dt);
+  const halves = blown.filter(({world}) => world.blownUp.what === "unsolved").map(({world}) => world.dt / 2);
+  return Math.min(...beyond ? [+(0.9 * Math.min(...limits)).toPrecision(2)] : [], ...halves.map(half => +half.toPrecision(3)));
+}
+
 function whyBlown(lane) {
   const told = lab.limits[lane.scheme], mode = lab.mode;
-  if ((lane.world.blownUp || {}).what === "unsolved" || !told || !mode || told.limit === null) return "";
+  if ((lane.world.blownUp || {}).what === "unsolved") return say(told && told.limit === Infinity ? "why_unsolved_stable" : "why_unsolved");
+  if (!told || !mode || told.limit === null) return "";
   const scheme = schemes[lane.scheme], {dt} = lane.world, omega = number(Math.sqrt(mode.w2), 4);
   // what is no mode's growth, as on obstacles or where a scheme writes in place, is not given as the reason
   const factor = scheme.kind !== "in_place" && !told.alone ? growthOfMode(scheme, mode.w2, mode.g - mode.drag, mode.drag)(dt) : NaN, grows = factor > 1, growth = grows && factor < 1.0005 ? `1 + ${number(factor - 1, 2)}` : number(factor, 4);
@@ -273,10 +282,11 @@ function write(place, text) { if (place.textContent !== text) place.textContent 
 
 function showState() {
   write($("play"), say(lab.playing ? "pause" : "play"));
-  const {steps} = lab.lanes[0].world;
+  const {steps} = furthest().world;
   const words = [say("status", {scene: lab.scene.title || lab.scene.name, time: number(laneTime(), 5) || "0", steps, paused: lab.playing ? "" : say("paused")})];
   if (lab.playing && lab.reached < 0.9) words.push(say("slow", {part: number(lab.reached, 2)}));
-  if (lab.short) words.push(say("link_short"));
+  if (!canGoOn()) words.push(say("all_stopped"));
+  else if (lab.short) words.push(say("link_short"));
   write($("status"), words.join(" "));
   $("past").max = lab.past.length - 1;
   if (document.activeElement !== $("past") || lab.playing) $("past").value = lab.past.length - 1;
@@ -313,7 +323,7 @@ function frame(now) {
   if (lab.playing) {
     shareFrame(ms);
     stepLanes(Math.min(ms / 1e3, 0.05) * lab.speed);
-    if (lab.lanes.every(lane => lane.world.blownUp || lane.recording)) { lab.playing = false; showState(); }
+    if (!canGoOn()) { lab.playing = false; showState(); }
   }
   draw();
   if (lab.playing && now - told > 120) { drawNextPlot(); showState(); told = now; }

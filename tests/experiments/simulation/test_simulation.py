@@ -92,6 +92,17 @@ def test_a_run_that_blows_up_is_told_up_to_there() -> None:
     assert np.isfinite(np.array(run["positions_m"], dtype=float)).all()
 
 
+def test_where_a_solver_gives_up_the_table_says_so() -> None:
+    """Not that it blew up at an unknown time; below the table stand t and dt. Euler's has the time."""
+    said = springlab("simulate", "cloth", "--stepper=backward_euler", "--dt=0.2")
+    (row,) = [line for line in said.out.splitlines() if "blew up at" in line]
+    assert row.split("[s]")[1].strip() == "no: see below"
+    assert "backward Euler found no solution at t = 0 s with dt = 0.2 s" in said.out
+    said = springlab("simulate", "string", "--stepper=euler", "--dt=0.02", "--duration=2")
+    (row,) = [line for line in said.out.splitlines() if "blew up at" in line]
+    assert 0 < float(row.split("[s]")[1]) < 2
+
+
 def test_what_cannot_run_leaves_nothing() -> None:
     """All keys are there, without values."""
     (run,) = simulated("cloth", "pymunk_springs", duration=0.01)

@@ -36,6 +36,8 @@ LINES = [
     ("compare --set damping=-0.1", "damping = -0.1: expected a number >= 0 [N s/m]"),
     ("compare --set drag=inf", "drag = inf: expected a finite number [N s/m]"),
     ("compare --set rest_length=0", "rest_length = 0: expected a number > 0 [m]"),
+    # What does work is said.
+    ("compare --set rest_length=0", "; --change 0:rest_length=0 makes it 0 from the start"),
     ("compare --set masses=0", "masses = 0: expected a whole number from 1 to 10,000,000"),
     ("compare --dt -1e-3", "dt = -0.001: expected a finite number > 0 [s]"),
     ("compare --dt 0", "dt = 0: expected a finite number > 0 [s]"),
