@@ -87,7 +87,7 @@ function openState(state) {
   for (; taken < state.steps && canGoOn() && performance.now() - begin < 3000; taken++) { oneStep(); if (taken % 16 === 15) keepPast(); }
   if (taken) keepPast();
   lab.dt = furthest().world.dt;
-  lab.short = taken < state.steps;
+  lab.short = taken < state.steps && canGoOn();
   askLimits();
 }
 

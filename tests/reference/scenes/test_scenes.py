@@ -159,7 +159,13 @@ def test_one_number_for_each_mass_or_spring(as_text: bool) -> None:
         ("string", {"stiffness": "1,,2"}, "stiffness = '1,,2': expected a number"),
         ("string", {"stiffness": True}, "stiffness = True: expected a number"),
         ("string", {"stiffness": None}, "stiffness = None: expected a number"),
-        ("string", {"rest_length": "0"}, "rest_length = 0: expected a number > 0 [m]"),
+        ("string", {"rest_length": "-1"}, "rest_length = -1: expected a number > 0 [m]"),
+        (
+            "string",
+            {"rest_length": "0"},
+            "rest_length = 0: expected a number > 0 [m], as scenes are laid out by it; "
+            "--change 0:rest_length=0 makes it 0 from the start, as does [[changes]] in a scene file",
+        ),
         ("string", {"damping": "-0.5"}, "damping = -0.5: expected a number >= 0 [N s/m]"),
         ("string", {"drag": -0.1}, "drag = -0.1: expected a number >= 0 [N s/m]"),
         ("string", {"drag": "0.1,0.2"}, "drag = '0.1,0.2': expected one number"),

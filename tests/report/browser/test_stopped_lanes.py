@@ -93,6 +93,10 @@ def test_where_all_lanes_have_stopped_the_status_says_so(browser: Any, file: Pat
     status = shown.page.inner_text("#status")
     assert said in status
     assert shown.page.evaluate("say('link_short')") not in status
+    shown.page.evaluate("goBack()")
+    assert shown.page.evaluate("say('link_short')") not in shown.page.inner_text(
+        "#status"
+    )  # it was not for want of time
     shown.page.evaluate("lab.short = true; rewind(0); lab.lanes[0].world.blownUp = null; showState()")
     status = shown.page.inner_text("#status")
     assert said not in status
