@@ -56,7 +56,11 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Refuse an unknown engine or part before anything runs; workers are given the part that was chosen here."""
-    config.addinivalue_line("markers", "rotating(n): it, or each of its cases, is run on every n-th day")
+    config.addinivalue_line(
+        "markers",
+        "rotating(n, in_turn=False): it, or each of its cases, is run on every n-th day; with in_turn the tests of a "
+        "file that are marked so take turns, and every day runs some of them",
+    )
     if config.option.part is None:
         config.option.part = todays()
     if not 0 <= config.option.part < PARTS:
@@ -99,7 +103,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     """Leave out the `rotating` tests and cases whose day it is not; none with --full, --all-cases, or named by `::`.
 
     All tests of a file begin with the same day: what they share is made on that day only, and files have other days.
-    What takes longest comes first.
+    Those that take turns are counted together, test by test and case by case. What takes longest comes first.
     """
     items.sort(key=lambda item: not item.nodeid.startswith(LONGEST))
     if config.option.full or config.option.all_cases or any("::" in argument for argument in config.args):
@@ -109,14 +113,22 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     for item in items:
         marker = item.get_closest_marker("rotating")
         if marker is not None:
+            _require_that_it_comes_round(item, marker.args[0])
             test = item.nodeid.partition("[")[0]
-            first = crc32(test.partition("::")[0].encode())
-            if not kept(first + seen[test], marker.args[0], config.option.part):
+            file = test.partition("::")[0]
+            counted = file if marker.kwargs.get("in_turn") else test
+            if not kept(crc32(file.encode()) + seen[counted], marker.args[0], config.option.part):
                 left_out.append(item)
-            seen[test] += 1
+            seen[counted] += 1
     config.hook.pytest_deselected(items=left_out)
     gone = set(left_out)
     items[:] = [item for item in items if item not in gone]
+
+
+def _require_that_it_comes_round(item: pytest.Item, every: int) -> None:
+    """Raises UsageError for a test that has parts already, some of which would be on no day of its own; and days."""
+    if every > PARTS or "corpus_part" in getattr(item, "fixturenames", ()):
+        raise pytest.UsageError(f"{item.nodeid}: rotating({every}): expected at most {PARTS}, and no `corpus_part`")
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:

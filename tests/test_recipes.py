@@ -137,7 +137,7 @@ def recipes_commands(config: pytest.Config) -> Iterator[tuple[str, str]]:
                 yield name, command
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_scheme_of_every_recipe_goes_through_every_command(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     """Nothing but a new file in reference/schemes: listed, compared, identified, its limit found, mapped and swept."""
     folder = project_with_recipes(tmp_path)
@@ -222,6 +222,7 @@ def test_the_experiment_of_the_recipe_answers_its_question(follow: Any) -> None:
     assert result.tables[0].rows[-1][1] > result.tables[0].rows[0][1]
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_the_exercise_of_the_recipe_names_its_mistakes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """In one folder: it is listed, a right solution passes, a mistake is named, and so are two at once."""
     from experiments.exercises import exercise

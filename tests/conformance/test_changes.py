@@ -22,7 +22,7 @@ ASKED = {
 }
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("case", CHANGES)
 def test_a_change_acts_as_in_the_scheme_or_is_refused_by_name(engine: Engine, case: str) -> None:
     """The distance max |x_engine - x_scheme| <= 1e-12 of the size, both with the same changes at the same steps."""

@@ -42,6 +42,7 @@ CASES = {name: Case(name, find_scene("string").system(values), DT, STEPS) for na
 QUIET = Case("quiet", find_scene("string").system({"masses": 3, "stiffness": 2e4, "angle": 89.5}), 5e-4, 5000)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("case", CASES)
 def test_the_engine_is_identified_as_it_claims(engine: Engine, case: str) -> None:
     """The claimed scheme is within 1e-12 m of the engine at all times; else the nearest of the catalogue is named.

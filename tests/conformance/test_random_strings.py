@@ -28,7 +28,7 @@ from tests.conformance.runs import outcomes
 from tests.conformance.strings import random_strings
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(4)
 def test_every_random_string_is_stepped_as_claimed(engine: Engine) -> None:
     """On all strings within its capabilities, max |x_engine - x_scheme| <= 1e-12 of the string's size."""
     cases = supported(engine, random_strings(on_rods(engine)))

@@ -27,6 +27,7 @@ def check_identified(engine: Engine, case: Case, outcome: Outcome) -> None:
     assert found.error < max(1e-9, tolerance_of(engine) * case.system.size)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("scene", SCENES)
 def test_scenes_are_stepped_as_by_a_known_scheme(engine: Engine, scene: str) -> None:
     """Or refused, as the table of refusals has it."""

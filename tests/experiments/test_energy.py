@@ -152,7 +152,7 @@ KINDS = {
 }
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(6)
 @pytest.mark.parametrize("name", KINDS)
 def test_energy_is_of_the_kind_that_theory_says(name: str, on: Bench) -> None:
     """Bounded for symplectic schemes; the others gain or lose."""
@@ -239,6 +239,7 @@ def in_momenta(system: MassSpringSystem) -> Scheme:
     return Scheme(step, 1, "scheme")
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
     """In angles and rates kick-drift is not symplectic; in angles and momenta the same idea is, and stays bounded.
 
@@ -249,7 +250,7 @@ def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
     assert kinds == ["bounded", "growing"]
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(4)
 def test_engines_do_with_energy_what_their_schemes_do(engine: Engine, on: Bench) -> None:
     """An engine is identified, and its energy is of its scheme's kind; theirs differ by chaos, from rounding on."""
     row = measure(EngineStepper(engine), on)
@@ -332,6 +333,7 @@ def mixed(on: Bench) -> list[Row]:
     return [measure(stepper, on) for stepper in steppers]
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_findings_follow_the_kinds(mixed: list[Row]) -> None:
     """Who does what; who not as predicted, and why with rods; who loses momentum, and why in place."""
     said = " ".join(result_of(mixed).findings)

@@ -41,7 +41,7 @@ def check_order(stepper: SchemeStepper, benches: list[Bench]) -> None:
     assert abs(row.off) <= NEAR == 0.05
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("stepper", catalogued().values(), ids=lambda s: s.name)
 def test_slopes_are_as_theory_says(stepper: SchemeStepper, benches: list[Bench]) -> None:
     """Every scheme, on springs and on rods; those written in place have order 1."""

@@ -159,6 +159,7 @@ def test_a_run_that_blows_up_is_compared_only_until_it_does() -> None:
     assert found.identified_as == "heun"
 
 
+@pytest.mark.rotating(2)
 @settings(property_test, max_examples=20)
 @given(seed=seeds, masses=st.integers(2, 12), index=st.integers(0, len(WHOLE_STATE) - 1))
 def test_identification_holds_on_random_strings(seed: int, masses: int, index: int) -> None:

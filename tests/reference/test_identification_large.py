@@ -25,7 +25,7 @@ def all_are_large(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reference.identification.search, "LARGE", 0)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(6)
 @pytest.mark.usefixtures("all_are_large")
 @pytest.mark.parametrize("case", PARAMETERS)
 @pytest.mark.parametrize("scheme", [s for s in schemes().values() if s.step.__module__ in catalogue.FIRST], ids=label)

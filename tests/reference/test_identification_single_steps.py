@@ -58,7 +58,7 @@ class Rounded:
         return outcome_of(system, Trajectory.of(states))
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("dt", [1e-4, 1e-3, 5e-3])
 @pytest.mark.parametrize("name", ["euler", "heun", "kick_drift", "drift_kick", "velocity_verlet", "rk4"])
 def test_steppers_in_single_precision_are_named(name: str, dt: float) -> None:

@@ -61,7 +61,7 @@ class Refusing:
         return catalogued()[self.scheme].run(system, dt, steps, changes)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(6)
 @pytest.mark.parametrize("build", SYSTEMS)
 @pytest.mark.parametrize("name", TOLD_APART)
 def test_what_its_own_motion_does_not_tell_a_push_does(name: str, build: type) -> None:

@@ -77,6 +77,7 @@ class Swept(Doctored):
         return {"plain": "kick_drift", "damping": "drift_kick_sequential_damping(rounds=3)", "drag": "kick_drift"}
 
 
+@pytest.mark.rotating(3)
 def test_a_claim_with_a_parameter_is_tried() -> None:
     """Pymunk with three rounds is the scheme of three rounds; whoever claims that and is another is not."""
     from engines.pymunk.springs import PymunkSprings

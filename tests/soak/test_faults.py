@@ -50,6 +50,7 @@ def sweep(store: Path, numbers: Sequence[int], kills: int) -> None:
     assert (runner.done, owed) == (len(numbers), 0)
 
 
+@pytest.mark.rotating(3)
 def test_every_run_is_accounted_for_though_processes_are_killed(tmp_path: Path, size: Size) -> None:
     """A row for each run, with its own outcome and reason and nobody else's; good answers are equal bit for bit."""
     store = tmp_path / "store.sqlite"

@@ -113,7 +113,7 @@ def test_advice_for_another_limit_is_caught() -> None:
             check_advice(engine, setup, wrong, 0.9 * wrong)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(4)
 def test_an_engine_with_another_limit_is_seen() -> None:
     """Two dt in a step halve the limit of kick-drift; what is predicted for others is not said of it."""
     setup = setup_of("stiff rope")

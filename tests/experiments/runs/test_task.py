@@ -211,6 +211,7 @@ print(run_task().key, run_task().question)
 """
 
 
+@pytest.mark.rotating(3)
 def test_equal_tasks_have_equal_keys_in_every_process(tmp_path: Path) -> None:
     """Though every Python shuffles its sets anew: a set within the engine's capabilities is among what is digested."""
     asked = run_task()

@@ -49,6 +49,7 @@ def test_runge_kutta_limits_are_those_of_the_stability_polynomial(scheme: Scheme
         assert windows[0][1] == pytest.approx(stable_along(polynomial, angle)[0][1], abs=1e-8)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("scheme", [s for s in schemes().values() if s.kind != "in_place"], ids=label)
 def test_the_order_is_at_least_what_the_catalogue_says(scheme: Scheme) -> None:
     """M - exp(A) = O(h^(p+1)); on linear motion an order may be higher than on any."""

@@ -132,6 +132,7 @@ def test_limits_of_multistep_methods_are_the_textbooks() -> None:
     assert (bdf2.imaginary_axis, bdf2.real_axis, bdf2.of_fast) == (((0.0, FAR),), ((0.0, FAR),), 0.0)
 
 
+@pytest.mark.rotating(3)
 def test_a_users_own_is_told_in_text_and_json(tmp_path: Path) -> None:
     """Generalised alpha, iterated."""
     path = tmp_path / "mine.py"

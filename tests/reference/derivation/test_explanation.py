@@ -42,6 +42,7 @@ ENGINES = [
 ]
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", ENGINES)
 def test_an_engines_formulas_are_those_of_a_scheme_it_claims(name: str) -> None:
     """Derived from the engine's own steps, and from the scheme's: the same fractions."""
@@ -105,6 +106,7 @@ def test_true_ends_that_are_kept_are_solved_for_again() -> None:
     assert np.abs(true_end(swinging(True, False)) - END_OF_ONE).max() > 0.01
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("name", ["heun", "kick_drift", "implicit_midpoint", "drift_kick_exponential_damping"])
 def test_a_scheme_is_explained_as_itself(name: str) -> None:
     """What the catalogue says of it is what was found from the outside."""

@@ -57,6 +57,7 @@ def random_string(seed: int, masses: int) -> MassSpringSystem:
 # --- One and the same ---
 
 
+@pytest.mark.rotating(2, in_turn=True)
 @property_test
 @given(seed=seeds, masses=st.integers(1, 6))
 def test_all_listings_agree_bit_for_bit_on_any_string(seed: int, masses: int) -> None:
@@ -70,6 +71,7 @@ def test_all_listings_agree_bit_for_bit_on_any_string(seed: int, masses: int) ->
     assert positions(INCORRECT, system, 20).tolist() == loops
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_all_listings_agree_bit_for_bit_over_the_whole_scene() -> None:
     """500 steps of ten links."""
     system = find_scene("string").system({"drag": 0.02})
@@ -95,7 +97,7 @@ def scene(drag: float) -> tuple[MassSpringSystem, dict[str, Trajectory]]:
     return system, candidates(system, DT, STEPS)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("drag", [0.0, 0.02])
 @pytest.mark.parametrize("listing", LISTINGS, ids=label)
 def test_listings_are_heun_with_a_deviation_of_exactly_zero(listing: LectureListing, drag: float) -> None:

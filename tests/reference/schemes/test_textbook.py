@@ -58,7 +58,7 @@ def check_order(scheme: Scheme, damping: float, drag: float) -> None:
     assert measured_order(scheme, damping, drag) == pytest.approx(scheme.order, abs=0.05)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("parameters", [UNDAMPED, DAMPED], ids=["undamped", "damped"])
 @pytest.mark.parametrize("scheme", ALL, ids=label)
 def test_order_is_as_theory_says(scheme: Scheme, parameters: dict[str, float]) -> None:

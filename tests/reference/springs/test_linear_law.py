@@ -137,6 +137,7 @@ def check_follows(found: dict[str, object]) -> None:
     assert not beyond
 
 
+@pytest.mark.rotating(2)
 def test_another_law_in_its_one_file_is_followed_everywhere(tmp_path: Path) -> None:
     """Functions, compiled loops, sweeps, Jacobians, equilibria, energy and the exact motion: on a copy, seen to move.
 

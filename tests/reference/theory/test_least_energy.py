@@ -39,6 +39,7 @@ def check_balanced(system: MassSpringSystem, rest: State, law: wrong.Law = Sprin
     assert (rest.positions[system.fixed] == system.positions[system.fixed]).all()
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize(("scene", "settings"), LARGE.values(), ids=LARGE)
 def test_large_systems_come_to_balance_where_they_are_stable(scene: str, settings: dict[str, Any]) -> None:
     """Forces balance, and every small push comes back: all w^2 > 0, so it is no ridge of the energy."""

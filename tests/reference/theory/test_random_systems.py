@@ -215,6 +215,7 @@ def measured(seed: int, kinds: tuple[str, ...]) -> int:
     return sum(check_measured(row) for row in rows)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(("seed", "kinds"), [(0, SCHEMES), (1, SCHEMES), (0, ("engine",))])
 def test_measured_limits_are_those_predicted(seed: int, kinds: tuple[str, ...]) -> None:
     """By every scheme, in two dimensions and in three, and by every engine that takes the system."""

@@ -169,6 +169,7 @@ def test_the_end_of_a_step_is_linearised() -> None:
 BESIDE_THE_TANGENT = [({"tension_only": 1}, 0.01627, False), ({"hardening": 2e5}, 0.01589, True)]
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize(("kind", "dt", "blows_up"), BESIDE_THE_TANGENT, ids=["rope", "hardening"])
 def test_limits_on_obstacles_are_those_of_the_springs_own_law(kind: dict[str, Any], dt: float, blows_up: bool) -> None:
     """Between the limits of the law and of its tangents at the rest a run tells which of them holds.

@@ -62,7 +62,7 @@ def until(page: Any, statement: str) -> None:
         page.wait_for_timeout(50)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("view", VIEWS[:4], ids=lambda view: "-".join(map(str, view)))
 def test_it_is_shown_without_a_request_or_a_complaint(browser: Any, file: Path, view: tuple[int, str, str]) -> None:
     """And without a violation that axe-core knows, or a part that reaches out of the window."""
@@ -77,6 +77,7 @@ def test_it_is_shown_without_a_request_or_a_complaint(browser: Any, file: Path, 
     shown.page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_one_lane_has_no_plot_of_distances(browser: Any, file: Path) -> None:
     """There is nothing it could be far from: with a second lane the plot is there."""
     for schemes, there in (("rk4", False), ("rk4,euler", True)):
@@ -122,6 +123,7 @@ RUN = (
 )
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_link_brings_back_the_same_numbers_and_the_same_picture(browser: Any, file: Path) -> None:
     """What was set, changed on the way and stepped: opened anew, every position is the same to the bit."""
     state = "s=string&w=heun,heun_aliased&dt=0.002&at=0:stiffness:150,0.05:gravity:3.7,0.06:hold:4&n=80"
@@ -147,6 +149,7 @@ def test_a_recorded_engine_lies_over_the_scheme_that_it_steps_by(browser: Any, f
     shown.page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> None:
     """By its buttons: dt to 1.02 times the limit, play, back to before, and a shorter dt that is stable."""
     shown = opened(browser, file, "s=string&w=kick_drift")
@@ -167,6 +170,7 @@ def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> N
     page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_every_lane_that_blew_up_is_named(browser: Any, file: Path) -> None:
     """With how many times dt times omega it stands: Euler at any dt, kick-drift at twice its limit; rk4 goes on."""
     shown = opened(browser, file, "s=string&w=euler,rk4,kick_drift&dt=0.0105&speed=4")
@@ -179,6 +183,7 @@ def test_every_lane_that_blew_up_is_named(browser: Any, file: Path) -> None:
     page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("scene", ["crossing", "earthquake"])
 def test_what_drives_a_scene_is_drawn_with_it(browser: Any, file: Path, scene: str) -> None:
     """A truck, and ground with an arrow: the picture is another without what `drawDriven` draws, as at no string."""
@@ -191,6 +196,7 @@ def test_what_drives_a_scene_is_drawn_with_it(browser: Any, file: Path, scene: s
         shown.page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_every_lesson_s_task_can_be_done(browser: Any, file: Path) -> None:
     """Each is not done at its start, and is done by what its task says."""
     shown = opened(browser, file, "s=string")
@@ -219,6 +225,7 @@ DEEDS = (
 )
 
 
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("steps", [0, 8])
 def test_the_third_lesson_takes_the_limit_before_it_is_computed_and_after_steps(
     browser: Any, file: Path, steps: int
@@ -241,6 +248,7 @@ def test_the_third_lesson_takes_the_limit_before_it_is_computed_and_after_steps(
     page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_junk_in_a_field_is_refused_and_the_field_keeps_what_it_had(browser: Any, file: Path) -> None:
     """With its name, what was typed, and what was expected; what is right afterwards ends the refusal."""
     shown = opened(browser, file, "s=string&w=kick_drift")
@@ -261,6 +269,7 @@ def test_junk_in_a_field_is_refused_and_the_field_keeps_what_it_had(browser: Any
     page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file: Path) -> None:
     """Each part as it stands there; all others are taken, and of a good link nothing is told."""
     shown = opened(browser, file, "s=string")
@@ -284,6 +293,7 @@ def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file:
     page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_link_without_a_scene_is_about_the_first_one(browser: Any, file: Path) -> None:
     """All else that it says is taken, and it is a whole state from then on."""
     shown = opened(browser, file, "w=rk4,euler&at=0:mass:0.5&n=3")
@@ -318,6 +328,7 @@ def test_positions_are_written_with_time_and_step_and_called_after_the_scene_and
     shown.page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_each_lane_says_about_which_rest_its_prediction_is(browser: Any, file: Path) -> None:
     """As in `springlab stability`: euler leads masses into an obstacle in every second step only. No limit, no rest."""
     about, without = "about its rest on obstacles, where 4 masses press.", "of the scene without its obstacles."
@@ -334,6 +345,7 @@ def test_each_lane_says_about_which_rest_its_prediction_is(browser: Any, file: P
     shown.page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_no_factor_below_one_is_given_as_the_reason_of_a_blow_up(browser: Any, file: Path) -> None:
     """On obstacles a limit may be below that of the fastest mode: then only dt and the limit are told.
 
@@ -352,6 +364,7 @@ def test_no_factor_below_one_is_given_as_the_reason_of_a_blow_up(browser: Any, f
     shown.page.close()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_links_and_commands_have_short_times_and_no_duration_of_nothing(browser: Any, file: Path) -> None:
     """A time that steps add up to with an error of rounding; at no steps there is no duration."""
     shown = opened(browser, file, "s=string&w=kick_drift&dt=0.002")

@@ -12,6 +12,7 @@ from tests.report.commands.terminal import springlab
 from tests.report.commands.test_compare import IDENTIFIED, compared, of_the_engines, rows
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(("name", "scheme"), IDENTIFIED.items())
 def test_engines_are_identified_where_nothing_moves(name: str, scheme: str) -> None:
     """Without weight the string rests by every scheme: engines are pushed, and no euler is among them."""
@@ -64,6 +65,7 @@ def test_a_change_after_the_end_is_refused() -> None:
         )
 
 
+@pytest.mark.rotating(2)
 def test_a_mass_alone_is_compared(tmp_path: Path) -> None:
     """It has no size; Heun is exact, and cannot be told from rk4 where nothing drags."""
     scene = tmp_path / "alone.toml"

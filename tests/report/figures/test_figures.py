@@ -50,7 +50,7 @@ def test_it_is_drawn_with_what_there_is_and_has_words_that_stand_for_it(name: st
     assert len(shown(name, case).alt) > 40
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("name", RESULTS)
 def test_all_of_it_can_be_seen(name: str) -> None:
     """Every axis with numbers has its unit; no words over one another or cut off, no data outside or under a legend."""

@@ -55,7 +55,7 @@ def _section(name: str, folder: Path) -> Section:
     return Section(find(name), result, picture.svg(), picture.alt, downloads, motions=animate(name, result))
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("view", VIEWS, ids=str)
 def test_the_page_has_no_violation_and_asks_for_nothing(browser: Any, file: Path, view: tuple[int, str, str]) -> None:
     """Zero by axe-core, best practices included; no request, no complaint, nothing cut, nothing too wide."""
@@ -97,6 +97,7 @@ def test_a_page_that_is_not_so_is_caught(browser: Any, short: Path, tmp_path: Pa
     shown.page.close()
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_dark_is_dark_and_paper_is_white(browser: Any, short: Path) -> None:
     """The page's paper and the ink of its figures turn round; on paper they are as by day, whatever the screen is."""
     colours = {}
@@ -111,6 +112,7 @@ def test_dark_is_dark_and_paper_is_white(browser: Any, short: Path) -> None:
     assert colours["dark", "screen"] == ["rgb(23, 23, 23)"] * 2
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_the_keyboard_reaches_everything(browser: Any, file: Path) -> None:
     """From the skip link through the contents; what has the focus shows it."""
     shown = Shown(browser, file, (1280, "light", "screen"))
@@ -130,6 +132,7 @@ def test_the_keyboard_reaches_everything(browser: Any, file: Path) -> None:
     shown.page.close()
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_on_paper_findings_are_open_and_tables_are_folded(browser: Any, short: Path) -> None:
     """Also tables that are open on the screen; a finding that is folded there has a height on paper."""
     heights = {}
@@ -148,6 +151,7 @@ def test_on_paper_findings_are_open_and_tables_are_folded(browser: Any, short: P
     assert any(not table for table, _ in on_paper)
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_a_section_prints_on_less_than_a_page(browser: Any, file: Path) -> None:
     """A figure is at most 9.5 cm high, so that a report of fifteen experiments has under 15 pages of A4.
 

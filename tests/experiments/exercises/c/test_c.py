@@ -41,7 +41,7 @@ LINES = {
 }
 
 
-@pytest.mark.rotating(10)
+@pytest.mark.rotating(13)
 @pytest.mark.parametrize("name", EXPECTED)
 def test_each_program_is_called_what_it_is(name: str) -> None:
     """Right ones pass the hidden check too; wrong ones have their name, and a line where C tells one."""
@@ -52,7 +52,7 @@ def test_each_program_is_called_what_it_is(name: str) -> None:
         assert any(said.startswith(f"line {LINES[name]}: ") for said in words), words
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(9)
 @pytest.mark.parametrize("program", [p for p in SAMPLES["blind4"] if p.language == "c"], ids=lambda p: p.name)
 def test_programs_of_somebody_who_had_only_the_texts(program: Program) -> None:
     """Right ones pass in the hidden check too, wrong ones in neither."""
@@ -61,6 +61,7 @@ def test_programs_of_somebody_who_had_only_the_texts(program: Program) -> None:
         assert verdict.right == program.right, (program.words, verdict.name)
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_same_by_every_route(tmp_path: Path) -> None:
     """Alone, in a class, and by Gradescope: outcome and name of one program."""
     text = (PROGRAMS / "e03" / "above_only.c").read_text(encoding="utf-8")
@@ -75,6 +76,7 @@ def test_the_same_by_every_route(tmp_path: Path) -> None:
     assert (gradescope["outcome"], gradescope["finding"]) == (alone.outcome, alone.name)
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_midpoint_and_ralston_are_told_from_heun_by_overflow() -> None:
     """Where dt a > 1.8e308 Heun's guess is infinite; dt/2 a and 2/3 dt a are not. On linear springs all are one."""
     heun = (PROGRAMS / "e02" / "right_helper.c").read_text(encoding="utf-8")
@@ -114,6 +116,7 @@ def test_a_comment_that_nobody_closed_is_what_the_compiler_says() -> None:
     assert (verdict.name, verdict.findings[0].line) == ("does_not_compile", 3)
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_nobody_has_written_into_is_not_zero() -> None:
     """A sum that begins with no number: compilers take 0 for it where they may. The line is told."""
     text = (
@@ -219,6 +222,7 @@ def test_a_missing_include_is_named() -> None:
         assert ('#include "exercise.h" is missing' in finding.words) == missing
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_in_c_nothing_is_returned() -> None:
     """What is told of a C program speaks of what it writes; of the lines that do; C++ is told as such."""
     still = judge(find("1"), f"{STEP.split('    double')[0]}    if (dt < 0) *y = 0;\n}}\n", language="c")
