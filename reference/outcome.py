@@ -69,7 +69,8 @@ def blow_up(
     stretch = _stretch_ratios(system, trajectory.frames([0, frame]), changes)[1]
     if (stretch > ratio).any():
         return f"spring {np.argmax(stretch)} is over {ratio:g} times its length at t = {time}"
-    distance = _distance_ratios(system, trajectory.frames([0, frame]), changes)[1]
+    begin = trajectory.frames([0, frame])
+    distance = _distance_ratios(system, begin, _natural_lengths(system, begin, changes), changes)[1]
     if (distance > ratio).any():
         return f"mass {np.argmax(distance)} is over {ratio:g} times as far as it could have come at t = {time}"
     return f"the energy is over {ratio**2:g} times what the system was given at t = {time}"
@@ -83,11 +84,12 @@ def first_blown_up_frame(
     def blown_up(part: Trajectory) -> BoolArray:
         with np.errstate(over="ignore", invalid="ignore"):
             length = spring_lengths(part.positions, system.springs)
+        natural = _natural_lengths(system, part, changes)
         told = [
             ~(np.isfinite(part.positions) & np.isfinite(part.velocities)).all(axis=(1, 2)),
-            (length > ratio * _natural_lengths(system, part, changes)).any(axis=1),
-            (_distance_ratios(system, part, changes) > ratio).any(axis=1),
-            _energy_ratios(system, part, length, changes) > ratio**2,
+            (length > ratio * natural).any(axis=1),
+            (_distance_ratios(system, part, natural, changes) > ratio).any(axis=1),
+            _energy_ratios(system, part, length, natural, changes) > ratio**2,
         ]
         return np.asarray(np.any(np.array(told), axis=0))
 
@@ -130,7 +132,8 @@ def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory, changes: 
     those that may be of any length: they only push, or break.
     """
     natural = np.maximum(system.rest_lengths, spring_lengths(trajectory.positions[0], system.springs))
-    natural = np.where(system.rest_lengths > 0, natural, np.maximum(natural, system.scale))
+    if not system.rest_lengths.all():
+        natural = np.where(system.rest_lengths > 0, natural, np.maximum(natural, system.scale))
     if system.nonlinear is not None:
         natural = np.where(system.nonlinear.may_open, np.inf, natural)
     return np.where(_may_break(system, changes), np.inf, natural)
@@ -139,19 +142,24 @@ def _natural_lengths(system: MassSpringSystem, trajectory: Trajectory, changes: 
 def _may_break(system: MassSpringSystem, changes: Sequence[Change]) -> BoolArray:
     """Which springs can break on the way, or are to, shape (s,)."""
     named = [np.atleast_1d(change.value) for change in changes if change.parameter == BREAK]
-    may = np.isin(np.arange(len(system.springs)), np.concatenate(named) if named else [])
+    springs = np.arange(len(system.springs))
+    may = np.isin(springs, np.concatenate(named)) if named else np.zeros(len(springs), dtype=bool)
     return np.asarray(may if system.nonlinear is None else may | system.nonlinear.may_break)
 
 
-def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: Sequence[Change]) -> Array:
+def _distance_ratios(
+    system: MassSpringSystem, trajectory: Trajectory, natural: Array, changes: Sequence[Change]
+) -> Array:
     """How far every mass is from its start, over how far it could have come, in every frame, shape (m, n).
 
     What nothing holds comes as far as it flies and falls, v t + g t^2/2; masses on springs not much further from one
     another than all springs end to end.
+
+    Args:
+        natural: of every spring [m], shape (s,).
     """
     t = trajectory.times
     fastest = np.linalg.norm(trajectory.velocities[0], axis=1).max(initial=0.0)
-    natural = _natural_lengths(system, trajectory, changes)
     reach = system.size + natural[np.isfinite(natural)].sum() or 1.0
     pull = _strongest_pulls(system, changes).sum() / _least_mass(system, changes)
     allowed = reach + fastest * t + (np.linalg.norm(_most(system, "gravity", changes)) + pull) * t**2 / 2
@@ -159,7 +167,9 @@ def _distance_ratios(system: MassSpringSystem, trajectory: Trajectory, changes: 
         return np.asarray(lengths(trajectory.positions - trajectory.positions[0]) / allowed[:, None])
 
 
-def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Array, changes: Sequence[Change]) -> Array:
+def _energy_ratios(
+    system: MassSpringSystem, trajectory: Trajectory, length: Array, natural: Array, changes: Sequence[Change]
+) -> Array:
     """Kinetic and elastic energy over all that a system can have been given, in every frame, shape (m,).
 
     That is what both were at the start, what gravity and pulls do at most on the way, sum (m g + F) |x - x0|, and
@@ -168,14 +178,13 @@ def _energy_ratios(system: MassSpringSystem, trajectory: Trajectory, length: Arr
     is zero.
 
     Args:
-        length: of every spring in every frame [m], shape (m, s).
+        length: of every spring in every frame [m], shape (m, s). natural: that of every spring [m], shape (s,).
     """
     x, y = trajectory.positions, trajectory.positions[0]
     mass, stiffness = _most(system, "mass", changes), _most(system, "stiffness", changes)
     gravity = np.linalg.norm(_most(system, "gravity", changes))
     v = trajectory.velocities
     stiffest = system.with_parameter("stiffness", stiffness.tolist()) if changes and len(stiffness) else system
-    natural = _natural_lengths(system, trajectory, changes)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         elastic = energy_of_springs(stiffest, length - system.rest_lengths)
         bent, of_a_radian = _bent(system, x)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cached_property, lru_cache
 from html.parser import HTMLParser
 
 #: Attributes that make a browser fetch or go somewhere, and elements that do without one.
@@ -20,7 +21,6 @@ class Page(HTMLParser):
         elements: every element's name and attributes, in order.
         styles: the texts of all style elements and attributes.
         scripts: the texts of all script elements.
-        words: the text outside of styles, pictures and scripts.
     """
 
     def __init__(self, html: str) -> None:
@@ -28,7 +28,7 @@ class Page(HTMLParser):
         self.elements: list[tuple[str, dict[str, str]]] = []
         self.styles: list[str] = []
         self.scripts: list[str] = []
-        self.words = ""
+        self._words: list[str] = []
         self._inside: list[str] = []
         self.feed(html)
         self.close()
@@ -53,7 +53,12 @@ class Page(HTMLParser):
         elif "script" in self._inside:
             self.scripts.append(data)
         elif not self._inside:
-            self.words += data
+            self._words.append(data)
+
+    @cached_property
+    def words(self) -> str:
+        """The text outside of styles, pictures and scripts."""
+        return "".join(self._words)
 
     def attributes(self, name: str) -> list[str]:
         """The values of an attribute, wherever it stands."""
@@ -64,20 +69,26 @@ class Page(HTMLParser):
         return [attributes for name, attributes in self.elements if name == tag]
 
 
+@lru_cache(maxsize=2)
+def page_of(html: str) -> Page:
+    """A page taken apart, once for all that look at it."""
+    return Page(html)
+
+
 def check_self_contained(html: str) -> None:
     """Nothing on the page asks for anything from anywhere: all its addresses are data: or places on the page itself."""
-    page = Page(html)
+    page = page_of(html)
     for tag, attributes in page.elements:
         assert tag not in FETCHING, f"<{tag}> can fetch something"
         assert "http-equiv" not in attributes
         for name in ADDRESSES:
             check_address(attributes.get(name, "#"), f"<{tag} {name}>")
-    for name in ("clip-path", "fill", "stroke", "mask", "filter", "marker-start", "marker-mid", "marker-end"):
-        page.styles += page.attributes(name)
+    drawn = ("clip-path", "fill", "stroke", "mask", "filter", "marker-start", "marker-mid", "marker-end")
+    styles = [*page.styles, *(style for name in drawn for style in page.attributes(name))]
     for script in page.scripts:
         for word in ASKING:
             assert word not in script, f"a script says {word}"
-    for style in page.styles:
+    for style in styles:
         assert "@import" not in style
         for address in re.findall(r"url\(\s*['\"]?([^'\")]*)", style):
             check_address(address, "url()")

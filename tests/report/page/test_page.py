@@ -17,7 +17,7 @@ from experiments.experiment import NAMES, find
 from experiments.runs.results import rows
 from report.page.inline_svg import inline
 from tests.report.commands.terminal import Said, springlab
-from tests.report.html import Page, check_self_contained
+from tests.report.html import Page, check_self_contained, page_of
 from tests.report.page.canned import RESULTS
 from tests.report.page.doubles import answering, failing, put
 
@@ -89,7 +89,7 @@ def test_a_page_that_asks_for_something_is_caught(report: Report, asks: str) -> 
 
 def test_there_is_a_section_for_every_experiment_with_question_and_findings(report: Report) -> None:
     """In order, and each is linked to at the top of the page."""
-    shown = Page(report.html)
+    shown = page_of(report.html)
     sections = [attributes["id"] for attributes in shown.of("section")]
     assert sections == ["found", *SHOWN, *CLOSING]
     skip, *contents = [address for address in shown.attributes("href") if address[0] == "#"][: len(sections) + 1]
@@ -102,7 +102,7 @@ def test_there_is_a_section_for_every_experiment_with_question_and_findings(repo
 
 def test_every_figure_has_words_that_stand_for_it_and_a_table_of_its_numbers(report: Report) -> None:
     """At least a sentence with a number, in the label that screen readers read."""
-    shown = Page(report.html)
+    shown = page_of(report.html)
     pictures = [attributes for attributes in shown.of("svg") if attributes.get("role") == "img"]
     moving = [attributes for attributes in shown.of("figure") if attributes.get("class") == "motion"]
     assert [attributes["data-name"] for attributes in moving] == ["string", "cloth"]
@@ -116,7 +116,7 @@ def test_every_figure_has_words_that_stand_for_it_and_a_table_of_its_numbers(rep
 
 def test_pictures_on_one_page_share_no_ids(report: Report) -> None:
     """Or clips and marks of one would be taken for the other's; and whatever is referred to is there."""
-    shown = Page(report.html)
+    shown = page_of(report.html)
     ids = shown.attributes("id")
     assert len(ids) == len(set(ids))
     clips = [a.partition("#")[2][:-1] for a in shown.attributes("clip-path")]
@@ -128,7 +128,7 @@ def test_pictures_on_one_page_share_no_ids(report: Report) -> None:
 
 def test_the_page_is_in_a_language_and_has_headings_in_order(report: Report) -> None:
     """One h1, then no heading more than one level below the one before; tables have headed columns or rows."""
-    shown = Page(report.html)
+    shown = page_of(report.html)
     assert shown.of("html") == [{"lang": "en"}]
     levels = [int(name[1]) for name, _ in shown.elements if name in ("h1", "h2", "h3", "h4", "h5", "h6")]
     assert levels[0] == 1
@@ -143,7 +143,7 @@ def test_two_findings_are_shown_and_the_rest_is_folded(report: Report) -> None:
     """All of them are on the page."""
     for name in SHOWN:
         for finding in RESULTS[name]["usual"]().findings:
-            assert finding in Page(report.html).words
+            assert finding in page_of(report.html).words
 
 
 def test_what_failed_or_was_skipped_is_in_one_place(report: Report) -> None:
@@ -151,7 +151,7 @@ def test_what_failed_or_was_skipped_is_in_one_place(report: Report) -> None:
     (failure,) = RESULTS["divergence"]["usual"]().failures
     section = report.html[report.html.index('<section id="undone"') :]
     assert failure in Page(section[: section.index("</section>")]).words
-    assert "#undone-divergence" in Page(report.html).attributes("href")
+    assert "#undone-divergence" in page_of(report.html).attributes("href")
 
 
 @pytest.mark.rotating(2)
@@ -188,7 +188,7 @@ def test_open_shows_the_page_and_full_runs_in_full(monkeypatch: pytest.MonkeyPat
 
 def test_the_environment_is_told_with_versions(report: Report) -> None:
     """Everything a number depends on: packages, Python, the machine, the lock."""
-    words = Page(report.html).words
+    words = page_of(report.html).words
     for package in ("numpy", "numba", "scipy", "matplotlib"):
         assert f"{package}{metadata.version(package)}" in "".join(words.split())
     assert platform.python_version() in words
@@ -199,7 +199,7 @@ def test_the_environment_is_told_with_versions(report: Report) -> None:
 def test_the_tables_can_be_taken_from_the_page_itself(report: Report) -> None:
     """Every CSV file beside the page is in the page, byte for byte."""
     files = {f.name: f.read_bytes() for name in SHOWN for f in (report.folder / name).glob("*.csv")}
-    links = {a["download"]: a["href"] for a in Page(report.html).of("a") if "download" in a}
+    links = {a["download"]: a["href"] for a in page_of(report.html).of("a") if "download" in a}
     assert files
     assert {name: base64.b64decode(link.partition("base64,")[2]) for name, link in links.items()} == files
 
@@ -221,7 +221,7 @@ def test_an_experiment_that_raises_is_a_failure_in_its_place(monkeypatch: pytest
     assert "Traceback" not in said.err
     html = (tmp_path / "index.html").read_text(encoding="utf-8")
     check_self_contained(html)
-    shown = Page(html)
+    shown = page_of(html)
     assert [attributes["id"] for attributes in shown.of("section")] == ["found", "errata", "stiff_limit", *CLOSING]
     assert "ArithmeticError: mass < 0 & <b>not</b> > 0" in shown.words
     assert len(shown.of("figure")) == 1
@@ -264,5 +264,5 @@ def test_without_names_the_report_has_a_section_for_every_experiment_that_belong
     check_self_contained(html)
     wanted = [name for name in NAMES if find(name).in_report]
     assert len(wanted) >= 3
-    assert [attributes["id"] for attributes in Page(html).of("section")] == ["found", *wanted, *CLOSING]
-    assert all(f"did not come to its end: ArithmeticError: no {name}" in Page(html).words for name in wanted)
+    assert [attributes["id"] for attributes in page_of(html).of("section")] == ["found", *wanted, *CLOSING]
+    assert all(f"did not come to its end: ArithmeticError: no {name}" in page_of(html).words for name in wanted)

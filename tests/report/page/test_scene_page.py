@@ -13,7 +13,7 @@ from engines.process.isolation import EngineStepper
 from experiments.advice import own_scene
 from experiments.advice import wording as advice_words
 from tests.report.commands.terminal import Said, springlab
-from tests.report.html import Page, check_self_contained
+from tests.report.html import check_self_contained, page_of
 
 SCENE = """
 scene = "string"
@@ -55,7 +55,7 @@ def test_the_page_has_advice_with_its_numbers_and_a_card_for_every_engine(scene:
     """Which dt, first; the table to be taken away; and what each engine is."""
     said, html = reported(scene)
     assert said.code == 0
-    shown = Page(html)
+    shown = page_of(html)
     sections = [attributes["id"] for attributes in shown.of("section")]
     assert sections == ["found", "motion", "own_scene", "engines", "undone", "environment"]
     assert "which dt" in shown.words
@@ -79,7 +79,7 @@ def test_advice_that_fails_is_told_in_its_place_and_asked_for_once(
     monkeypatch.setattr(advice_words, "advise", fail)
     said, html = reported(scene)
     assert (said.code, len(asked)) == (1, 1)
-    words = Page(html).words
+    words = page_of(html).words
     assert "Which dt to use is not known: ArithmeticError: no engine today" in words
     assert "This experiment did not come to its end: ArithmeticError: no engine today" in words
     assert "has 3 masses and 2 springs" in words
@@ -95,6 +95,6 @@ def test_a_comparison_that_fails_leaves_the_advice(scene: Path, monkeypatch: pyt
     monkeypatch.setattr(own_scene, "compare", fail)
     said, html = reported(scene)
     assert said.code == 1
-    words = Page(html).words
+    words = page_of(html).words
     assert "This experiment did not come to its end: MemoryError: too much" in words
     assert "engine settings with a limit are stable here" in words
