@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,6 +35,7 @@ PHYSICS = (
 SHOWN = ("engines.js", "lab.js", "view.js", "driven.js", "plots.js", "link.js", "lessons.js", "hands.js", "page.js")
 
 
+@cache
 def physics() -> str:
     """The text of all that computes."""
     return script() + "".join(_text(f"browser/{name}") for name in PHYSICS)

@@ -53,6 +53,7 @@ def damps_in_proportion(scheme: Scheme) -> bool:
     return bool(np.isfinite(parts).all() and np.ptp(parts, axis=1).max() < 1e-9)
 
 
+@cache
 def step_refusal(scheme: Scheme) -> str:
     """Why a scheme cannot be said as a function of whole states; empty where it can."""
     try:
