@@ -17,7 +17,7 @@ True
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Container, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
 from itertools import combinations
 from typing import Any
@@ -75,7 +75,12 @@ class AnswerCatalogue:
 
     def distances(self, given: Sequence[Answer], expected: Sequence[Answer]) -> list[float]:
         """For each question, how far two answers to it are apart."""
-        return [answer_distance(g, e, self._sizes(i, e)) for i, (g, e) in enumerate(zip(given, expected, strict=True))]
+        return list(self._distances(given, expected))
+
+    def _distances(self, given: Sequence[Answer], expected: Sequence[Answer]) -> Iterator[float]:
+        """One after the other, for who need not know all."""
+        for i, (one, other) in enumerate(zip(given, expected, strict=True)):
+            yield answer_distance(one, other, self._sizes(i, other))
 
     def _sizes(self, i: int, expected: Answer) -> list[float]:
         """What differences count as fractions of: the right answer's scales, but where numbers are typed in their own.
@@ -89,7 +94,7 @@ class AnswerCatalogue:
 
     def distance(self, given: Sequence[Answer], expected: Sequence[Answer]) -> float:
         """The largest of these distances."""
-        return max(self.distances(given, expected), default=0.0)
+        return max(self._distances(given, expected), default=0.0)
 
     def begins_with(self, given: Sequence[Answer], parameters: Mapping[str, Any], tolerance: float) -> bool:
         """Whether the first step of every answer is the solution's; mostly the first question says that it is not."""
@@ -113,7 +118,10 @@ class AnswerCatalogue:
     def all_differ(self) -> bool:
         """Whether no mistake gives the answers of another one, or the right ones."""
         answers = [("", self.right), *((m.name, self.answers(m.parameters)) for m in self.exercise.mistakes)]
-        return all(a == b or self.distance(x, y) > DIFFERENT for (a, x), (b, y) in combinations(answers, 2))
+        return all(
+            a == b or any(distance > DIFFERENT for distance in self._distances(x, y))
+            for (a, x), (b, y) in combinations(answers, 2)
+        )
 
 
 def catalogue_of(exercise: Exercise, seed: str, key: str | None) -> AnswerCatalogue:

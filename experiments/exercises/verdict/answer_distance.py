@@ -69,6 +69,8 @@ def _by_part(answer: Answer) -> list[Array]:
 
 def _steps_before_blow_up(parts: Sequence[Array], scales: Sequence[float]) -> int:
     """How many steps are compared: the first, and all up to one with a number beyond LARGEST times its scale."""
+    if all(len(part) == 1 for part in parts):
+        return 1
     too_large = np.any([_largest(part) > LARGEST * scale for part, scale in zip(parts, scales, strict=True)], axis=0)
     later = np.flatnonzero(too_large[1:])
     return int(later[0]) + 1 if len(later) else len(too_large)
