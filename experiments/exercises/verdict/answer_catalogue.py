@@ -96,6 +96,10 @@ class AnswerCatalogue:
         """The largest of these distances."""
         return max(self._distances(given, expected), default=0.0)
 
+    def differ(self, given: Sequence[Answer], expected: Sequence[Answer], by: float) -> bool:
+        """Whether one of these distances is more than that; mostly the first question says so."""
+        return any(distance > by for distance in self._distances(given, expected))
+
     def begins_with(self, given: Sequence[Answer], parameters: Mapping[str, Any], tolerance: float) -> bool:
         """Whether the first step of every answer is the solution's; mostly the first question says that it is not."""
         firsts = ((i, a[:1], self._answer(i, parameters, 1)) for i, a in enumerate(given))
@@ -118,10 +122,7 @@ class AnswerCatalogue:
     def all_differ(self) -> bool:
         """Whether no mistake gives the answers of another one, or the right ones."""
         answers = [("", self.right), *((m.name, self.answers(m.parameters)) for m in self.exercise.mistakes)]
-        return all(
-            a == b or any(distance > DIFFERENT for distance in self._distances(x, y))
-            for (a, x), (b, y) in combinations(answers, 2)
-        )
+        return all(a == b or self.differ(x, y, DIFFERENT) for (a, x), (b, y) in combinations(answers, 2))
 
 
 def catalogue_of(exercise: Exercise, seed: str, key: str | None) -> AnswerCatalogue:

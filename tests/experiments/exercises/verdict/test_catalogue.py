@@ -112,7 +112,7 @@ def test_no_mistake_can_be_taken_for_another(exercise: Exercise, key: str | None
     answers.append(("", catalogue.right))
     for i, (one, mine) in enumerate(answers):
         for other, theirs in answers[:i]:
-            assert one == other or catalogue.distance(mine, theirs) > max(1e-5, 2 * exercise.tolerance), (one, other)
+            assert one == other or catalogue.differ(mine, theirs, max(1e-5, 2 * exercise.tolerance)), (one, other)
 
 
 @ALL
