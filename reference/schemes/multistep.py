@@ -27,7 +27,7 @@ def adams_bashforth_2(motion: Motion, state: State, dt: float) -> State:
     return end.remembering(here.positions, here.velocities)
 
 
-@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, linear=False)
+@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False)
 def bdf2(motion: MotionOfSprings, state: State, dt: float) -> State:
     """Backward differentiation of two steps, begun with backward Euler: 3/2 y1 - 2 y0 + y-1/2 = dt f(y1) (HNW III.1).
 

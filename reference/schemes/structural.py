@@ -19,7 +19,7 @@ from reference.state import Array, State
 RADAU = np.array([[5 / 12, -1 / 12], [3 / 4, 1 / 4]])
 
 
-@scheme(order=2, kind="wide_scheme", implicit=True, linear=False, ranges={"beta": (0, 1), "gamma": (0, 1.5)})
+@scheme(order=2, kind="wide_scheme", implicit=True, ranges={"beta": (0, 1), "gamma": (0, 1.5)})
 def newmark(motion: MotionOfSprings, state: State, dt: float, *, beta: float = 0.25, gamma: float = 0.5) -> State:
     """Newmark's method; 1/4 and 1/2 make it the trapezoidal rule (Newmark, J. Eng. Mech. Div. 85, 1959).
 
@@ -30,7 +30,7 @@ def newmark(motion: MotionOfSprings, state: State, dt: float, *, beta: float = 0
     return _solved(motion, state, dt, here, beta, gamma, lambda end, a: (end, motion.acceleration(end) - a, 1.0))[0]
 
 
-@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, linear=False, ranges={"alpha": (-1 / 3, 0)})
+@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, ranges={"alpha": (-1 / 3, 0)})
 def hht(motion: MotionOfSprings, state: State, dt: float, *, alpha: float = -0.1) -> State:
     """Hilber, Hughes and Taylor's alpha method, which damps what is fast (Earthquake Eng. Struct. Dyn. 5, 1977).
 
@@ -50,7 +50,7 @@ def hht(motion: MotionOfSprings, state: State, dt: float, *, alpha: float = -0.1
     return end.remembering(acceleration)
 
 
-@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, linear=False, ranges={"radius": (0, 1)})
+@scheme(order=2, kind="wide_scheme", implicit=True, one_step=False, ranges={"radius": (0, 1)})
 def generalised_alpha(motion: MotionOfSprings, state: State, dt: float, *, radius: float = 0.8) -> State:
     """Chung and Hulbert's method, which damps what is fast by `radius` a step (J. Appl. Mech. 60, 1993).
 
@@ -105,7 +105,7 @@ def _solved(
     raise SolverError(f"Newton's method found no solution at t = {state.time:.6g} s with dt = {dt:g} s")
 
 
-@scheme(order=3, kind="wide_scheme", implicit=True, linear=False, interactive_up_to=100)
+@scheme(order=3, kind="wide_scheme", implicit=True, interactive_up_to=100)
 def radau_iia(motion: MotionOfSprings, state: State, dt: float) -> State:
     """Radau IIA of two stages: third order, and damps what is infinitely fast at once (Ehle 1969; HW IV.5).
 
@@ -115,7 +115,7 @@ def radau_iia(motion: MotionOfSprings, state: State, dt: float) -> State:
     system = motion.system
     free = ~system.fixed
     mass = np.repeat(system.masses[free], system.dimension)
-    size, shape = len(mass), system.positions.shape
+    size, shape = len(mass), state.positions.shape
     stages = [motion.acceleration(state)] * 2
     for _ in range(50):
         velocities = [state.velocities + dt * (row[0] * stages[0] + row[1] * stages[1]) for row in RADAU]
@@ -129,12 +129,13 @@ def radau_iia(motion: MotionOfSprings, state: State, dt: float) -> State:
                 here = dt * RADAU[i, j] * by_velocity + dt**2 * (RADAU @ RADAU)[i, j] * by_position
                 matrix[i * size : (i + 1) * size, j * size : (j + 1) * size] = (i == j) * np.diag(mass) - here
         try:
-            change = np.linalg.solve(matrix, np.concatenate([mass * r[free].ravel() for r in left])).reshape(2, -1)
+            right = np.concatenate([mass[:, None] * r[free].reshape(size, -1) for r in left])
+            change = np.linalg.solve(matrix, right).reshape(2, size, -1)
         except np.linalg.LinAlgError:
             break
         for i in range(2):
             moved = np.zeros(shape)
-            moved[free] = change[i].reshape(-1, system.dimension)
+            moved[free] = change[i].reshape(moved[free].shape)
             stages[i] = stages[i] + moved
         if dt * np.abs(change).max() <= 1e-9 * np.abs(velocities[1]).max() + 1e-13 * system.size / abs(dt):
             v = [state.velocities + dt * (row[0] * stages[0] + row[1] * stages[1]) for row in RADAU]

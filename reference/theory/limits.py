@@ -5,6 +5,7 @@ Ordinary Differential Equations II* (1996), IV.2). How that is found depends on 
 
     a step with symmetric matrices      `definite`: certified by the sign of a sparse matrix
     an explicit Runge-Kutta method      `runge_kutta`: its stability polynomial on the eigenvalues of the motion
+    an implicit one that sees modes     `unconditional_stability`: whether no oscillator grows, by Routh and Hurwitz
     any other                           `step_spectrum`: eigenvalues of the step itself, dt by dt
 
 The answer is the first limit, from short steps on; where a step is stable again above it, that is told.
@@ -33,6 +34,7 @@ from reference.theory.step_map import step_jacobian
 from reference.theory.step_on_obstacles import require_pressed
 from reference.theory.step_spectrum import WHOLE_UP_TO, first_limit, unstable_at_any
 from reference.theory.strong_damping import drowned_from, limit_with_rods
+from reference.theory.unconditional_stability import stable_at_any_dt
 from reference.theory.windows import windows_of
 
 #: Schemes that stop their iteration early have, to what they leave, the limit of what they would come to.
@@ -80,6 +82,8 @@ def stability_limit(scheme: Scheme, rest: Equilibrium, found: Rates | None = Non
     polynomial = stability_polynomial(scheme) if rest.contacts is None else None
     if polynomial is not None:
         return _by_polynomial(polynomial, rest, found)
+    if linear is not None and stable_at_any_dt(scheme, linear.damped, linear.dragged):
+        return Limit(None, "stable at any dt", certainty="certified")
     return first_limit(scheme, rest, found)
 
 

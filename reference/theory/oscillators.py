@@ -13,7 +13,9 @@ from reference.theory.linear_motion import LinearMotion
 def step_matrices(
     scheme: Scheme, dt: float, masses: Array, stiffness: Array, damping: Array, drag: float = 0.0
 ) -> Array:
-    """The 2 x 2 matrices by which a step multiplies (x, dt v) of oscillators, shape (s, 2, 2); of springs at rest.
+    """The matrices by which a step multiplies (x, dt v, dt of what is remembered) of oscillators on springs at rest.
+
+    Shape (s, k, k), with k = 2 for a scheme that remembers nothing of the masses.
 
     Args:
         dt: the step [s].
@@ -37,10 +39,15 @@ def step_matrices(
     )
     step = scheme.on(LinearMotion(system, system.start))
     nothing = np.zeros_like(system.positions)
-    moved = nothing.copy()
-    moved[1::2, 0] = 1.0
-    ends = [step(State(0.0, x, v), dt) for x, v in ((moved, nothing), (nothing, moved / dt))]
-    columns = [np.stack([end.positions[1::2, 0], dt * end.velocities[1::2, 0]], axis=1) for end in ends]
+    remembered = [q for q in step(State(0.0, nothing, nothing), dt).memory if q.shape == nothing.shape]
+    units = [1.0, dt, *[dt] * len(remembered)]
+    columns = []
+    for i, unit in enumerate(units):
+        parts = [nothing.copy() for _ in units]
+        parts[i][1::2, 0] = 1 / unit
+        end = step(State(0.0, parts[0], parts[1], tuple(parts[2:])), dt)
+        ends = (end.positions, end.velocities, *end.memory)
+        columns.append(np.stack([unit * q[1::2, 0] for unit, q in zip(units, ends, strict=False)], axis=1))
     return np.stack(columns, axis=2)
 
 

@@ -93,7 +93,7 @@ def is_quadratic(scheme: Scheme, damped: bool, dragged: bool) -> bool:
     """
     if (scheme.iterated and damped) or not scheme.one_step:
         return False
-    system = _odd_system(damped, dragged)
+    system = odd_system(damped, dragged)
     rest = Equilibrium(SpringMotion(system), system.start, ~system.fixed, 1.0)
     dt = 0.08
     try:
@@ -127,8 +127,10 @@ def quadratic(scheme: Scheme, linear: Linearisation, dt: float) -> tuple[Any, An
 @cache
 def solves_for_positions(scheme: Scheme) -> bool:
     """Whether a step takes stiffness implicitly, kappa > 0: its positions are the solution of equations."""
+    if not is_quadratic(scheme, False, False):
+        return scheme.implicit
     one = np.ones(1)
-    return is_quadratic(scheme, False, False) and coefficients(scheme, 1.0, one, 0 * one).implicit_stiffness > 1e-9
+    return coefficients(scheme, 1.0, one, 0 * one).implicit_stiffness > 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +158,7 @@ def damping_in_step(scheme: Scheme, linear: Linearisation, dt: float) -> Damping
     )
 
 
-def _odd_system(damped: bool, dragged: bool) -> MassSpringSystem:
+def odd_system(damped: bool, dragged: bool) -> MassSpringSystem:
     """Three masses between two corners, with springs that are all different, at rest; damping matters in a step."""
     positions = np.array([[0.0, 0.0], [1.9, -0.2], [1.0, 0.1], [0.4, 1.2], [1.5, 1.0]])
     springs = np.array([[0, 2], [1, 2], [2, 3], [0, 3], [2, 4], [1, 4], [3, 4]])
