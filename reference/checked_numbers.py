@@ -22,8 +22,9 @@ def finite(name: str, value: npt.ArrayLike, unit: str) -> Array:
         array = np.asarray(value, dtype=np.float64)
     except (TypeError, ValueError):
         raise InputError(f"{name} = {reprlib.repr(value)}: expected numbers [{unit}]") from None
-    refuse(name, array, ~np.isfinite(array), f"a finite number [{unit}]")
-    refuse(name, array, np.abs(array) > LARGEST, f"a number of at most {LARGEST:g} [{unit}]")
+    if not (np.abs(array) <= LARGEST).all():  # systems are made by the thousand: one look at those that are well
+        refuse(name, array, ~np.isfinite(array), f"a finite number [{unit}]")
+        refuse(name, array, np.abs(array) > LARGEST, f"a number of at most {LARGEST:g} [{unit}]")
     return array
 
 
@@ -63,7 +64,7 @@ def check_sizes(name: str, value: npt.ArrayLike, divided_by: bool = False) -> No
 
 def refuse(name: str, array: Array, bad: npt.NDArray[np.bool_], expected: str) -> None:
     """Refuse the first number that is bad, with its index unless all are the same. Raises InputError."""
-    if not np.any(bad):
+    if not bad.any():
         return
     index = tuple(int(i) for i in np.argwhere(bad)[0])
     same_everywhere = array.ndim == 1 and np.all(bad) and len(set(array.tolist())) == 1
