@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -28,11 +28,16 @@ def modules() -> dict[str, Path]:
     return found
 
 
-def modules_imported(source: str, everywhere: bool) -> Iterator[str]:
+@cache
+def modules_imported(source: str, everywhere: bool) -> Sequence[str]:
     """The modules a source text imports: everywhere, or only when it is imported itself.
 
     Of `from module import name` it is module.name, whatever the name is.
     """
+    return tuple(_imported(source, everywhere))
+
+
+def _imported(source: str, everywhere: bool) -> Iterator[str]:
     waiting: list[ast.AST] = [ast.parse(source)]
     while waiting:
         node = waiting.pop()
@@ -41,7 +46,8 @@ def modules_imported(source: str, everywhere: bool) -> Iterator[str]:
         elif isinstance(node, ast.ImportFrom):
             assert node.level == 0, "imports are written out in full"
             yield from (f"{node.module}.{name.name}" for name in node.names)
-        typing_only = isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING"
+        asked = node.test if isinstance(node, ast.If) else None
+        typing_only = isinstance(asked, ast.Name) and asked.id == "TYPE_CHECKING"
         later = isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
         if everywhere or not (typing_only or later):
             waiting += ast.iter_child_nodes(node)

@@ -59,6 +59,7 @@ def sorts(text: str) -> Iterator[int]:
             yield node.lineno
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("room", ROOMS)
 def test_labels_and_texts_have_si_units(room: str) -> None:
     """But for those that readers know in another."""

@@ -42,7 +42,7 @@ CASES = {name: Case(name, find_scene("string").system(values), DT, STEPS) for na
 QUIET = Case("quiet", find_scene("string").system({"masses": 3, "stiffness": 2e4, "angle": 89.5}), 5e-4, 5000)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("case", CASES)
 def test_the_engine_is_identified_as_it_claims(engine: Engine, case: str) -> None:
     """The claimed scheme is within 1e-12 m of the engine at all times; else the nearest of the catalogue is named.
@@ -98,7 +98,7 @@ def in_its_precision(engine: Engine) -> list[str]:
     return [engine.identified_as["plain"], *([scheme.with_parameters(single=True).name] if single else [])]
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 def test_a_quiet_string_is_stepped_to_the_end(engine: Engine) -> None:
     """Over 2.5 s with no mass as fast as 0.04 m/s the engine does not fall asleep, but follows its scheme.
 

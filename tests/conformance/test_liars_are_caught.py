@@ -27,12 +27,13 @@ def follows(engine: Doctored, cases: list[Case]) -> None:
         check_follows(engine, case, outcome)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_honest_engine_follows_its_scheme_everywhere() -> None:
     """On the default string with and without damping and drag, at too large a step, and on all random strings."""
     follows(HONEST, [*DEFAULT.values(), TOO_LARGE_A_STEP, test_default_string.QUIET, *random_strings(on_rods=False)])
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize(
     ("liar", "case"),
     [
@@ -60,7 +61,7 @@ def test_the_random_strings_fail_on(liar: type[KickDrift]) -> None:
             check_follows(Doctored(liar), case, outcome)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_honest_engine_changes_on_the_fly_and_the_liar_is_caught() -> None:
     """The check of changes refuses an engine that ignores them, whatever the parameter."""
     for name, case in CHANGES.items():

@@ -44,6 +44,7 @@ def test_every_way_is_told_in_a_sentence(case: CrashCase) -> None:
     assert case.summary.endswith(".")
 
 
+@pytest.mark.rotating(3)
 def test_an_ending_is_the_signals_name_or_the_exception_or_what_was_answered() -> None:
     """Real ones, in processes of their own."""
     assert ending(isolated(misbehaving.segfault)) == "SIGSEGV"

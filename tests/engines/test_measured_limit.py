@@ -50,7 +50,7 @@ def factor(dt: float) -> float:
 assert factor(BELOW * LIMIT) < 1 - UNRESISTED
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_an_engines_limit_is_where_theory_has_it_and_its_step_is_looked_at_there() -> None:
     """To 1 %: bisection stops within 1e-3, growth is seen from 6e-4 in a step; factors by differences, to 1e-6."""
     limit = limit_of_engine(ENGINE, REST, PERTURBED, 0.01, 1e-3)
@@ -63,7 +63,7 @@ def test_an_engines_limit_is_where_theory_has_it_and_its_step_is_looked_at_there
     assert above > 1.2
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_an_engine_that_starts_at_rest_only_is_not_looked_at_there() -> None:
     """It has a limit all the same."""
     resting = Doctored(KickDrift, frozenset(CAPABILITIES) - {"velocities"})
@@ -73,7 +73,7 @@ def test_an_engine_that_starts_at_rest_only_is_not_looked_at_there() -> None:
     assert limit.factors is None
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_beyond_a_limit_perturbations_grow() -> None:
     """At 1.1 of it, by what the run shows."""
     limit = limit_of_engine(ENGINE, REST, PERTURBED, 0.01, 1e-2)
@@ -90,7 +90,7 @@ class StillInLongSteps(KickDrift):
             super().step()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_growth_beyond_a_limit_is_looked_for_close_to_it() -> None:
     """And not in steps a hundred times as long."""
     limit = limit_of_engine(Doctored(StillInLongSteps), REST, PERTURBED, 0.01, 1e-2)

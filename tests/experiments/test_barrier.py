@@ -51,7 +51,7 @@ def test_drift_kick_hops_off_within_two_degrees(dt: float) -> None:
     assert predicted() - np.radians(2) <= angle <= predicted() + 10 * dt
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("dt", [4e-3, 1e-3, 2.5e-4])
 def test_by_slide_17_as_it_is_meant_it_leaves_late_under_kick_drift(dt: float) -> None:
     """Held on to where cos(angle) is 1/2 of the cosine at the start: the module's docstring says why. Heun is right.
@@ -95,7 +95,7 @@ def test_energy_is_lost_or_gained_as_the_step(monkeypatch: pytest.MonkeyPatch) -
         assert gained[0] / gained[1] == pytest.approx(2.0, rel=0.1)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_experiment_runs_and_is_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without engines and with one step."""
     monkeypatch.setattr(barrier, "STEPS", (4e-3,))

@@ -39,7 +39,7 @@ def test_a_shadow_counts_each_place_once() -> None:
         check_area(sum_of_triangles)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_flat_cloth_has_coefficient_one_and_one_hung_straight_down_none() -> None:
     """The limits: DC = 1; and of masses pulled in to the disc's edge, 0 to the raggedness of that edge."""
     system, _ = cloth(0.017, 0.006, 0)
@@ -75,7 +75,7 @@ def check_stiffer_drapes_less(coefficients: list[float]) -> None:
     assert 0 < coefficients[0] < coefficients[-1] < 1
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_stiffer_cloth_drapes_less_and_has_folds(monkeypatch: pytest.MonkeyPatch) -> None:
     """Over three bending lengths; and not if rigidity is left out of all."""
     found = [hung(c, 0.012, 0) for c in (0.008, 0.017, 0.03)]

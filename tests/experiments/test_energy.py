@@ -239,7 +239,7 @@ def in_momenta(system: MassSpringSystem) -> Scheme:
     return Scheme(step, 1, "scheme")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
     """In angles and rates kick-drift is not symplectic; in angles and momenta the same idea is, and stays bounded.
 
@@ -333,7 +333,7 @@ def mixed(on: Bench) -> list[Row]:
     return [measure(stepper, on) for stepper in steppers]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_findings_follow_the_kinds(mixed: list[Row]) -> None:
     """Who does what; who not as predicted, and why with rods; who loses momentum, and why in place."""
     said = " ".join(result_of(mixed).findings)

@@ -92,7 +92,7 @@ def test_divergence_writes_the_distances_over_time(mixed: Comparison) -> None:
     assert lost[-1][2:] == [None, None]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_stiff_limit_is_approached_as_one_over_the_stiffness(monkeypatch: pytest.MonkeyPatch) -> None:
     """The distance from the pendulum falls as stiffness to the power -1 (predicted), to 0.1 over these three.
 
@@ -157,7 +157,7 @@ def errata(tmp_path_factory: pytest.TempPathFactory) -> dict[tuple[str, str], fl
         return {(row["slide"], row["measured"]): float(row["value"]) for row in csv.DictReader(opened)}
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_errata_shows_that_slide_11_is_slide_7(errata: dict[tuple[str, str], float]) -> None:
     """Deviation exactly 0, from slide 7 and from the catalogue's Heun."""
     assert errata["11", "distance from slide 7, 500 steps"] == 0

@@ -37,7 +37,7 @@ def sways_as_predicted(bridge: Driven, linear: Array) -> bool:
     return bool(np.abs(swayed - linear).max() < 0.02 * np.abs(linear).max())
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_bridge_sways_as_the_linear_bridge() -> None:
     """With a hundredth of the shaking, so that little is not linear; and not one with beams stiffer by a hundredth."""
     weak = FrequencySweep(**{**vars(SWEEP), "amplitude": SWEEP.amplitude / 100})
@@ -72,7 +72,7 @@ def short(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(f"{module}.ground_motion.SPEEDS", (40.0,))
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.usefixtures("short")
 def test_the_experiment_runs_and_is_drawn() -> None:
     """An engine and its scheme: they go together to 1e-9 m; the same figure twice."""

@@ -43,6 +43,7 @@ def test_what_is_missing_of_the_energy_is_what_the_drag_has_taken(drag: float) -
     check_balance(string(drag), exact(string(drag), DT, STEPS))
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "scheme",
     [

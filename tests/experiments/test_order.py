@@ -81,6 +81,7 @@ def test_an_engine_has_the_errors_of_its_scheme(engine: Engine, benches: list[Be
     assert np.abs(row.errors - errors).max() < TOLERANCE * benches[0].system.size
 
 
+@pytest.mark.rotating(2, in_turn=True)
 @pytest.mark.parametrize("listing", listings().values(), ids=lambda s: s.name)
 def test_a_listing_without_damping_runs_on_the_other_string(listing: LectureListing, benches: list[Bench]) -> None:
     """The lecture's Heun is of second order there, and the reason says why it was not run on the first string."""
@@ -149,6 +150,7 @@ def mixed(benches: list[Bench]) -> list[Row]:
     return [measure(stepper, benches) for stepper in steppers]
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_failures_have_their_reasons_and_cost_nobody_else_his_slope(mixed: list[Row]) -> None:
     """One row each; a crash and a missing package are failures, a stranger is not but has no prediction."""
     result = result_of(mixed)

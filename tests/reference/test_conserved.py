@@ -107,6 +107,7 @@ def test_schemes_that_keep_angular_momentum(scheme: Scheme, damping: float) -> N
     check_angular_momentum(scheme, damping)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     "scheme", [find("euler"), find("backward_euler"), find("heun"), find("rk4"), *IN_PLACE, TURNED_SIDEWAYS], ids=label
 )
@@ -137,6 +138,7 @@ def test_exact_motion_keeps_energy() -> None:
     check_energy_of_motion(exact(system, 0.01, 50), system)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("law", [wrong.gravity_turned, wrong.one_sided, wrong.sideways], ids=label)
 def test_energy_fails_on_wrong_forces(law: wrong.Law) -> None:
     """Forces that are not those of the energy do not keep it."""
@@ -177,6 +179,7 @@ def test_symplectic_schemes_keep_energy_near_for_ever(scheme: Scheme) -> None:
     check_energy_stays(scheme)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("scheme", [find("euler"), find("heun"), wrong.kick_drift_gaining_energy], ids=label)
 def test_long_run_energy_fails_on_schemes_that_gain_or_lose(scheme: Scheme) -> None:
     """Euler and Heun gain energy, and so does a right scheme nudged by 1e-6 a step."""

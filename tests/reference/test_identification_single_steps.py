@@ -156,6 +156,7 @@ class Bouncing:
         return outcome_of(system, Trajectory.of(states))
 
 
+@pytest.mark.rotating(2)
 def test_contacts_of_its_own_are_left_out_and_it_is_said() -> None:
     """A drop that bounces is kick-drift where it touches nothing; its trajectory is that of no scheme."""
     scene = find_scene("drop").setup({"across": 2, "high": 2, "deep": 2, "height": 0.02})

@@ -149,7 +149,7 @@ def test_an_obstacle_in_plain_values_makes_the_same(made: Obstacle) -> None:
     assert KINDS[made.kind] is type(made)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("made", [*BARRIER.obstacles, Plane((0.0, -0.6), (0.1, 1.0))], ids=label)
 @pytest.mark.parametrize("scheme", ["euler", "heun", "rk4", "kick_drift", "implicit_midpoint"])
 def test_no_mass_is_ever_inside(scheme: str, made: Obstacle) -> None:
@@ -183,7 +183,7 @@ def check_rests(made: Plane, scheme: str) -> None:
     assert np.linalg.norm(motion.velocities[:, 1], axis=1).max() <= 2 * 10.0 * dt * (1 + 1e-9)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("scheme", ["euler", "heun", "kick_drift", "drift_kick", "rk4", "implicit_midpoint"])
 def test_a_mass_at_rest_on_a_floor_stays_there(scheme: str) -> None:
     """No push lifts it off."""

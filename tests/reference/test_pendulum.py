@@ -86,6 +86,7 @@ def test_rk4_keeps_the_pendulums_energy() -> None:
     check_energy(find("rk4"), PendulumMotion)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("equations", [Upwards, WithoutSwing, Weak], ids=label)
 def test_energy_fails_on_wrong_equations(equations: EquationsOf) -> None:
     """Gravity upwards, or too weak by 1e-6, or no centrifugal terms."""
@@ -93,6 +94,7 @@ def test_energy_fails_on_wrong_equations(equations: EquationsOf) -> None:
         check_energy(find("rk4"), equations)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("scheme", [find("euler"), wrong.rk4_equally_weighted, wrong.heun_without_half], ids=label)
 def test_energy_fails_on_wrong_integrators(scheme: Scheme) -> None:
     """Of lower order or wrong."""
@@ -207,6 +209,7 @@ def test_a_stiff_string_is_a_pendulum() -> None:
     check_stiff_limit(PendulumMotion)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("equations", [Upwards, WithoutSwing], ids=label)
 def test_stiff_limit_fails_on_wrong_equations(equations: EquationsOf) -> None:
     """Strings come to another motion."""

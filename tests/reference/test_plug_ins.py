@@ -73,7 +73,7 @@ def springlab(environment: dict[str, str], folder: Path, *words: str) -> subproc
     return subprocess.run(command, env=environment, cwd=folder, capture_output=True, text=True)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_package_adds_a_scheme_a_scene_and_an_engine(tmp_path: Path) -> None:
     """All are listed with where they come from, and are run as any other."""
     environment = installed(tmp_path, "their_euler")
@@ -87,7 +87,7 @@ def test_a_package_adds_a_scheme_a_scene_and_an_engine(tmp_path: Path) -> None:
     assert json.loads(said.stdout)["identified_as"] == "euler"
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("name", ["heun"])
 def test_a_name_that_is_taken_is_refused(name: str, tmp_path: Path) -> None:
     """In a line, with who has it."""

@@ -76,6 +76,7 @@ def test_a_mass_under_a_step_force_swings_about_its_sag() -> None:
         check(wrong.positions, wrong.times, under_a_step, 1e-3)
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_a_sine_pull_drives_as_the_closed_form_has_it() -> None:
     """From rest x = F/m (sin W t - W/w sin w t) / (w^2 - W^2); the force is held through a step at its middle: h^2.
 
@@ -96,6 +97,7 @@ def test_a_sine_pull_drives_as_the_closed_form_has_it() -> None:
         check(run.positions, run.times, lambda times: driven(times, 1.8), 1e-3)
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_a_slow_ramp_ends_at_the_sag() -> None:
     """A ramp over whole periods of a spring leaves nothing swinging: F/k at its end, at rest (to h^2 of the period)."""
     period, system = 2 * np.pi / OMEGA, on_wall()

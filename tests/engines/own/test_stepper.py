@@ -140,6 +140,7 @@ def test_a_file_runs_in_a_process_of_its_own(tmp_path: Path) -> None:
     assert stepper.run(STRING, DT, 3).ending == "crashed"
 
 
+@pytest.mark.rotating(2)
 def test_a_hang_is_ended(tmp_path: Path) -> None:
     """After its time limit."""
     file = tmp_path / "hang.py"

@@ -66,7 +66,7 @@ def test_a_crash_is_noticed_though_a_child_of_the_process_lives_on() -> None:
     assert (outcome.ending, outcome.reason) == ("crashed", "killed by SIGABRT")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize(
     ("task", "arguments"),
     [
@@ -81,7 +81,7 @@ def test_a_hang_is_timed_out(task: Callable[..., Outcome], arguments: tuple[Any,
     assert (outcome.ending, outcome.reason) == ("timed out", "no answer within 0.3 s")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_process_that_shouts_is_heard_out() -> None:
     """20 MB of output neither block the process nor come back whole: the reason stays one short line."""
     assert isolated(misbehaving.shout, 0).ending == "done"
@@ -142,7 +142,7 @@ def test_a_run_that_diverges_keeps_its_trajectory_up_to_there() -> None:
     assert len(outcome.trajectory) == 4
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_process_whose_numba_has_threads_leaves_nothing_to_complain_of() -> None:
     """Python names semaphores that are left behind, on standard error, when the program ends."""
     program = (

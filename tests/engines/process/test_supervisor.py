@@ -101,7 +101,7 @@ def test_a_crash_is_tried_again_only_where_the_process_was_used(
     assert len(pids) == len(set(pids)) == tries
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("before", [0, 1])
 def test_too_much_memory_and_too_much_time_are_named(asked: Asked, before: int) -> None:
     """Whether the process had been used or not; and the next task is well."""
@@ -113,7 +113,7 @@ def test_too_much_memory_and_too_much_time_are_named(asked: Asked, before: int) 
     assert asked.ask(misbehaving.fine) == Outcome("done")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_memory_within_its_limit_is_nobodys_business(asked: Asked) -> None:
     """Shown the other way round: as much, with a limit twice as high, runs into the limit of time."""
     eaten = asked.ask(used.eat, 400 * 2**20, time_limit=1.5, memory=0.9 * 2**30)
@@ -136,7 +136,7 @@ def test_a_process_that_is_killed_while_idle_costs_nobody_anything(asked: Asked)
     assert asked.ask(used.pid) != first
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_task_is_not_tried_for_ever(asked: Asked, tmp_path: Path) -> None:
     """One that kills itself looks as if somebody else did: it is given up in the end, and it is said how often."""
     outcome = asked.ask(used.kill_oneself, tmp_path / "noted")
@@ -144,7 +144,7 @@ def test_a_task_is_not_tried_for_ever(asked: Asked, tmp_path: Path) -> None:
     assert len(lines(tmp_path / "noted", KILLS)) == KILLS
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_an_end_that_looks_unseen_is_still_the_tasks_own_in_the_end(asked: Asked) -> None:
     """With exit code 255 ends also a process whose server was killed: it is tried again, and then blamed."""
     outcome = asked.ask(misbehaving.leave, 255)
@@ -201,7 +201,7 @@ def test_a_process_hears_no_interrupt(asked: Asked) -> None:
     assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("task", [misbehaving.hang, misbehaving.sleep])
 def test_a_process_ends_with_the_one_it_works_for(python: Path, task: Callable[..., Any]) -> None:
     """Whatever it is at: as soon as nobody holds the other end of its lifeline."""
@@ -215,6 +215,7 @@ def test_a_process_ends_with_the_one_it_works_for(python: Path, task: Callable[.
         worker.end()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_a_killed_process_has_started_ends_with_it(asked: Asked, tmp_path: Path) -> None:
     """A task whose own process hangs: nobody is left of either, and the task is tried again."""
     with ThreadPoolExecutor() as pool:
@@ -225,6 +226,7 @@ def test_what_a_killed_process_has_started_ends_with_it(asked: Asked, tmp_path: 
         check_all_end([inner])
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_server_that_forks_processes_may_be_killed_too(tmp_path: Path) -> None:
     """A task under way is tried again by a new one; the process that nobody sees the end of any more ends."""
     asked = Asked()

@@ -138,6 +138,7 @@ def measuring(limit: float) -> EngineStepper:
     return EngineStepper(Doctored(), isolate=here)
 
 
+@pytest.mark.rotating(2, in_turn=True)
 @pytest.mark.parametrize("times", [1.08, 0.5])
 def test_the_advised_step_is_below_the_shorter_of_both_limits(times: float) -> None:
     """Predicted and measured, whichever that is: where perturbations grow slowly, the measured one is too long."""
@@ -176,6 +177,7 @@ def test_scenes_that_have_no_limit_are_told_in_a_sentence() -> None:
     assert "any step is stable" in result.findings[0]
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_an_engine_that_crashes_is_told_with_its_reason() -> None:
     """And the others have their advice."""
     setup = setup_of("stiff rope")

@@ -81,7 +81,7 @@ def undamped_limit_only(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     return {f"largest stable dt [s], {case}" for case in others}
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.usefixtures("undamped_limit_only")
 def test_the_honest_engine_is_measured_as_what_it_is() -> None:
     """Kick-drift with explicit damping, to rounding, on everything; its limit is the closed form.
@@ -104,7 +104,7 @@ def no_limits(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(conformance, "LIMITED", {})
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.usefixtures("no_limits")
 def test_liars_are_seen_in_the_rows() -> None:
     """An integrator that moves before it kicks, springs a millionth too stiff, a mass for all, drag forgotten."""
@@ -127,7 +127,7 @@ def test_what_single_precision_rounds_breaks_no_capability() -> None:
     assert capability(EngineStepper(Doctored(doctored.RoundsToSingle)), "masses").startswith("broken: ")
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.usefixtures("no_limits")
 def test_an_engine_that_refuses_is_told_from_one_that_breaks() -> None:
     """Refused with its reason; stepped though it said it could not; not running at all."""
@@ -192,7 +192,7 @@ def test_bad_words_are_one_line(words: str, said: str) -> None:
     assert done.err.count("\n") == 1
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_version_that_never_was_is_one_line_and_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -61,7 +61,7 @@ def rows_of(table: Path) -> dict[str, dict[str, str]]:
         return {row["file"]: row for row in csv.DictReader(file)}
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_bad_file_costs_one_row(graded: Path) -> None:
     """Each with its reason, that names the file or its line; names that spreadsheets take for formulas are quoted."""
     rows = rows_of(graded / "grades.csv")
@@ -77,7 +77,7 @@ def test_a_bad_file_costs_one_row(graded: Path) -> None:
         assert told in rows[name]["words"]
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_class_goes_on_where_it_was_interrupted(a_class: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """What is in the table is not done again, though its last line was cut off; a changed file is, and a new key."""
     table, files, done = a_class / "grades.csv", files_of([a_class / "class"]), []
@@ -97,7 +97,7 @@ def test_a_class_goes_on_where_it_was_interrupted(a_class: Path, monkeypatch: py
     assert len(done) == 4
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_file_that_could_not_be_graded_is_tried_again(a_class: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A fault of the checker's own is in the row, not a grade of the student's; the next time it is gone."""
     table, files = a_class / "grades.csv", files_of([a_class / "class" / "bert.py"])
@@ -178,7 +178,7 @@ def test_no_cell_is_a_formula(tmp_path: Path) -> None:
     assert {row["score"] for row in rows} == {"0.0"}
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_the_command_checks_a_file(a_class: Path) -> None:
     """In words: the name, the hint, the first difference and the plot of the verdict; exit code 1."""
     verdict = judge(find("4"), WRONG)
@@ -275,7 +275,7 @@ def test_the_zip_can_be_run_and_has_no_solution(autograder: Path) -> None:
     assert not [name for name in names if "model" in name or "tests/" in name]
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(
     ("text", "score", "finding"),
     [(solution("classes"), 100.0, "right"), (wrong("arrays", "spring_sign"), 0.0, "spring_sign")],

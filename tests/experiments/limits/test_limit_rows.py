@@ -88,7 +88,7 @@ class Halfway(KickDrift):
         super().__init__(system, dt / 2)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_an_engine_with_a_limit_of_its_own_is_caught() -> None:
     """It is no scheme, so that nothing is predicted; and held against kick_drift's limit its own is twice as long."""
     system = find("string").system({"masses": 2})
@@ -108,7 +108,7 @@ class Stiffer(KickDrift):
         super().__init__(system.with_parameter("stiffness", (1.01 * system.stiffness).tolist()), dt)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_limit_that_is_not_where_it_is_expected_is_found_as_exactly() -> None:
     """Of an engine that claims kick-drift and is stiffer: h^2 w^2 = 4, so that its limit is 1 / sqrt(1.01) of it.
 
@@ -124,7 +124,7 @@ def test_a_limit_that_is_not_where_it_is_expected_is_found_as_exactly() -> None:
     assert found.dt != pytest.approx(predicted.dt, rel=1e-3)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_where_rounding_hides_growth_nothing_is_measured() -> None:
     """An engine in single precision that is not identified: there is no mode to run along, and so no limit, and why.
 

@@ -39,7 +39,7 @@ with open(sys.argv[1], "w", newline="") as file:
 '''
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize(("damping", "named"), [("0", "kick_drift"), ("0.4", "kick_drift_implicit_damping")])
 def test_what_a_bare_mujoco_script_wrote_is_identified(damping: str, named: str, tmp_path: Path) -> None:
     """Its Euler takes the damping of joints implicitly, which the manual says and the numbers show."""
@@ -53,7 +53,7 @@ def test_what_a_bare_mujoco_script_wrote_is_identified(damping: str, named: str,
     assert document["stepper"] == "mujoco.csv"
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("name", ["rk4-masses.csv", "rk4-arrays.npz"])
 def test_what_simulate_wrote_is_identified(name: str, tmp_path: Path) -> None:
     """Its own files, read back: the string by RK4, and by no other."""

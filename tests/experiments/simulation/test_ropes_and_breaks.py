@@ -21,7 +21,7 @@ def run_of(*words: str) -> list[dict[str, Any]]:
     return runs
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_rope_that_is_slack_snatches_the_mass_that_falls_into_it() -> None:
     """M 80 kg falls h = 4 m and is caught by k = 2 kN/m: F = m g + sqrt((m g)^2 + 2 k m g h), of its energy.
 
@@ -46,7 +46,7 @@ def test_a_rope_that_is_slack_snatches_the_mass_that_falls_into_it() -> None:
     assert wrong["largest_tension_n"] != pytest.approx(force, rel=0.1)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_chain_breaks_where_its_tension_is_largest_and_is_told(tmp_path: Path) -> None:
     """Let go unstretched, at its top, at the same step in the reference's scheme and the engine of it; files have it.
 

@@ -29,7 +29,7 @@ def simulated(scene: str, *steppers: str, **more: object) -> list[dict[str, obje
     return runs
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("force", [["--set=gravity=50"], ["--set=gravity=0", "--change=0:pull.1.x=-80"]])
 def test_a_sheet_of_exercises_is_answered_by_one_command(force: list[str]) -> None:
     """With m 1.6 kg, k 4000 N/m, c 8 N s/m, F 80 N, from u = -0.08 m at 1 m/s: u(1 s) = 0.01183 m.
@@ -158,7 +158,7 @@ def test_files_are_read_by_others(tmp_path: Path) -> None:
     assert all(f'file="heun-frames/{path.name}"' in collection for path in meshes)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_plots_and_films_are_drawn(tmp_path: Path) -> None:
     """Each that is asked for; a wrong word is one line."""
     words = ("paths", "energy", "forces", "10:y")

@@ -152,7 +152,7 @@ def test_two_steps_of_other_lengths_are_no_halves(tmp_path: Path) -> None:
     assert parts_of(None, updates_of(recording)) is None
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -170,7 +170,7 @@ def test_other_forms_and_mistakes(text: str, words: str, tmp_path: Path) -> None
     assert explained(tmp_path, text).nearest == words
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -190,7 +190,7 @@ def test_methods_that_begin_otherwise_are_told(text: str, words: str, tmp_path: 
     assert (f"by its coefficients it is {words}" in name_line(found)) == bool(words)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_what_changes_with_dt_has_a_key_of_its_own(tmp_path: Path) -> None:
     """At which dt which rule was found, and where formulas were derived; of Heun alone there is nothing."""
     other = "    return y + dt * f(y, t) if dt < 1e-3 else heun(f, y, t, dt)"

@@ -90,14 +90,14 @@ def test_position_and_velocity_exchanged() -> None:
     assert found.matrix is None
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_single_precision_is_told_by_its_numbers() -> None:
     """Numbers of 24 bits, from a system whose own are not: by chance one in 2^58."""
     assert IN_SINGLE in explain(stepper_of(single)).reasons
     assert IN_SINGLE not in explain(stepper_of(euler)).reasons
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_stages_of_an_iteration_that_has_converged() -> None:
     """A = 1/2, b = 1."""
     tableau = explain(stepper_of(midpoint)).tableau
@@ -119,14 +119,14 @@ def test_a_step_that_changes_nothing_is_no_rod() -> None:
         step_matrix(runs_of(stepper_of(nothing)))
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_method_by_its_tableau_that_moves_otherwise_is_a_contradiction() -> None:
     """Its tableau is Euler's, its steps on the string are not."""
     assert CONTRADICTION in explain(stepper_of(changes)).reasons
     assert CONTRADICTION not in explain(stepper_of(euler)).reasons
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_nan_is_not_taken_for_chance_or_writing() -> None:
     """NaN is unequal to itself: a step that returns it does the one thing only."""
     found = stepper_of(lost)

@@ -69,7 +69,7 @@ def test_a_mistake_shows_in_the_formulas(pretender: Scheme, name: str) -> None:
     assert mistaken.text() != right.text()
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize(
     "name", ["soft_constraints_cold(substeps=1, single=True)", "soft_constraints_cold(single=True)"]
 )
@@ -80,14 +80,14 @@ def test_formulas_are_seen_through_single_precision(name: str) -> None:
     assert (seen.text(), seen.substeps) == (same.text(), same.substeps)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_few_digits_make_no_decimals() -> None:
     """Where coefficients in single precision are no fractions, nothing is told: a polynomial goes through anything."""
     with pytest.raises(Unsupported, match="to the digits of single precision"):
         step_matrix(runs_of(SchemeStepper(find("soft_constraints_relaxed(single=True)"))), "single")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_why_there_is_no_damping_is_told() -> None:
     """Of a stepper that refuses damping but not drag, the reason; of one that refuses both, in one; else nothing."""
     all_of_it = runs_of(SchemeStepper(find("heun")))

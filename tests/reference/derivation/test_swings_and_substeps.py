@@ -22,7 +22,7 @@ from reference.theory.oscillators import step_matrices
 from report.derived import matrix_lines, sections
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("name", ["kick_drift", "heun", "velocity_verlet"])
 def test_a_pendulums_small_swings_are_an_oscillators(name: str) -> None:
     """Q'' = -(g/L) q - (Cd/m) q': the scheme's own function, given these linearised, at other a and d."""
@@ -48,7 +48,7 @@ def test_a_rope_gives_way_as_its_rods_do() -> None:
     assert m12[(1, 0, 0, 0, 0)] == pytest.approx(-COMPLIANCE, abs=2e-10)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_what_is_told_of_rods() -> None:
     """Letters of a swing; nothing of springs; that it looks back at nothing."""
     found = explain(catalogued()["pendulum_rk4"])
@@ -58,7 +58,7 @@ def test_what_is_told_of_rods() -> None:
     assert "Derived: a step of small swings of a rod" in dict(sections(found))
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_springs_are_not_taken_for_rods() -> None:
     """Of a stepper whose springs give way there are no swings of rods: it knows no line, and is stiff."""
 
@@ -82,7 +82,7 @@ def in_parts(count: int, step: Scheme) -> Scheme:
     return Scheme(parts, step.order)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(("count", "name"), [(6, "kick_drift"), (20, "kick_drift"), (8, "drift_kick"), (10, "euler")])
 def test_sub_steps_are_counted_and_are_the_schemes(count: int, name: str) -> None:
     """As many as there are, each the scheme's; together the step that was measured."""

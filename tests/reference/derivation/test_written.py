@@ -106,6 +106,7 @@ def test_each_mistake_is_told_as_what_it_is(name: str) -> None:
     assert found.order == order
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_times_that_do_not_go_along_are_told() -> None:
     """RK4 that always tells its slopes the time at the start: on these forces it is RK4, on others it is not."""
     found = explained("bug_rk4_time.py")
@@ -118,6 +119,7 @@ def test_times_that_do_not_go_along_are_told() -> None:
     assert any(line.startswith("Order 4 where slopes do not depend on time,") for line in property_lines(found))
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_damping_at_the_wrong_velocity_is_told() -> None:
     """Velocity Verlet whose second force takes the old velocity: the same without damping, of lower order with it."""
     found = explained("bug_verlet_damping.py")

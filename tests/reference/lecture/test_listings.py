@@ -57,7 +57,7 @@ def random_string(seed: int, masses: int) -> MassSpringSystem:
 # --- One and the same ---
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @property_test
 @given(seed=seeds, masses=st.integers(1, 6))
 def test_all_listings_agree_bit_for_bit_on_any_string(seed: int, masses: int) -> None:
@@ -71,7 +71,7 @@ def test_all_listings_agree_bit_for_bit_on_any_string(seed: int, masses: int) ->
     assert positions(INCORRECT, system, 20).tolist() == loops
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_all_listings_agree_bit_for_bit_over_the_whole_scene() -> None:
     """500 steps of ten links."""
     system = find_scene("string").system({"drag": 0.02})

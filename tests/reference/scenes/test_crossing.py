@@ -92,13 +92,13 @@ def check_influence_line(kind: type[Crossing], truck: float = 500.0) -> None:
     assert np.abs(sag - expected).max() < 0.02 * np.abs(expected).max()
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_slow_truck_sinks_the_middle_along_the_influence_line() -> None:
     """All the way."""
     check_influence_line(Crossing)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("wrong", [SharesSwapped, NextJointOnly])
 def test_the_influence_line_fails_on(wrong: type[Crossing]) -> None:
     """A truck that is where it is not."""

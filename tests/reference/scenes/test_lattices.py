@@ -129,7 +129,7 @@ def test_dropped_jello_falls_freely_and_stays_above_the_floor() -> None:
     assert not find_scene("drop").system({}).fixed.any()
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_drop_fails_on_wrong_integrators() -> None:
     """Euler falls too slowly; gravity that points up does not fall; what gains energy has more than at first."""
     for scheme in (find("euler"), wrong.stepped(wrong.gravity_turned, find("heun")), wrong.kick_drift_gaining_energy):
@@ -219,14 +219,14 @@ def check_wobble(run: Simulated, by_the_textbook: MassSpringSystem, mode: int) -
     assert measured_period(trajectory, system.positions, shape, system.masses) == pytest.approx(period, rel=1e-6)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("mode", range(4))
 def test_jello_wobbles_as_slowly_as_its_eigenvalues_say(mode: int) -> None:
     """The four slowest: two sideways, one twisting, one up and down."""
     check_wobble(under(find("rk4")), hung(0.0), mode)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize(
     "scheme",
     [wrong.heun_without_half, wrong.kick_drift_kicked_twice, wrong.stepped(wrong.one_sided, find("rk4"))],
@@ -275,7 +275,7 @@ def check_rest(run: Simulated, system: MassSpringSystem, rests_as: MassSpringSys
     assert np.abs(last - equilibrium(rests_as).positions).max() < 1e-6 * system.size
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("pinned", ["corners", "four_corners"])
 def test_cloth_comes_to_rest_where_energy_is_least(pinned: str) -> None:
     """Two ways there: it falls, swings and slows down; and downhill in energy."""
@@ -283,7 +283,7 @@ def test_cloth_comes_to_rest_where_energy_is_least(pinned: str) -> None:
     check_rest(under(find("velocity_verlet")), system, system)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_rest_fails_on_other_cloth_and_on_wrong_integrators() -> None:
     """A spring ten per cent stiffer; a last mass that never falls; gravity turned to the side."""
     system = slowing_cloth()

@@ -81,6 +81,7 @@ def check_kept_rate(scheme: Scheme, kept: Callable[[float], float], damping: flo
     assert kept_rate(scheme, damping, dt) == pytest.approx(kept(dt * damping / 0.015), abs=tolerance)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", KEPT)
 @property_test
 @given(damping=st.floats(0.0, 10.0), dt=st.floats(1e-4, 1e-2))

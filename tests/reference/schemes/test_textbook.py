@@ -66,6 +66,7 @@ def test_order_is_as_theory_says(scheme: Scheme, parameters: dict[str, float]) -
     check_order(scheme, **parameters)
 
 
+@pytest.mark.rotating(2, in_turn=True)
 @pytest.mark.parametrize(
     "scheme",
     [
@@ -88,6 +89,7 @@ def test_order_fails_on_wrong_schemes(scheme: Scheme) -> None:
         check_order(scheme, **UNDAMPED)
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_order_fails_on_damping_with_the_wrong_sign() -> None:
     """The undamped string cannot see that; the damped one does."""
     turned = wrong.stepped(wrong.damping_turned, find("heun"))

@@ -196,6 +196,7 @@ def test_a_cantilever_that_bends_little_does_as_its_linear_solution() -> None:
     assert -x[2:, 1] == pytest.approx(sag, rel=1e-6)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_what_is_free_keeps_energy_and_both_momenta(dimension: int) -> None:
     """A wire thrown into the air: momenta to rounding, RK4's energy to (w dt)^4 over 300 steps."""

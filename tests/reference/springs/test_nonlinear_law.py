@@ -130,6 +130,7 @@ def check_bounce(motion: Array, times: Array, within: float) -> None:
     assert np.abs(motion - true).max() < within * true.max()
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_a_mass_on_a_rope_swings_half_a_period_and_flies() -> None:
     """The exact motion to 1e-11; RK4's to h^4, and at the corner h^2, of w h = 0.02; the same of a strut, mirrored."""
     rope = on_wall(tension_only=True)
@@ -162,6 +163,7 @@ def duffing_period(mass: float, stiffness: float, hardening: float, amplitude: f
     )
 
 
+@pytest.mark.rotating(2, in_turn=True)
 @pytest.mark.parametrize("stiffness", [200.0, 0.0])
 def test_a_spring_that_hardens_swings_as_duffings(stiffness: float) -> None:
     """Its period by quadrature, and without stiffness 7.4163 sqrt(m/k3) / A; to 1e-6, RK4's and interpolation's error.
@@ -181,6 +183,7 @@ def test_a_spring_that_hardens_swings_as_duffings(stiffness: float) -> None:
         assert true == pytest.approx(7.4163 * np.sqrt(0.5 / hardening) / amplitude, rel=1e-5)
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_beyond_its_largest_force_a_spring_slows_a_mass_down_evenly() -> None:
     """Half of m v^2 = E(s_y) + F (s - s_y): how far it comes, and that it comes back as fast as it went."""
     system = on_wall(velocity=3.0, largest_force=5.0)

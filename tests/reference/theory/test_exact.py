@@ -58,6 +58,7 @@ def check_oscillator(solve: Solver, mass: float, frequency: float, ratio: float,
     assert np.abs(found.velocities[:, 1, 1] - v).max() < 2e-12 * frequency
 
 
+@pytest.mark.rotating(2)
 @property_test
 @given(
     mass=st.floats(0.01, 10.0),

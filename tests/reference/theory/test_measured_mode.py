@@ -63,6 +63,7 @@ def test_what_falls_freely_blows_up_where_predicted(scheme: str) -> None:
     assert np.abs(seen).max() < 2 * np.abs(seen[0]).max()
 
 
+@pytest.mark.rotating(3)
 def test_a_window_of_stability_is_measured_where_it_is_predicted() -> None:
     """One spring whose damping ratio is near 0.24: stable, unstable, and stable again between two edges.
 

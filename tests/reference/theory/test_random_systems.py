@@ -158,6 +158,7 @@ def test_limits_are_those_of_dense_eigenvalues(seed: int) -> None:
         check_limit(limit, scheme, rest, found)
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("part", [0.9, 1.1])
 def test_a_limit_that_is_off_is_caught(part: float) -> None:
     """Shown to fail: ten per cent too short or too long, of the schemes that have a limit."""

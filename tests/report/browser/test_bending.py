@@ -46,7 +46,7 @@ def apart(seeds: Sequence[int], text: str = "", names: Sequence[str] = tuple(pag
     return max(float(np.abs(a - e).max() / np.abs(e).max()) for a, e in zip(answers, expected, strict=True))
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_all_schemes_agree_to_rounding() -> None:
     """Also those that write in place, which have no loops here; shown to fail without the forces."""
     assert {bent(seed).dimension for seed in BENT} == {2, 3}
@@ -79,7 +79,7 @@ def test_it_blows_up_at_the_reference_s_step() -> None:
     assert answer["steps"] == frame
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_limits_are_those_of_the_theory_room() -> None:
     """Of a string whose bends are stiffer than its springs; shown to fail where they are left out of the stiffness."""
     system = find_scene("string").system({"masses": 4, "angular_stiffness": 20.0, "damping": 0.1})

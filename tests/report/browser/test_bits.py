@@ -92,13 +92,13 @@ def test_all_schemes_of_the_page_end_in_the_reference_s_bits(request: pytest.Fix
     assert all(compared(range(200) if request.config.getoption("--full") else SEEDS))
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_springs_that_are_not_linear_end_in_the_reference_s_bits(request: pytest.FixtureRequest) -> None:
     """Ropes, struts, springs that harden, yield and break, mixed in the same systems: no tolerance, as above."""
     assert all(compared(range(200) if request.config.getoption("--full") else range(4), kinds=True))
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_springs_of_rest_length_0_end_in_the_reference_s_bits() -> None:
     """Also where they have no length: shown to fail where what has no direction is divided by nothing."""
     assert all(compared(range(6), together=True, kinds=True))
@@ -108,7 +108,7 @@ def test_springs_of_rest_length_0_end_in_the_reference_s_bits() -> None:
     assert not all(compared(range(3), wrong, names=("euler", "rk4"), together=True))
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [("(stretch < 0)", "(stretch > 0)"), ("(largest_force / Math.abs(stretch))", "0"), ("found.push(j)", "0")],
@@ -141,7 +141,7 @@ def apart(seeds: Sequence[int], text: str = "", kinds: bool = False) -> dict[str
     return most
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("kinds", [False, True], ids=["linear", "kinds"])
 def test_schemes_that_solve_equations_agree_to_rounding(request: pytest.FixtureRequest, kinds: bool) -> None:
     """Newton's method and the solvers end where the reference's end: LAPACK's order of sums is its own."""
@@ -149,7 +149,7 @@ def test_schemes_that_solve_equations_agree_to_rounding(request: pytest.FixtureR
     assert max(most.values()) < NEAR, most
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_derivative_that_is_wrong_is_seen() -> None:
     """Shown to fail: the damping of springs, and a Newton's method that stops a round early."""
     text = physics()
@@ -162,7 +162,7 @@ def test_a_derivative_that_is_wrong_is_seen() -> None:
         assert max(apart(range(3), text.replace(right, wrong)).values()) > 1e3 * NEAR
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_large_system_is_solved_by_iteration_and_by_elimination_alike() -> None:
     """A cloth of 192 coordinates: short steps are iterated, and where no iteration is allowed, eliminated."""
     system = find_scene("cloth").system({"rows": 8, "columns": 8, "damping": 0.05})
@@ -186,7 +186,7 @@ def test_a_step_without_a_solution_is_told() -> None:
     assert answer["what"] == "unsolved"
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_one_rounding_more_is_seen() -> None:
     """Shown to fail: a square root that is off by its last bit."""
     wrong = physics().replace("= Math.sqrt(", "= 1.0000000000000002 * Math.sqrt(")
@@ -309,7 +309,7 @@ def test_no_ramp_and_no_sine_brings_a_broken_spring_back(name: str) -> None:
         assert gone == (name not in ("damping", "stiffness"))
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_at_another_dt_what_is_driven_is_off_by_straight_lines_between_the_middles_of_steps() -> None:
     """Ground that shakes at 0.5 to 5 Hz, a table of h = 1 ms, steps of 0.4 ms.
 

@@ -77,7 +77,7 @@ def test_it_is_shown_without_a_request_or_a_complaint(browser: Any, file: Path, 
     shown.page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_one_lane_has_no_plot_of_distances(browser: Any, file: Path) -> None:
     """There is nothing it could be far from: with a second lane the plot is there."""
     for schemes, there in (("rk4", False), ("rk4,euler", True)):
@@ -87,6 +87,7 @@ def test_one_lane_has_no_plot_of_distances(browser: Any, file: Path) -> None:
         shown.page.close()
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_chromium_ends_in_the_reference_s_bits(browser: Any, file: Path) -> None:
     """As Node does (`test_bits`): a few random systems by two schemes."""
     shown = opened(browser, file)
@@ -101,6 +102,7 @@ def test_chromium_ends_in_the_reference_s_bits(browser: Any, file: Path) -> None
     shown.page.close()
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_chromium_solves_equations_as_the_reference_does(browser: Any, file: Path) -> None:
     """As Node does (`test_bits`), to the same bound: two random systems by all schemes that solve."""
     shown = opened(browser, file)
@@ -123,7 +125,7 @@ RUN = (
 )
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_link_brings_back_the_same_numbers_and_the_same_picture(browser: Any, file: Path) -> None:
     """What was set, changed on the way and stepped: opened anew, every position is the same to the bit."""
     state = "s=string&w=heun,heun_aliased&dt=0.002&at=0:stiffness:150,0.05:gravity:3.7,0.06:hold:4&n=80"
@@ -140,6 +142,7 @@ def test_a_link_brings_back_the_same_numbers_and_the_same_picture(browser: Any, 
         shown.page.close()
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_recorded_engine_lies_over_the_scheme_that_it_steps_by(browser: Any, file: Path) -> None:
     """MuJoCo's tendons step as kick-drift does, to rounding: lanes are apart by what the recording is off by."""
     shown = opened(browser, file, "s=string&w=kick_drift,recorded:mujoco_tendons&n=400")
@@ -149,7 +152,7 @@ def test_a_recorded_engine_lies_over_the_scheme_that_it_steps_by(browser: Any, f
     shown.page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> None:
     """By its buttons: dt to 1.02 times the limit, play, back to before, and a shorter dt that is stable."""
     shown = opened(browser, file, "s=string&w=kick_drift")
@@ -170,7 +173,7 @@ def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> N
     page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_every_lane_that_blew_up_is_named(browser: Any, file: Path) -> None:
     """With how many times dt times omega it stands: Euler at any dt, kick-drift at twice its limit; rk4 goes on."""
     shown = opened(browser, file, "s=string&w=euler,rk4,kick_drift&dt=0.0105&speed=4")
@@ -183,7 +186,7 @@ def test_every_lane_that_blew_up_is_named(browser: Any, file: Path) -> None:
     page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("scene", ["crossing", "earthquake"])
 def test_what_drives_a_scene_is_drawn_with_it(browser: Any, file: Path, scene: str) -> None:
     """A truck, and ground with an arrow: the picture is another without what `drawDriven` draws, as at no string."""
@@ -196,7 +199,7 @@ def test_what_drives_a_scene_is_drawn_with_it(browser: Any, file: Path, scene: s
         shown.page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_every_lesson_s_task_can_be_done(browser: Any, file: Path) -> None:
     """Each is not done at its start, and is done by what its task says."""
     shown = opened(browser, file, "s=string")
@@ -225,7 +228,7 @@ DEEDS = (
 )
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("steps", [0, 8])
 def test_the_third_lesson_takes_the_limit_before_it_is_computed_and_after_steps(
     browser: Any, file: Path, steps: int
@@ -248,7 +251,7 @@ def test_the_third_lesson_takes_the_limit_before_it_is_computed_and_after_steps(
     page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_junk_in_a_field_is_refused_and_the_field_keeps_what_it_had(browser: Any, file: Path) -> None:
     """With its name, what was typed, and what was expected; what is right afterwards ends the refusal."""
     shown = opened(browser, file, "s=string&w=kick_drift")
@@ -269,7 +272,7 @@ def test_junk_in_a_field_is_refused_and_the_field_keeps_what_it_had(browser: Any
     page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file: Path) -> None:
     """Each part as it stands there; all others are taken, and of a good link nothing is told."""
     shown = opened(browser, file, "s=string")
@@ -293,7 +296,7 @@ def test_what_a_link_says_and_the_page_does_not_take_is_told(browser: Any, file:
     page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_link_without_a_scene_is_about_the_first_one(browser: Any, file: Path) -> None:
     """All else that it says is taken, and it is a whole state from then on."""
     shown = opened(browser, file, "w=rk4,euler&at=0:mass:0.5&n=3")
@@ -305,6 +308,7 @@ def test_a_link_without_a_scene_is_about_the_first_one(browser: Any, file: Path)
     page.close()
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_the_last_answer_to_a_lesson_counts(browser: Any, file: Path) -> None:
     """A period of 63 ms is right, twice that is not, whatever was answered before."""
     shown = opened(browser, file, "lesson=1")
@@ -316,6 +320,7 @@ def test_the_last_answer_to_a_lesson_counts(browser: Any, file: Path) -> None:
     shown.page.close()
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_positions_are_written_with_time_and_step_and_called_after_the_scene_and_dt(browser: Any, file: Path) -> None:
     """The file that the button hands over, of a string of 12 masses after 5 steps of 2 ms."""
     shown = opened(browser, file, "s=string&w=rk4&dt=0.002&n=5")
@@ -328,7 +333,7 @@ def test_positions_are_written_with_time_and_step_and_called_after_the_scene_and
     shown.page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_each_lane_says_about_which_rest_its_prediction_is(browser: Any, file: Path) -> None:
     """As in `springlab stability`: euler leads masses into an obstacle in every second step only. No limit, no rest."""
     about, without = "about its rest on obstacles, where 4 masses press.", "of the scene without its obstacles."
@@ -345,7 +350,7 @@ def test_each_lane_says_about_which_rest_its_prediction_is(browser: Any, file: P
     shown.page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_no_factor_below_one_is_given_as_the_reason_of_a_blow_up(browser: Any, file: Path) -> None:
     """On obstacles a limit may be below that of the fastest mode: then only dt and the limit are told.
 
@@ -364,7 +369,7 @@ def test_no_factor_below_one_is_given_as_the_reason_of_a_blow_up(browser: Any, f
     shown.page.close()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_links_and_commands_have_short_times_and_no_duration_of_nothing(browser: Any, file: Path) -> None:
     """A time that steps add up to with an error of rounding; at no steps there is no duration."""
     shown = opened(browser, file, "s=string&w=kick_drift&dt=0.002")
@@ -376,6 +381,7 @@ def test_links_and_commands_have_short_times_and_no_duration_of_nothing(browser:
     page.close()
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_the_keyboard_does_what_a_pointer_does(browser: Any, file: Path) -> None:
     """Play, step, choose a mass, move it, hold it."""
     shown = opened(browser, file, "s=string&w=kick_drift")

@@ -104,7 +104,7 @@ def test_limits_are_those_of_the_theory_room(request: pytest.FixtureRequest) -> 
             assert agrees(answer["limits"][scheme], scheme, rest), (name, settings, scheme, answer["limits"][scheme])
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_implicit_schemes_are_stable_where_explicit_ones_are_not() -> None:
     """Predicted stable at any dt, and seen to be at ten times what kick-drift stands, which blows up.
 
@@ -149,7 +149,7 @@ def test_the_rest_is_found_anew_when_parameters_change() -> None:
     assert agrees(answer["limits"]["kick_drift"], "kick_drift", at_rest(changed))
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_runs_grow_beyond_the_limit_and_stay_below_it(request: pytest.FixtureRequest) -> None:
     """A perturbation of 1e-6 of a spring's length at rest grows over 1.02 times the limit, and not under 0.98 times it.
 

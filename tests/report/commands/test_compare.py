@@ -69,7 +69,7 @@ def of_the_engines(*words: str) -> tuple[str, ...]:
     return ("string", *words, *(word for name in names for word in ("--stepper", name)))
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_json_has_exactly_the_promised_form() -> None:
     """Keys, types and order; a number that is none is null, a reason is a text, and is there unless all went well."""
     document = compared("string")
@@ -171,7 +171,7 @@ def test_the_error_is_the_distance_from_the_true_motion() -> None:
     assert found["rk4"]["error_m"] < 1e-3 * found["heun"]["error_m"] < 1e-4 * found["euler"]["error_m"]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_change_on_the_fly_is_made_in_every_run() -> None:
     """With stiffness, gravity and drag changed midway, engines still are their schemes; the cable says it cannot."""
     words = ("--change", "0.02:gravity=1.62", "--change", "0.03:drag=0.05", "--change", "0.04:stiffness=150")
@@ -297,7 +297,7 @@ def test_engines_say_how_many_masses_are_too_many() -> None:
     assert too_slow(all_steppers()["mujoco_rope"], large) is None
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_after_a_run_has_ended_early_it_has_no_distance() -> None:
     """Heun with steps three times too long is no number before the end, as is the scheme it is: no distance then."""
     system = find_scene("string").system({})

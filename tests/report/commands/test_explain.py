@@ -38,7 +38,7 @@ def test_what_cannot_be_told_is_null_with_its_reason(tmp_path: Path) -> None:
     assert "a step changes nothing" in document["reason"]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_rods_and_sub_steps_are_told_in_json() -> None:
     """What the matrix is of, and of how many sub-steps a step is made."""
     document = json.loads(springlab("explain", "pendulum_heun", "--json").out)
@@ -77,7 +77,7 @@ def test_a_solver_is_in_the_catalogue() -> None:
     assert "is what the catalogue has by this name" in springlab("explain", "vertex_block_descent").out
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_file_of_the_users_own_is_explained(tmp_path: Path) -> None:
     """Heun with weights 2/3 and 1/3: no name, and the mistake in numbers."""
     file = tmp_path / "mine.py"

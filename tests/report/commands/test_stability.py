@@ -26,6 +26,7 @@ def test_json_rows_have_the_promised_keys(tmp_path: Path) -> None:
     assert (tmp_path / "stability.csv").exists()
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("scene", scenes())
 def test_every_scene_takes_the_cases_it_is_shown_in(scene: str) -> None:
     """As it is first; drag or damping only where it has such a parameter, then with the number that is said."""
@@ -39,7 +40,7 @@ def test_every_scene_takes_the_cases_it_is_shown_in(scene: str) -> None:
     assert cases(scene, {"drag": "0.1"}) == [{}]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_scene_without_damping_has_its_limits(tmp_path: Path) -> None:
     """The strip has drag, and no damping that could be set: it is shown as it is, and with drag."""
     done = springlab("stability", "strip", "--stepper", "kick_drift", "--json", "--out", str(tmp_path))
@@ -88,7 +89,7 @@ def test_bad_words_are_one_line(words: list[str], said: str) -> None:
     assert done.err.count("\n") == 1
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_map_is_a_figure_and_a_table_of_growth(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A point for each pair of values, from one end of each range to the other: Pymunk's on 5 x 5 here."""
     assert stability_map.ENGINE == 16

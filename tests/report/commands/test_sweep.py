@@ -161,7 +161,7 @@ def store(first: tuple[Path, dict[str, Any]], tmp_path: Path) -> Path:
     return shutil.copytree(first[0], tmp_path / "copy") / "store.sqlite"
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_sweep_is_run_once(first: tuple[Path, dict[str, Any]], store: Path) -> None:
     """The second time nothing is run, and not a byte of what is kept changes; more points are run alone."""
     _, said = first
@@ -175,7 +175,7 @@ def test_a_sweep_is_run_once(first: tuple[Path, dict[str, Any]], store: Path) ->
     assert swept(store, *SMALL, "--keep", "--stepper", "rk4")["run_now"] == 4
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_fresh_starts_over_and_deletes_nothing(store: Path) -> None:
     """The older generation stays, though only the newer one is shown, which is the same byte for byte."""
     before = contents(store)
@@ -191,7 +191,7 @@ def test_fresh_starts_over_and_deletes_nothing(store: Path) -> None:
     assert swept(store, *SMALL, "--keep", "--resume")["run_now"] == 0
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_was_stopped_at_a_limit_is_run_again_at_another(tmp_path: Path) -> None:
     """But not at the same one; the tally says what the limit was."""
     store = tmp_path / "store.sqlite"
@@ -205,7 +205,7 @@ def test_what_was_stopped_at_a_limit_is_run_again_at_another(tmp_path: Path) -> 
     assert [row["outcome"] for row in rows(store, {})] == ["done"]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_dt_is_an_axis_like_others(tmp_path: Path) -> None:
     """As many steps as come nearest to the duration."""
     store = tmp_path / "store.sqlite"
@@ -225,7 +225,7 @@ def test_a_dt_that_is_not_varied_is_the_one_given_or_the_scenes(
     assert (task.labels["dt"], task.labels["steps"]) == dt_and_steps
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_run_is_judged_as_compare_judges_it(tmp_path: Path) -> None:
     """The same distance from the true motion to the last bit, and the same scheme."""
     store = tmp_path / "store.sqlite"
@@ -238,7 +238,7 @@ def test_a_run_is_judged_as_compare_judges_it(tmp_path: Path) -> None:
         assert {name: row[key] for name, row in found.items()} == {name: run[key] for name, run in wanted.items()}
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_trajectories_are_kept_where_they_are_asked_for(tmp_path: Path) -> None:
     """As a scheme makes them here, to the last bit; otherwise none are, and these are other runs."""
     store = tmp_path / "store.sqlite"
@@ -254,7 +254,7 @@ def test_trajectories_are_kept_where_they_are_asked_for(tmp_path: Path) -> None:
         np.testing.assert_array_equal(found[f"answer.outcome.trajectory.{name}"], getattr(own, name))
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_tally_says_how_runs_ended_and_the_most_frequent_reason(tmp_path: Path) -> None:
     """A stepper that cannot is a row that says why; the others are run."""
     scene = tmp_path / "mesh.toml"

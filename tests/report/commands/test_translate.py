@@ -17,7 +17,7 @@ from tests.report.commands.terminal import springlab
 KEYS = ["engine", "settings", "snippet", "effective_stiffness", "effective_damping"]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_rows_of_all_engines_have_the_promised_keys() -> None:
     """One for each engine there is to translate for; nothing is run with --predict."""
     words = ("--stiffness", "200", "--damping", "0.5", "--mass", "0.2", "--dt", "0.004", "--predict", "--json")
@@ -32,7 +32,7 @@ def test_rows_of_all_engines_have_the_promised_keys() -> None:
         assert row["snippet"]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("width", [80, 100])
 def test_tables_fit_a_terminal(monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     """No line is longer, no setting is broken, and what only rounding leaves of a damping is 0."""

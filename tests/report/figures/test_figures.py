@@ -94,6 +94,7 @@ SPOILT: dict[str, tuple[Callable[[Figure], object], Callable[[Figure], object]]]
 }
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("what", SPOILT)
 def test_a_figure_that_is_not_well_is_seen(what: str) -> None:
     """Shown to fail, on the same figure with one thing wrong."""

@@ -70,7 +70,7 @@ def test_the_same_motion_is_one_panel_with_all_names_and_failures_are_none() -> 
     assert [shot.names for shot in shots(comparison)] == [("heun",), ("KickDrift",), ("StifferByAMillionth",)]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_gif_has_its_frames_in_one_size(tmp_path: Path) -> None:
     """0.02 s eight times slower at 25 frames a second: five; read back with Pillow."""
     made = film(of("heun"), slow=8)
@@ -106,7 +106,7 @@ def test_frames_are_in_real_time_or_slower_and_not_too_many() -> None:
         frame_steps(setup, 2000, slow=100)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_blows_up_leaves_the_picture_and_changes_nothing_for_the_others() -> None:
     """Euler on a stiff string: the window is that of the true motion; the note says when the first mass is out."""
     setup = Setup("stiff", find("string").system({"masses": 3, "stiffness": 2e4}), 1e-3, 0.3)
@@ -124,7 +124,7 @@ def test_what_blows_up_leaves_the_picture_and_changes_nothing_for_the_others() -
     assert len(list(made.frames(quiet))) == len(made.steps)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_spring_that_is_broken_is_drawn_no_more() -> None:
     """From the step after it broke on, in its own panel; what it would be stretched by has no part in the colours."""
     setup = find("chain").setup({"masses": 5, "breaking_force": 0.8}, duration=0.25)
@@ -194,7 +194,7 @@ def test_perspective_is_that_of_a_pinhole() -> None:
     assert np.linalg.det(cloth.axes) == pytest.approx(1)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_sphere_is_seen_as_large_as_it_is_and_hides_what_is_behind() -> None:
     """From distance d a sphere of radius r covers a disc of radius r d / sqrt(d^2 - r^2); to a pixel and a half."""
     view, window = View(np.zeros(3), np.eye(3), 4.0), (-2.0, 2.0, -2.0, 2.0)
@@ -234,7 +234,7 @@ def test_nothing_to_show_is_said() -> None:
 WORDS = ("compare", "string", "--stepper", "heun", "--duration", "0.04")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_compare_animates_beside_its_table(tmp_path: Path) -> None:
     """A file of its own name, or the scene's in OUT; standard output stays JSON; nothing else is left."""
     said = springlab(*WORDS, "--json", "--animate", str(tmp_path / "new" / "a.gif"))

@@ -24,7 +24,7 @@ from tests.report.live.commands import ends
 from tests.report.live.labs import ROUNDING, apart, go_on, move_at_random, open_lab
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.usefixtures("by_loops")
 @pytest.mark.parametrize(
     ("scene", "name"),
@@ -53,7 +53,7 @@ def test_loops_are_compiled_meanwhile_where_there_are_any() -> None:
         time.sleep(0.01)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:
     """No reset: between the last frame and the next the state has not moved, in schemes and engines."""
     lab = open_lab(labs, "string", ["heun", "pymunk_springs"])
@@ -69,7 +69,7 @@ def test_a_change_goes_on_from_where_it_is(labs: list[Lab]) -> None:
     assert lab.timeline.time == pytest.approx(0.05)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_past_can_be_gone_back_to(labs: list[Lab], tmp_path: Path) -> None:
     """Going on from there gives what came before again; the parameters of then are back, and the command knows."""
     lab = open_lab(labs, "string", ["heun", "pymunk_springs"])
@@ -118,7 +118,7 @@ def test_a_lane_that_is_added_leaves_the_past_as_it_was(labs: list[Lab]) -> None
     assert lab.timeline.recorder.names == ("kick_drift",)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: list[Lab]) -> None:
     """A truck crosses: from half-way, it crosses the second half twice, to the last bit the same."""
     lab = open_lab(labs, "crossing")
@@ -134,7 +134,7 @@ def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: l
     assert apart(lab.timeline.lanes[0].state, end) == 0
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("seconds", [0.0, 0.01, 0.5])
 def test_a_mass_may_be_held_now_or_in_the_past(labs: list[Lab], seconds: float) -> None:
     """Whenever one goes back to: what is done there is done to what was held then, and played on, nothing is."""
@@ -171,7 +171,7 @@ def test_a_limit_is_that_of_the_scene_that_is_open(labs: list[Lab]) -> None:
     assert lab.predictions["kick_drift"].limit == pytest.approx(10.11e-3, rel=1e-3)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("scene", ["string", "cloth"])
 def test_past_the_predicted_limit_it_blows_up_and_below_it_stays(labs: list[Lab], scene: str) -> None:
     """A dt over the limit by 7 % pauses with a reason that has both numbers; a tenth below the limit it goes on."""
@@ -206,7 +206,7 @@ def test_a_stable_step_is_offered_only_where_there_is_one(labs: list[Lab]) -> No
         assert suggestion(lab) == wanted
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_after_a_blow_up_what_is_changed_is_tried(labs: list[Lab]) -> None:
     """A shorter step gives a torn string no second life, but the lane that was well goes on with it."""
     lab = open_lab(labs, "string", ["euler", "rk4"])
@@ -221,7 +221,7 @@ def test_after_a_blow_up_what_is_changed_is_tried(labs: list[Lab]) -> None:
     assert lab.timeline.lanes[1].stopped is None
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_first_blow_up_is_left_behind_by_playing_again(labs: list[Lab]) -> None:
     """Play starts again, and the other lanes were not harmed."""
     lab = open_lab(labs, "string", ["euler", "kick_drift"])
@@ -271,7 +271,7 @@ def test_an_engine_that_cannot_says_why(labs: list[Lab]) -> None:
     assert (swinging.state.time, flat.state.time) == (pytest.approx(0.02), 0)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_schemes_are_found_by_alias_and_with_parameters(labs: list[Lab], tmp_path: Path) -> None:
     """An alias is the scheme; more rounds are another motion, which the command comes to, too."""
     words = [
@@ -293,7 +293,7 @@ def test_schemes_are_found_by_alias_and_with_parameters(labs: list[Lab], tmp_pat
     assert lab.predictions[words[2]].scheme == words[2]
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("slide", PRESETS)
 def test_the_lectures_pictures(labs: list[Lab], slide: str) -> None:
     """On slide 15 Euler explodes within 1.5 s, and Heun does not; the others go on."""

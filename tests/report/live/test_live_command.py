@@ -31,7 +31,7 @@ def refused(words: Sequence[str]) -> str:
     return line
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_port_in_use_is_one_line() -> None:
     """Whoever has it."""
     with socket.socket() as taken:
@@ -58,7 +58,7 @@ def test_what_cannot_be_is_one_line(words: Sequence[str], said: str) -> None:
     assert said in line
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_open_to_all_it_says_what_that_means() -> None:
     """And is there at every address of this machine; on loopback nothing is said."""
     with server("--host=0.0.0.0") as (address, process):
@@ -68,7 +68,7 @@ def test_open_to_all_it_says_what_that_means() -> None:
             assert b"<html" in answer.read().lower()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_on_loopback_alone_nothing_is_said_and_nobody_else_gets_in(plain: tuple[str, subprocess.Popen[str]]) -> None:
     """127.0.0.2 is this machine's, too, but not the address that it listens at."""
     address, process = plain
@@ -77,7 +77,7 @@ def test_on_loopback_alone_nothing_is_said_and_nobody_else_gets_in(plain: tuple[
         socket.create_connection(("127.0.0.2", int(address.rpartition(":")[2])), timeout=600)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere there always is one")
 def test_without_a_browser_the_address_is_said() -> None:
     """On a machine without windows; who opens it is let in."""
@@ -86,7 +86,7 @@ def test_without_a_browser_the_address_is_said() -> None:
         assert process.stdout.readline().startswith("no browser found here: open http://localhost:")
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_viewers_who_vanish_in_the_middle_of_a_frame_are_no_news(plain: tuple[str, subprocess.Popen[str]]) -> None:
     """Neither to the others nor to whoever started it: the server's output has nothing more (see `server`)."""
     address, _ = plain

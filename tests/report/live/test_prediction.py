@@ -15,7 +15,7 @@ from reference.theory.modes import string_mode
 from report.live.prediction import Predictor, predict
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 @pytest.mark.parametrize("scene", ["string", "cloth", "jello"])
 def test_the_page_predicts_what_stability_predicts(scene: str) -> None:
     """One limit, about the rest, on every page and in every command: the same number to the bit."""
@@ -45,7 +45,7 @@ def test_an_engine_is_predicted_by_its_scheme() -> None:
     assert predict("pymunk_springs", system, 0.9 * predicted.limit).growth <= 1 + 1e-9
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_scheme_is_predicted_on_obstacles_and_an_engine_without() -> None:
     """On a string that lies on a circle: an engine's contacts are its own, and its limit is that of its springs."""
     system = find_scene("barrier").system({})
@@ -57,7 +57,7 @@ def test_a_scheme_is_predicted_on_obstacles_and_an_engine_without() -> None:
     assert resting != pytest.approx(hanging, rel=0.01)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_is_not_known_is_said() -> None:
     """Of a large mesh in place, which depends on numbering, and of Heun without damping."""
     cloth = find_scene("cloth").system({})

@@ -19,7 +19,7 @@ from tests.report.live.commands import ends, run
 from tests.report.live.labs import ROUNDING, apart, move_at_random, open_lab
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("name", ["pymunk_springs", "mujoco_tendons", "mujoco_tendons_rk4"])
 def test_an_engine_does_what_its_run_by_command_does(labs: list[Lab], tmp_path: Path, name: str) -> None:
     """Changed on the fly, in a process of its own, beside a scheme."""
@@ -60,7 +60,7 @@ def disturb_by_stepper(lab: Lab) -> None:
     lab.set_steppers(["rk4", "pymunk_springs", "euler"])
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(
     "disturb", [disturb_with_dt, disturb_by_drag, hold, disturb_by_pin, disturb_by_stepper], ids=lambda f: f.__name__
 )
@@ -117,7 +117,7 @@ def test_many_changes_go_into_a_file(labs: list[Lab], tmp_path: Path) -> None:
     assert (alone.dt, alone.duration) == (lab.timeline.dt, 6 * lab.timeline.dt)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("scene", ["crossing", "earthquake"])
 def test_a_scene_that_is_driven_is_a_file(labs: list[Lab], tmp_path: Path, scene: str) -> None:
     """With all that the truck or the ground has changed, and what was moved besides; also with another dt midway."""

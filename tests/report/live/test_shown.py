@@ -31,6 +31,7 @@ def test_the_truck_is_where_the_masses_that_came_on_have_their_centre(labs: list
     assert truck_place(timeline.opened.system, timeline.system, timeline.lanes[0].state) is None
 
 
+@pytest.mark.rotating(2)
 def test_the_ground_s_acceleration_is_what_gravity_lacks(labs: list[Lab]) -> None:
     """A sine of 1 m/s^2 from 0.5 Hz: a(t) = sin(2 pi (f0 t + (f1 - f0) t^2 / 2 T)), in the middle of the last step."""
     lab = open_lab(labs, "earthquake")

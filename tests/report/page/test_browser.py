@@ -97,7 +97,7 @@ def test_a_page_that_is_not_so_is_caught(browser: Any, short: Path, tmp_path: Pa
     shown.page.close()
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_dark_is_dark_and_paper_is_white(browser: Any, short: Path) -> None:
     """The page's paper and the ink of its figures turn round; on paper they are as by day, whatever the screen is."""
     colours = {}
@@ -112,7 +112,7 @@ def test_dark_is_dark_and_paper_is_white(browser: Any, short: Path) -> None:
     assert colours["dark", "screen"] == ["rgb(23, 23, 23)"] * 2
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_keyboard_reaches_everything(browser: Any, file: Path) -> None:
     """From the skip link through the contents; what has the focus shows it."""
     shown = Shown(browser, file, (1280, "light", "screen"))
@@ -132,7 +132,7 @@ def test_the_keyboard_reaches_everything(browser: Any, file: Path) -> None:
     shown.page.close()
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_on_paper_findings_are_open_and_tables_are_folded(browser: Any, short: Path) -> None:
     """Also tables that are open on the screen; a finding that is folded there has a height on paper."""
     heights = {}
@@ -151,7 +151,7 @@ def test_on_paper_findings_are_open_and_tables_are_folded(browser: Any, short: P
     assert any(not table for table, _ in on_paper)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_section_prints_on_less_than_a_page(browser: Any, file: Path) -> None:
     """A figure is at most 9.5 cm high, so that a report of fifteen experiments has under 15 pages of A4.
 

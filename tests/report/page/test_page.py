@@ -50,7 +50,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Report]:
         yield Report(springlab("report", *(f"--only={name}" for name in SHOWN), "--out", str(folder)), folder)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_report_succeeds_and_says_where_it_is(report: Report) -> None:
     """With the first finding of every experiment."""
     assert (report.said.code, report.said.err) == (0, "")
@@ -138,7 +138,7 @@ def test_the_page_is_in_a_language_and_has_headings_in_order(report: Report) -> 
     assert {attributes["scope"] for attributes in shown.of("th")} == {"col", "row"}
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_two_findings_are_shown_and_the_rest_is_folded(report: Report) -> None:
     """All of them are on the page."""
     for name in SHOWN:
@@ -171,7 +171,7 @@ def _page(folder: Path) -> str:
     return (folder / "index.html").read_text(encoding="utf-8")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_open_shows_the_page_and_full_runs_in_full(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """What has a fuller form is run in that; what is opened is the page that was written."""
     shown: list[str] = []
@@ -242,7 +242,7 @@ def test_a_store_that_cannot_be_used_is_said_before_anything_is_run(
     assert said.err.startswith(line)
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_run_and_report_leave_a_store_where_they_are_told(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Made where there is none."""
     put(monkeypatch, answering("stiff_limit", RESULTS["stiff_limit"]["usual"]()))
@@ -252,7 +252,7 @@ def test_run_and_report_leave_a_store_where_they_are_told(monkeypatch: pytest.Mo
         assert rows(store, {}) == []
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_without_names_the_report_has_a_section_for_every_experiment_that_belongs_in_it(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

@@ -50,7 +50,7 @@ def reported(scene: Path, *options: str) -> tuple[Said, str]:
     return said, html
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_page_has_advice_with_its_numbers_and_a_card_for_every_engine(scene: Path) -> None:
     """Which dt, first; the table to be taken away; and what each engine is."""
     said, html = reported(scene)
@@ -85,7 +85,7 @@ def test_advice_that_fails_is_told_in_its_place_and_asked_for_once(
     assert "has 3 masses and 2 springs" in words
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_comparison_that_fails_leaves_the_advice(scene: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The failure stands in its section; the advice above it is whole."""
 

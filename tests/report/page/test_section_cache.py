@@ -48,7 +48,7 @@ def report(folder: Path, store: Path, *options: str) -> tuple[int, str]:
     return said.code, re.sub(r"\d{4}-\d\d-\d\d \d\d:\d\d UTC", "", html)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_an_experiment_is_run_once_and_the_page_is_the_same(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """Byte for byte, with its files beside it; --fresh runs it again, and what that found is kept in its place."""
     put(monkeypatch, replace(find("errata"), run=counted))
@@ -64,7 +64,7 @@ def test_an_experiment_is_run_once_and_the_page_is_the_same(monkeypatch: pytest.
     assert rows(tmp_path / "store.sqlite", {}) == []  # a section is no run
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize("what", ["sources", "versions"])
 def test_what_changes_the_answer_runs_it_again(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, what: str) -> None:
     """Another source, another version of a package."""
@@ -93,7 +93,7 @@ def test_a_function_that_has_no_name_of_its_own_is_not_kept() -> None:
     assert section_cache.name_of(maps.run_in_full) != section_cache.name_of(maps.run)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_all_that_sections_are_made_with_is_in_the_digest() -> None:
     """Whatever the modules that make and keep them import, and what that imports, by the imports in their files.
 

@@ -116,7 +116,7 @@ def test_a_file_of_ones_own_is_a_stepper_and_what_it_should_not_do_is_warned_of(
         lab.identify(str(bad), **QUICK)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_every_answer_is_shown_as_a_table_and_drawn(compared: lab.Comparison, simulated: lab.Simulation) -> None:
     """A notebook has tables whose columns have headings, and plots with alternative text."""
     identified = lab.identify("heun", **QUICK)
@@ -221,7 +221,7 @@ def test_a_ramp_and_a_change_act_on_a_system_that_is_there_already() -> None:
     assert not np.array_equal(named.positions, lab.simulate("string", "heun", **QUICK)[0].positions)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_page_is_written_and_says_what_was_found(tmp_path: Path) -> None:
     """Of one experiment; its file needs no other."""
     page = lab.report(only=["errata"], out=tmp_path / "page")
@@ -253,7 +253,7 @@ def kick_by(part: float) -> Any:
     return step
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_functions_are_steppers_by_names_of_their_own() -> None:
     """Each is told from the scheme, and from the other function, of its name; by position and by keyword."""
     found = lab.compare("string", "heun", heun, stepper=[kick_by(1.0), kick_by(0.5)], **QUICK)
@@ -265,7 +265,7 @@ def test_functions_are_steppers_by_names_of_their_own() -> None:
     assert tableau == lab.explain("heun").document["tableau"]
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_functions_have_limits_of_stability() -> None:
     """Of half a kick: that of kick-drift at half the stiffness, sqrt(2) times as long; measured to a part of 1e-4."""
     limits = lab.stability("oscillator", kick_by(1.0), kick_by(0.5))

@@ -70,7 +70,7 @@ void step(double *y, double *v, double dt, const struct spring *s)
 """
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_one_slip_is_led_to_its_line_and_kind_and_told_to_nobody_else() -> None:
     """The student is told the line and the kind, the teacher the change."""
     text = STEP.replace("(-*y - s", "(-*y - 0 * s")
@@ -84,7 +84,7 @@ def test_one_slip_is_led_to_its_line_and_kind_and_told_to_nobody_else() -> None:
     assert "double a =" in closer.told[0].change
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(
     ("number", "old", "new", "line", "family"),
     [
@@ -137,7 +137,7 @@ def changes_of(number: int, text: str) -> CChanges:
     return found
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_variant_answers_as_the_changed_text_does(tmp_path: Path) -> None:
     """Switched on, a change does what it does where it is written into the text; switched off, nothing."""
     changes = changes_of(1, STEP.replace("dt * a", "dt + a"))
@@ -179,7 +179,7 @@ class SwitchedPlain:
             _ctypes.dlclose(self._library._handle)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_one_change_that_the_compiler_refuses_takes_no_other_with_it() -> None:
     """A struct among numbers: what it makes no C of is left out, and what mends the program is found."""
     text = STEP.replace("double a =", "struct spring own = *s;\n    double a =").replace("*v += dt", "*v -= dt")
@@ -193,7 +193,7 @@ def test_one_change_that_the_compiler_refuses_takes_no_other_with_it() -> None:
     assert first not in after
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 @pytest.mark.parametrize(
     ("number", "name", "old", "new"),
     [(3, "right_malloc", "x[i - 1][1]", "x[i - 0][1]"), (4, "right_arrays", "v[i][k] += dt", "v[i][k] -= dt")],
@@ -206,6 +206,7 @@ def test_what_writes_beyond_its_arrays_ends_no_search(number: int, name: str, ol
     assert line in {line for repair in closer.told for line, _ in repair.places}
 
 
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize(
     "change",
     [
@@ -246,6 +247,7 @@ def test_whatever_a_variant_does_the_next_call_is_as_before(tmp_path: Path, chan
     assert answer(dt) == before
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_program_that_is_not_read_is_told_its_behaviour_as_before() -> None:
     """A macro for a piece of a statement: nothing is searched, and nothing is claimed to have been tried."""
     text = STEP.replace("void step", "#define MINUS -\nvoid step").replace("*v += dt * a", "*v += MINUS dt * a")
@@ -254,7 +256,7 @@ def test_a_program_that_is_not_read_is_told_its_behaviour_as_before() -> None:
     assert closer.findings
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(4, in_turn=True)
 def test_no_more_changes_are_compiled_than_time_allows() -> None:
     """The cheapest ones are."""
     changes = changes_of(4, right(4).replace("+= ", "-= ", 1))

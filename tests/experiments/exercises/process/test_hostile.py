@@ -202,7 +202,7 @@ def test_a_process_that_is_ended_from_outside_is_not_graded(monkeypatch: pytest.
         judge(find("1"), "import time\ntime.sleep(1000)\n")
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_nothing_is_written_through_a_link(tmp_path: Path) -> None:
     """The plot beside a submission takes the place of a link of its name; so does the table of grades."""
     precious = tmp_path / "precious.txt"
@@ -231,7 +231,7 @@ def test_a_key_on_the_command_line_is_refused(tmp_path: Path) -> None:
     assert "nowhere: No such file" in springlab("exercise", "check", "x.py", "--key-file", "nowhere").err
 
 
-@pytest.mark.rotating(2, in_turn=True)
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_submission_ends_with_its_checker(tmp_path: Path) -> None:
     """The checker is killed while a submission sleeps: the kernel ends the submission, which cannot undo that."""
     marker = "import time, ctypes\nctypes.CDLL(None).prctl(1, 0, 0, 0, 0)\ntime.sleep(1000)\n"
