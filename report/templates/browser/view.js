@@ -226,12 +226,17 @@ function drawObstacles(width, height) {
   }
 }
 
+// In space the sides that are turned towards the camera: they do not hide one another.
 function outlineOfBox(centre, half, d) {
-  const corners = [];
-  for (let k = 0; k < 2 ** d; k++) corners.push(seen(centre.map((c, axis) => c + (k >> axis & 1 ? 1 : -1) * half[axis]), d));
-  const line = ends => ends.forEach(([x, y], k) => paper[k ? "lineTo" : "moveTo"](view.scale * x, -view.scale * y));
-  const faces = d === 2 ? [[0, 1, 3, 2]] : [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-  for (const face of faces) { line(face.map(k => corners[k])); paper.closePath(); }
+  const line = corners => {
+    corners.map(signs => seen(centre.map((c, axis) => c + signs[axis] * half[axis]), d)).forEach(([x, y], k) => paper[k ? "lineTo" : "moveTo"](view.scale * x, -view.scale * y));
+    paper.closePath();
+  };
+  const around = [[-1, -1], [1, -1], [1, 1], [-1, 1]], near = camera(d)[2];
+  if (d === 2) return line(around);
+  for (let axis = 0; axis < 3; axis++) {
+    line(around.map(signs => [...signs.slice(0, axis), near[axis] < 0 ? -1 : 1, ...signs.slice(axis)]));
+  }
 }
 
 // A floor in the plane is all below it; in space, a square of it.

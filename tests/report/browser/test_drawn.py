@@ -74,3 +74,20 @@ def test_all_schemes_and_scenes_have_german_descriptions(browser: Any, page: Pat
     assert german["about_backward_euler"] in shown.page.inner_text("#equations")
     assert "Newton's" not in shown.page.inner_text("#equations")
     shown.page.close()
+
+
+def test_of_a_table_the_sides_that_are_seen_are_filled(browser: Any, tmp_path: Path) -> None:
+    """Places on its top, its long side and its end, each beside the cloth: none is as the paper is; beside it is."""
+    made = tmp_path / "lab.html"
+    made.write_text(lab_page([Preset("tablecloth")]), encoding="utf-8")
+    shown = opened(browser, made)
+    colour = """place => { view.zoom = 0.3; draw();
+        const [x, y] = seen(place, 3), ratio = canvas.width / canvas.clientWidth;
+        return [...paper.getImageData(ratio * (canvas.clientWidth / 2 + view.scale * x),
+            ratio * (canvas.clientHeight / 2 - view.scale * y), 1, 1).data].join() }"""
+    x, y, z, half_x, half_y, half_z = (-0.54, -0.1, 0.27, 0.81, 0.1, 0.81)
+    top, side, end = (x, y + half_y, z + 0.9 * half_z), (x + half_x, y, z), (x, y, z + half_z)
+    paper = shown.page.evaluate(colour, (x + 2 * half_x, y + half_y, z))
+    assert paper == "255,255,255,255"
+    assert all(shown.page.evaluate(colour, place) != paper for place in (top, side, end))
+    shown.page.close()
