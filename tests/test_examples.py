@@ -46,7 +46,7 @@ PAGES = [
 ]
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("page", PAGES)
 def test_programs_of_the_pages_run(page: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Each from its beginning, in a folder for what it writes; what a comment behind a line says it gives, it gives."""

@@ -16,7 +16,7 @@ from tests.conformance.refusals import refused_as_expected
 from tests.conformance.runs import outcome_of
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 @pytest.mark.parametrize("capability", CASES)
 def test_a_capability_is_kept_or_its_lack_is_said(engine: Engine, capability: str) -> None:
     """A system that asks for it is stepped as claimed, to 1e-12 of its size; or `unsupported` says what is lacking."""

@@ -22,14 +22,14 @@ ASKED = {
 }
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("case", CHANGES)
 def test_a_change_acts_as_in_the_scheme_or_is_refused_by_name(engine: Engine, case: str) -> None:
     """The distance max |x_engine - x_scheme| <= 1e-12 of the size, both with the same changes at the same steps."""
     check_change(engine, CHANGES[case], outcome_of(engine, CHANGES[case]))
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("name", EACH)
 def test_what_differs_on_the_fly_is_refused_just_where_a_capability_is_lacking(engine: Engine, name: str) -> None:
     """Where one is, its words are the reason. Else it may be refused all the same: a rigid link has no stiffness."""

@@ -108,7 +108,7 @@ def test_a_mass_slides_without_friction(engine: Engine, kind: str) -> None:
     check_slides(case, outcome_of(engine, case))
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("kind", KINDS)
 def test_both_checks_pass_the_honest_engine_and_fail_on_liars(kind: str) -> None:
     """One that passes through, one that bounces, one that rubs."""

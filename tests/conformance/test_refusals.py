@@ -81,7 +81,7 @@ def test_the_check_of_reasons_sees_one_that_is_no_lack() -> None:
 # --- Held against engines ---
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("liar", [doctored.RefusesEverything, doctored.RefusesWhatItCan])
 @pytest.mark.parametrize(("group", "name"), ALL)
 def test_an_engine_that_refuses_everything_passes_not_one_test(

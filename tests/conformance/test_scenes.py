@@ -37,7 +37,7 @@ def test_scenes_are_stepped_as_by_a_known_scheme(engine: Engine, scene: str) -> 
         check_identified(engine, case, outcome)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("scene", SCENES)
 def test_an_engine_with_slightly_stiffer_springs_is_seen(scene: str) -> None:
     """By a millionth; and the honest one passes."""

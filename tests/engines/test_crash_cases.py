@@ -22,7 +22,7 @@ CASES = [case for package in PACKAGES for case in crash_cases(package).values()]
 HANG = 2.0
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.package}, {case.name}")
 def test_what_becomes_of_the_engine_is_as_in_the_baseline(case: CrashCase) -> None:
     """In the version that is installed here."""

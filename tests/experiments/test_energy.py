@@ -152,7 +152,7 @@ KINDS = {
 }
 
 
-@pytest.mark.rotating(6)
+@pytest.mark.rotating(9)
 @pytest.mark.parametrize("name", KINDS)
 def test_energy_is_of_the_kind_that_theory_says(name: str, on: Bench) -> None:
     """Bounded for symplectic schemes; the others gain or lose."""
@@ -250,7 +250,7 @@ def test_kick_drift_of_rods_grows_for_want_of_momenta(on: Bench) -> None:
     assert kinds == ["bounded", "growing"]
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 def test_engines_do_with_energy_what_their_schemes_do(engine: Engine, on: Bench) -> None:
     """An engine is identified, and its energy is of its scheme's kind; theirs differ by chaos, from rounding on."""
     row = measure(EngineStepper(engine), on)

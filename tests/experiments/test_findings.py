@@ -92,7 +92,7 @@ def test_divergence_writes_the_distances_over_time(mixed: Comparison) -> None:
     assert lost[-1][2:] == [None, None]
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_the_stiff_limit_is_approached_as_one_over_the_stiffness(monkeypatch: pytest.MonkeyPatch) -> None:
     """The distance from the pendulum falls as stiffness to the power -1 (predicted), to 0.1 over these three.
 

@@ -41,14 +41,14 @@ def check_order(stepper: SchemeStepper, benches: list[Bench]) -> None:
     assert abs(row.off) <= NEAR == 0.05
 
 
-@pytest.mark.rotating(8)
+@pytest.mark.rotating(13)
 @pytest.mark.parametrize("stepper", catalogued().values(), ids=lambda s: s.name)
 def test_slopes_are_as_theory_says(stepper: SchemeStepper, benches: list[Bench]) -> None:
     """Every scheme, on springs and on rods; those written in place have order 1."""
     check_order(stepper, benches)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(
     "scheme",
     [
@@ -70,7 +70,7 @@ def test_slopes_show_mistakes(scheme: Scheme, benches: list[Bench]) -> None:
         check_order(SchemeStepper(scheme), benches)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_an_engine_has_the_errors_of_its_scheme(engine: Engine, benches: list[Bench]) -> None:
     """It is identified, has that scheme's order, and differs from it by identification's tolerance at every dt."""
     row = measure(EngineStepper(engine), benches)

@@ -29,7 +29,7 @@ FEW = {
 }
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("name", DOORS)
 def test_wild_inputs_are_taken_or_refused_in_a_line(name: str, tmp_path: Path) -> None:
     """Nothing else happens; of files, rows and commands both do, or nothing would be shown."""

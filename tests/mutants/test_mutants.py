@@ -93,7 +93,7 @@ def test_each_is_killed_or_survives_as_it_deserves(project: Path, monkeypatch: p
     assert (project / "reference" / "springs.py").read_text() == SOURCE
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_a_test_that_fails_without_any_mutant_judges_nothing(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """It is left out, and said; and there being no other, nothing is covered."""
     (project / "tests" / "reference" / "test_springs.py").write_text("def test_nothing():\n    assert 0\n")

@@ -51,7 +51,7 @@ def measured_order(scheme: Scheme, system: MassSpringSystem) -> float:
     return float(np.polyfit(-np.log(counts), np.log([np.abs(run - true).max() for run in runs]), 1)[0])
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("scheme", WHOLE_STATE, ids=label)
 def test_every_scheme_tends_to_the_closed_form_with_its_order(scheme: Scheme) -> None:
     """Error = C dt^p (1 + O(dt w)): with dt w from 0.05 down (w = 100/s) the slope is within 0.05 of p."""
@@ -113,7 +113,7 @@ def meshes() -> list[MassSpringSystem]:
     return [replace(chain, velocities=velocities), random_mesh(3, 7, 1), random_mesh(4, 8, 1, anchors=2)]
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("system", meshes(), ids=["chain", "mesh", "two anchors"])
 @pytest.mark.parametrize("stepper", [s for s in catalogued().values() if s.kind != "pendulum"], ids=label)
 def test_the_same_motion_in_the_plane_is_the_same(stepper: SchemeStepper, system: MassSpringSystem) -> None:

@@ -93,7 +93,7 @@ def test_kick_drifts_limit_is_measured_where_it_is_predicted() -> None:
     check_measured(find("kick_drift"), (np.sqrt(25 + 4e4) - 5) / 1e4)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("scheme", [wrong.kick_drift_kicked_twice, wrong.heun_without_half, find("rk4")], ids=label)
 def test_measured_limit_fails_on_others(scheme: Scheme) -> None:
     """Theirs is elsewhere."""

@@ -73,7 +73,7 @@ def springlab(environment: dict[str, str], folder: Path, *words: str) -> subproc
     return subprocess.run(command, env=environment, cwd=folder, capture_output=True, text=True)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_a_package_adds_a_scheme_a_scene_and_an_engine(tmp_path: Path) -> None:
     """All are listed with where they come from, and are run as any other."""
     environment = installed(tmp_path, "their_euler")

@@ -37,7 +37,7 @@ def check_row(engine: Engine, rows: list[str]) -> None:
             assert engine.identified_as[case] in [match.scheme for match in found.matches], str(found)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_readme_has_what_runs_of_an_engine_are_identified_as(engine: Engine) -> None:
     """The row of each that is installed, in every case."""
     check_row(engine, table())
@@ -77,7 +77,7 @@ class Swept(Doctored):
         return {"plain": "kick_drift", "damping": "drift_kick_sequential_damping(rounds=3)", "drag": "kick_drift"}
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_a_claim_with_a_parameter_is_tried() -> None:
     """Pymunk with three rounds is the scheme of three rounds; whoever claims that and is another is not."""
     from engines.pymunk.springs import PymunkSprings

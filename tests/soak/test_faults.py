@@ -66,7 +66,7 @@ def test_every_quick_run_is_accounted_for_though_processes_are_killed_all_the_ti
     check_accounted_for(store, quick)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_the_sweep_has_every_fault_and_a_fifth_of_its_runs_ends_badly(undisturbed: Path, size: Size) -> None:
     """Were a fault missing, nothing would be shown of it. With p = 0.2 of n runs, within 4 sqrt(n p (1 - p)) of n p."""
     bad = [wrong for number in range(size.runs) if (wrong := faults.fault(number)) is not None]

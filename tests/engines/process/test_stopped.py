@@ -32,7 +32,7 @@ def supervisor(monkeypatch: pytest.MonkeyPatch) -> Iterator[Supervisor]:
     found.stop()
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_a_stopped_server_is_replaced(supervisor: Supervisor) -> None:
     """What waits to be forked is forked by another."""
     supervisor.run(used.pid, (), LONG, MUCH)
@@ -45,7 +45,7 @@ def test_a_stopped_server_is_replaced(supervisor: Supervisor) -> None:
     assert server_pid() not in (None, first)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_a_stopped_worker_is_a_hang(supervisor: Supervisor) -> None:
     """With its time limit; and the next task is well."""
     pid = supervisor.run(used.pid, (), LONG, MUCH)

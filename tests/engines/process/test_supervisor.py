@@ -101,7 +101,7 @@ def test_a_crash_is_tried_again_only_where_the_process_was_used(
     assert len(pids) == len(set(pids)) == tries
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 @pytest.mark.parametrize("before", [0, 1])
 def test_too_much_memory_and_too_much_time_are_named(asked: Asked, before: int) -> None:
     """Whether the process had been used or not; and the next task is well."""
@@ -113,7 +113,7 @@ def test_too_much_memory_and_too_much_time_are_named(asked: Asked, before: int) 
     assert asked.ask(misbehaving.fine) == Outcome("done")
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_memory_within_its_limit_is_nobodys_business(asked: Asked) -> None:
     """Shown the other way round: as much, with a limit twice as high, runs into the limit of time."""
     eaten = asked.ask(used.eat, 400 * 2**20, time_limit=1.5, memory=0.9 * 2**30)

@@ -81,7 +81,7 @@ def undamped_limit_only(monkeypatch: pytest.MonkeyPatch) -> set[str]:
     return {f"largest stable dt [s], {case}" for case in others}
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.usefixtures("undamped_limit_only")
 def test_the_honest_engine_is_measured_as_what_it_is() -> None:
     """Kick-drift with explicit damping, to rounding, on everything; its limit is the closed form.
@@ -104,7 +104,7 @@ def no_limits(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(conformance, "LIMITED", {})
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.usefixtures("no_limits")
 def test_liars_are_seen_in_the_rows() -> None:
     """An integrator that moves before it kicks, springs a millionth too stiff, a mass for all, drag forgotten."""
@@ -205,7 +205,7 @@ def test_a_version_that_never_was_is_one_line_and_leaves_nothing(
     assert not [found for found in (tmp_path / "springlab" / "environments").iterdir() if found.is_dir()]
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 @pytest.mark.parametrize("version", ["6.8.1", "7.3.1"])
 def test_a_version_is_as_the_baseline_says(undamped_limit_only: set[str], version: str) -> None:
     """Measured now, in its own environment from the package index: the package, and one engine of it."""

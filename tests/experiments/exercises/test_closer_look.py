@@ -51,7 +51,7 @@ def changed(number: int, old: str, new: str) -> tuple[int, str]:
     return text[: text.index(old)].count("\n") + 1, text.replace(old, new)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(
     ("number", "old", "new", "family"),
     [
@@ -74,7 +74,7 @@ def test_one_slip_is_led_to_its_line_and_kind(trusted: None, number: int, old: s
     assert (line, family) in {place for repair in told for place in repair.places}
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_two_slips_are_both_found(trusted: None) -> None:
     """Neither change alone makes it right."""
     text = model(3).replace("axis=1", "axis=0").replace("- string.drag", "+ string.drag")
@@ -95,7 +95,7 @@ def sampled(full: bool) -> list[tuple[int, str]]:
     return chosen
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_mutants_fail_and_what_is_told_of_them_was_tried(trusted: None, request: pytest.FixtureRequest) -> None:
     """Each repair that is told makes the program right, in the public check and in a hidden one it was not tried on.
 
@@ -257,7 +257,7 @@ def test_the_worked_examples_are_true(module: Any) -> None:
     assert doctest.testmod(module).failed == 0
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_a_tree_is_what_it_was_after_every_change() -> None:
     """Each change is taken back, so that thousands can be tried on one tree; each has a line of the text."""
     tree = ast.parse(solution("loops", 3))

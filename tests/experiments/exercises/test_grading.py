@@ -178,7 +178,7 @@ def test_no_cell_is_a_formula(tmp_path: Path) -> None:
     assert {row["score"] for row in rows} == {"0.0"}
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_the_command_checks_a_file(a_class: Path) -> None:
     """In words: the name, the hint, the first difference and the plot of the verdict; exit code 1."""
     verdict = judge(find("4"), WRONG)
@@ -275,7 +275,7 @@ def test_the_zip_can_be_run_and_has_no_solution(autograder: Path) -> None:
     assert not [name for name in names if "model" in name or "tests/" in name]
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize(
     ("text", "score", "finding"),
     [(solution("classes"), 100.0, "right"), (wrong("arrays", "spring_sign"), 0.0, "spring_sign")],

@@ -53,7 +53,7 @@ def check_as_predicted(row: Row) -> None:
     assert abs(row.relative_difference) < TOLERANCE
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 def test_engines_blow_up_where_their_scheme_is_predicted_to(
     engine: Engine, engine_rows: tuple[MassSpringSystem, dict[str, Row]]
 ) -> None:
@@ -88,7 +88,7 @@ class Halfway(KickDrift):
         super().__init__(system, dt / 2)
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_an_engine_with_a_limit_of_its_own_is_caught() -> None:
     """It is no scheme, so that nothing is predicted; and held against kick_drift's limit its own is twice as long."""
     system = find("string").system({"masses": 2})

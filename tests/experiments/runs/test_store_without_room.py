@@ -130,7 +130,7 @@ def read_only() -> Iterator[Path]:
     shutil.rmtree(folder)
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize("name", ["store.sqlite", "new.sqlite", "below/store.sqlite"])
 def test_a_folder_that_cannot_be_written_is_said_in_a_line(read_only: Path, name: str) -> None:
     """Whether there is a store in it or not; exit code 2, and nothing has been run."""

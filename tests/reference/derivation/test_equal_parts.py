@@ -170,7 +170,7 @@ def test_other_forms_and_mistakes(text: str, words: str, tmp_path: Path) -> None
     assert explained(tmp_path, text).nearest == words
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize(
     ("text", "words"),
     [

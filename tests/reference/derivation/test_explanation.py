@@ -42,7 +42,7 @@ ENGINES = [
 ]
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("name", ENGINES)
 def test_an_engines_formulas_are_those_of_a_scheme_it_claims(name: str) -> None:
     """Derived from the engine's own steps, and from the scheme's: the same fractions."""

@@ -90,7 +90,7 @@ def test_a_wrong_weight_is_seen() -> None:
     assert (start.in_velocity, end.in_velocity, end.at) == (Fraction(1, 3), Fraction(2, 3), 1)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("name", ["mujoco_tendons_rk4", "exudyn_springs"])
 def test_the_stages_of_an_engines_rk4_are_seen(name: str) -> None:
     """Both at the middle, too; its tableau is the classic one, and not that of the 3/8 rule."""

@@ -126,7 +126,7 @@ def test_a_method_by_its_tableau_that_moves_otherwise_is_a_contradiction() -> No
     assert CONTRADICTION not in explain(stepper_of(euler)).reasons
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_nan_is_not_taken_for_chance_or_writing() -> None:
     """NaN is unequal to itself: a step that returns it does the one thing only."""
     found = stepper_of(lost)

@@ -70,7 +70,7 @@ def test_the_catalogues_own_is_derived_and_told() -> None:
     assert [implicit_multistep(find(name)) for name in ("newmark", "hht", "backward_euler", "heun")] == [None] * 4
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_a_file_is_told_as_what_it_is(tmp_path: Path) -> None:
     """Not as its first step, which is backward Euler's."""
     found = explain(file(tmp_path, ADAMS_MOULTON))

@@ -25,7 +25,7 @@ def told(rule: Any) -> Explanation:
     return explain(stepper_of(step))
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(
     ("smallest", "largest", "other"),
     [

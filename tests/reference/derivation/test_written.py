@@ -70,7 +70,7 @@ def explained(name: str) -> Explanation:
     return explain(OwnStepper(own_stepper(str(FOLDER / name)).engine, isolate=in_this_process))
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("name", [n for n in NAMES if "newton" not in n])
 def test_each_right_one_is_named(name: str) -> None:
     """By its run; and what is derived of it has the catalogue's order."""
@@ -95,7 +95,7 @@ def test_one_that_solves_by_a_library_has_its_stages() -> None:
     assert (found.text()["a"], found.text()["b"]) == ([["1"]], ["1"])
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 @pytest.mark.parametrize("name", MISTAKES)
 def test_each_mistake_is_told_as_what_it_is(name: str) -> None:
     """No name, another order, and the number that is wrong beside the right one."""

@@ -169,7 +169,7 @@ def check_elastica(end: State, masses: int) -> None:
     assert sag_of(end) == pytest.approx(elastica(0.06, 0.03), rel=1.6 / masses**2)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_a_strip_hangs_as_the_elastica(request: pytest.FixtureRequest) -> None:
     """Bent by more than 50 degrees; not if it pushes by a tenth more, nor without pushes at all."""
     for masses in (10, 40) if request.config.getoption("--full") else (10,):

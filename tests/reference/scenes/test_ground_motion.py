@@ -226,7 +226,7 @@ def test_a_swept_bridge_resonates_at_its_lowest_frequency() -> None:
     check_resonance(FrequencySweep)
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_resonance_fails_on_another_sweep_and_another_bridge() -> None:
     """A frequency that rises twice as fast as it says; a truck of twice the mass."""
     with pytest.raises(AssertionError):

@@ -283,7 +283,7 @@ def test_cloth_comes_to_rest_where_energy_is_least(pinned: str) -> None:
     check_rest(under(find("velocity_verlet")), system, system)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_rest_fails_on_other_cloth_and_on_wrong_integrators() -> None:
     """A spring ten per cent stiffer; a last mass that never falls; gravity turned to the side."""
     system = slowing_cloth()

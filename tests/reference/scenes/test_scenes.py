@@ -225,7 +225,7 @@ def test_whatever_a_parameter_is_given_it_makes_a_system_or_says_why_not(scene: 
 EXTREMES = [0.0, 5e-324, 1e-310, 1e-160, 1e-20, 3.4e16, 5.4e16, 1e103, 1e155, 1.7e308, 2.0**63, np.inf, np.nan]
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("scene", ALL, ids=label)
 def test_an_extreme_value_of_any_parameter_makes_a_system_or_is_refused_by_name(scene: Any) -> None:
     """By the parameter's, or by that of the system's field it goes into; warnings are errors in all tests.

@@ -119,7 +119,7 @@ def test_damping_that_is_a_stiffness_too_is_sapiens() -> None:
     assert np.array_equal(*same)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_vertex_block_descent_converges_to_backward_euler_and_xpbd_nearly() -> None:
     """With enough sweeps, one mass after the other: within 1e-9 m after 20 steps of 5 ms.
 

@@ -137,7 +137,7 @@ def check_follows(found: dict[str, object]) -> None:
     assert not beyond
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 def test_another_law_in_its_one_file_is_followed_everywhere(tmp_path: Path) -> None:
     """Functions, compiled loops, sweeps, Jacobians, equilibria, energy and the exact motion: on a copy, seen to move.
 
@@ -154,7 +154,7 @@ def test_another_law_in_its_one_file_is_followed_everywhere(tmp_path: Path) -> N
     assert min(moved.values()) > 1e-5, moved
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(
     ("part", "wrong", "seen"),
     [

@@ -37,7 +37,7 @@ def check_limit(scheme: Scheme, rest: Equilibrium, expected: float | None) -> No
     assert limit.dt == pytest.approx(expected, rel=PRECISION)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("damping", [0.002, 0.02])
 @pytest.mark.parametrize("name", ["velocity_verlet", "drift_kick_sequential_damping"])
 def test_a_few_moves_give_the_limit_of_all_eigenvalues(name: str, damping: float) -> None:

@@ -71,7 +71,7 @@ def test_implicit_damping(name: str, ratio: float) -> None:
     check_limit(find(name), ratio, implicit(ratio))
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("ratio", RATIOS)
 def test_exponential_damping_with_its_window(ratio: float) -> None:
     """Unstable between the two edges; a window from the upper one to where the pendulum gives up, if that is later."""

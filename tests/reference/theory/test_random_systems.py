@@ -150,7 +150,7 @@ def checked(seed: int) -> Iterator[tuple[Scheme, Equilibrium, Rates, Limit]]:
             yield scheme, rest, found, limit
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 @pytest.mark.parametrize("seed", range(8))
 def test_limits_are_those_of_dense_eigenvalues(seed: int) -> None:
     """By every scheme, on systems that share nothing. A larger sample, 300, is `make soak`'s."""
@@ -216,7 +216,7 @@ def measured(seed: int, kinds: tuple[str, ...]) -> int:
     return sum(check_measured(row) for row in rows)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(("seed", "kinds"), [(0, SCHEMES), (1, SCHEMES), (0, ("engine",))])
 def test_measured_limits_are_those_predicted(seed: int, kinds: tuple[str, ...]) -> None:
     """By every scheme, in two dimensions and in three, and by every engine that takes the system."""

@@ -111,7 +111,7 @@ def test_a_block_is_carried_by_the_floor() -> None:
     assert about == "about its rest on obstacles, where 16 masses press"
 
 
-@pytest.mark.rotating(5, in_turn=True)
+@pytest.mark.rotating(8, in_turn=True)
 @pytest.mark.parametrize("name", ["kick_drift", "heun", "velocity_verlet"])
 def test_limits_on_a_circle_are_those_that_runs_have(name: str) -> None:
     """A string over slide 17's barrier, run from a perturbation with its end of each step: predicted and measured.
@@ -169,7 +169,7 @@ def test_the_end_of_a_step_is_linearised() -> None:
 BESIDE_THE_TANGENT = [({"tension_only": 1}, 0.01627, False), ({"hardening": 2e5}, 0.01589, True)]
 
 
-@pytest.mark.rotating(5, in_turn=True)
+@pytest.mark.rotating(8, in_turn=True)
 @pytest.mark.parametrize(("kind", "dt", "blows_up"), BESIDE_THE_TANGENT, ids=["rope", "hardening"])
 def test_limits_on_obstacles_are_those_of_the_springs_own_law(kind: dict[str, Any], dt: float, blows_up: bool) -> None:
     """Between the limits of the law and of its tangents at the rest a run tells which of them holds.

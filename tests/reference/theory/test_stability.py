@@ -368,7 +368,7 @@ def check_limit_by_runs(scheme: Scheme, predicted: Callable[[Equilibrium], float
     assert push_after(scheme, rest, 1.2 * dt, steps) > 1e3
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("scheme", [s for s in schemes().values() if s not in WITHOUT_LIMIT], ids=label)
 def test_runs_blow_up_where_predicted(scheme: Scheme) -> None:
     """Every scheme that has a limit, the in-place ones and the engines' among them."""

@@ -162,7 +162,7 @@ dampings = st.sampled_from([0.0, 0.01, 0.5]) | st.floats(0.0, 1.0)
 displacements = st.floats(-0.03, 0.03)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("scheme", [s for s in schemes().values() if s.name in STEP_MATRICES], ids=label)
 @property_test
 @given(dt=step_sizes, damping=dampings, drag=dampings, y=displacements)

@@ -46,7 +46,7 @@ def apart(seeds: Sequence[int], text: str = "", names: Sequence[str] = tuple(pag
     return max(float(np.abs(a - e).max() / np.abs(e).max()) for a, e in zip(answers, expected, strict=True))
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_all_schemes_agree_to_rounding() -> None:
     """Also those that write in place, which have no loops here; shown to fail without the forces."""
     assert {bent(seed).dimension for seed in BENT} == {2, 3}

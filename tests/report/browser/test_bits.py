@@ -98,7 +98,7 @@ def test_springs_that_are_not_linear_end_in_the_reference_s_bits(request: pytest
     assert all(compared(range(200) if request.config.getoption("--full") else range(4), kinds=True))
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_springs_of_rest_length_0_end_in_the_reference_s_bits() -> None:
     """Also where they have no length: shown to fail where what has no direction is divided by nothing."""
     assert all(compared(range(6), together=True, kinds=True))
@@ -285,7 +285,7 @@ def breaking_line(drive: Ramp | Sine) -> Setup:
     return Setup("line", system, 4e-3, 0.8, tuple(drive.changes(system, 4e-3, 0.8)))
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("name", ["damping", "stiffness", "rest_length", "mass", "drag", "gravity"])
 def test_no_ramp_and_no_sine_brings_a_broken_spring_back(name: str) -> None:
     """Of each parameter, at every step from 0.3 s on, when a spring is gone: to the bit.

@@ -33,7 +33,7 @@ def browser() -> Iterator[Any]:
         yield found
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 def test_gravity_that_swings_is_no_moving_ground(browser: Any, tmp_path: Path) -> None:
     """A file's sine of gravity, and one of a ground motion: each is told as what it is."""
     tables = {

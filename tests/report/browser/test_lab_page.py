@@ -62,7 +62,7 @@ def until(page: Any, statement: str) -> None:
         page.wait_for_timeout(50)
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 @pytest.mark.parametrize("view", VIEWS[:4], ids=lambda view: "-".join(map(str, view)))
 def test_it_is_shown_without_a_request_or_a_complaint(browser: Any, file: Path, view: tuple[int, str, str]) -> None:
     """And without a violation that axe-core knows, or a part that reaches out of the window."""
@@ -125,7 +125,7 @@ RUN = (
 )
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_a_link_brings_back_the_same_numbers_and_the_same_picture(browser: Any, file: Path) -> None:
     """What was set, changed on the way and stepped: opened anew, every position is the same to the bit."""
     state = "s=string&w=heun,heun_aliased&dt=0.002&at=0:stiffness:150,0.05:gravity:3.7,0.06:hold:4&n=80"
@@ -152,7 +152,7 @@ def test_a_recorded_engine_lies_over_the_scheme_that_it_steps_by(browser: Any, f
     shown.page.close()
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_past_the_limit_it_says_why_and_goes_back(browser: Any, file: Path) -> None:
     """By its buttons: dt to 1.02 times the limit, play, back to before, and a shorter dt that is stable."""
     shown = opened(browser, file, "s=string&w=kick_drift")
@@ -186,7 +186,7 @@ def test_every_lane_that_blew_up_is_named(browser: Any, file: Path) -> None:
     page.close()
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize("scene", ["crossing", "earthquake"])
 def test_what_drives_a_scene_is_drawn_with_it(browser: Any, file: Path, scene: str) -> None:
     """A truck, and ground with an arrow: the picture is another without what `drawDriven` draws, as at no string."""
@@ -199,7 +199,7 @@ def test_what_drives_a_scene_is_drawn_with_it(browser: Any, file: Path, scene: s
         shown.page.close()
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_every_lesson_s_task_can_be_done(browser: Any, file: Path) -> None:
     """Each is not done at its start, and is done by what its task says."""
     shown = opened(browser, file, "s=string")
@@ -228,7 +228,7 @@ DEEDS = (
 )
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize("steps", [0, 8])
 def test_the_third_lesson_takes_the_limit_before_it_is_computed_and_after_steps(
     browser: Any, file: Path, steps: int
@@ -333,7 +333,7 @@ def test_positions_are_written_with_time_and_step_and_called_after_the_scene_and
     shown.page.close()
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_each_lane_says_about_which_rest_its_prediction_is(browser: Any, file: Path) -> None:
     """As in `springlab stability`: euler leads masses into an obstacle in every second step only. No limit, no rest."""
     about, without = "about its rest on obstacles, where 4 masses press.", "of the scene without its obstacles."

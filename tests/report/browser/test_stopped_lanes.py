@@ -34,7 +34,7 @@ def browser() -> Iterator[Any]:
 UNSOLVED = "v=1&s=cloth&w=backward_euler,bdf2,implicit_midpoint&dt=0.2&n=10"
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize(
     ("language", "why", "back"),
     [
@@ -88,7 +88,7 @@ def test_the_status_tells_of_the_lane_that_is_furthest(browser: Any, file: Path)
     page.close()
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize(("language", "said"), [("en", "No lane can go on"), ("de", "keine Bahn")])
 def test_where_all_lanes_have_stopped_the_status_says_so(browser: Any, file: Path, language: str, said: str) -> None:
     """And not that play goes on; where one has not, that stands there, and this does not."""

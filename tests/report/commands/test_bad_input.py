@@ -147,7 +147,7 @@ def test_a_bad_scene_file_is_one_clear_line_that_names_it(what: str, tmp_path: P
     assert f"scene file {file}" in said.err
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 def test_the_same_holds_in_a_process_of_its_own(tmp_path: Path) -> None:
     """As a user sees it: nothing is printed by imports or on the way out."""
     said = python("-m", "report.commands.main", "compare", "string", "--stepper", "huen", folder=tmp_path)

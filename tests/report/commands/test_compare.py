@@ -104,7 +104,7 @@ def test_every_engine_of_the_issue_is_identified_within_1e12(name: str, scheme: 
     assert run["identification_error_m"] <= WITHIN
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(("name", "what"), [(n, w) for n in IDENTIFIED for w in ("damping=0.05", "damping=0.5")])
 def test_every_engine_is_identified_with_damped_springs(name: str, what: str) -> None:
     """As it claims to be, within 1e-12 m; Bullet against its own solver, which stops early."""

@@ -89,7 +89,7 @@ def test_bad_words_are_one_line(words: list[str], said: str) -> None:
     assert done.err.count("\n") == 1
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_a_map_is_a_figure_and_a_table_of_growth(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A point for each pair of values, from one end of each range to the other: Pymunk's on 5 x 5 here."""
     assert stability_map.ENGINE == 16

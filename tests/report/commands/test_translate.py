@@ -32,7 +32,7 @@ def test_rows_of_all_engines_have_the_promised_keys() -> None:
         assert row["snippet"]
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 @pytest.mark.parametrize("width", [80, 100])
 def test_tables_fit_a_terminal(monkeypatch: pytest.MonkeyPatch, width: int) -> None:
     """No line is longer, no setting is broken, and what only rounding leaves of a damping is 0."""

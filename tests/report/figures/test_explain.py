@@ -11,7 +11,7 @@ from report.figures.explain import draw
 from tests.report.figures.artists import cut_off, data, laid_out, line, overlaps, unlabelled
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("name", ["rk4", "kick_drift", "backward_euler", "pendulum_heun"])
 def test_all_of_it_can_be_read(name: str) -> None:
     """Axes with units, nothing over anything else; also where there is no region."""

@@ -43,14 +43,14 @@ def test_every_experiment_has_a_figure_and_a_result_to_draw_it_of() -> None:
         assert callable(importlib.import_module(f"report.figures.{name}").draw)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(("name", "case"), ALL)
 def test_it_is_drawn_with_what_there_is_and_has_words_that_stand_for_it(name: str, case: str) -> None:
     """However little that is."""
     assert len(shown(name, case).alt) > 40
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("name", RESULTS)
 def test_all_of_it_can_be_seen(name: str) -> None:
     """Every axis with numbers has its unit; no words over one another or cut off, no data outside or under a legend."""
@@ -119,7 +119,7 @@ def labels(axes: Axes) -> list[str]:
     return [] if axes.get_legend() is None else [*legend(axes)]
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("name", RESULTS)
 def test_the_same_result_is_drawn_in_the_same_way_and_another_in_another(name: str) -> None:
     """To the last number."""

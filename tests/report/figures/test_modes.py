@@ -37,7 +37,7 @@ def test_more_modes_than_there_is_room_for_are_said_to_be() -> None:
     assert len(figure.axes) == MOST
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("scene", ["string", "bridge", "jello", "chain"])
 def test_all_of_it_can_be_read(scene: str) -> None:
     """In the plane, in space, along a line: axes with units, nothing over anything else."""

@@ -118,7 +118,7 @@ def test_a_lane_that_is_added_leaves_the_past_as_it_was(labs: list[Lab]) -> None
     assert lab.timeline.recorder.names == ("kick_drift",)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_what_the_scene_changes_itself_it_changes_again_after_going_back(labs: list[Lab]) -> None:
     """A truck crosses: from half-way, it crosses the second half twice, to the last bit the same."""
     lab = open_lab(labs, "crossing")

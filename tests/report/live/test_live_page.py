@@ -50,7 +50,7 @@ def visitor(only: Visitor) -> Visitor:
     return only
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_past_the_limit_the_banner_comes_and_below_it_does_not(newcomer: Visitor) -> None:
     """By the slider, whose mark is at the limit; then stiffness is changed while it runs.
 
@@ -86,7 +86,7 @@ def test_every_scene_opens_and_moves(visitor: Visitor, corpus_part: slice) -> No
         assert not visitor.alert.is_visible(), scene
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_a_stepper_takes_over_and_the_command_comes_to_the_same_state(visitor: Visitor, tmp_path: Path) -> None:
     """From the file with the state where it took over, to rounding: to the state where the next one takes over.
 
@@ -107,7 +107,7 @@ def test_a_stepper_takes_over_and_the_command_comes_to_the_same_state(visitor: V
     np.testing.assert_allclose(state.positions, seen, rtol=0, atol=1e-12)
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_a_mass_is_dragged(visitor: Visitor) -> None:
     """With the mouse, while nothing else moves; then it is no run that a command alone can say."""
     visitor.begin_again()

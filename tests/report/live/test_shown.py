@@ -16,7 +16,7 @@ from report.live.title import TITLE, titled
 from tests.report.live.labs import open_lab
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 def test_the_truck_is_where_the_masses_that_came_on_have_their_centre(labs: list[Lab]) -> None:
     """At 20 m/s from the first joint on, as beside it joints share its mass as a beam would (slide 28)."""
     lab = open_lab(labs, "crossing")

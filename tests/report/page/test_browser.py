@@ -55,7 +55,7 @@ def _section(name: str, folder: Path) -> Section:
     return Section(find(name), result, picture.svg(), picture.alt, downloads, motions=animate(name, result))
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(8)
 @pytest.mark.parametrize("view", VIEWS, ids=str)
 def test_the_page_has_no_violation_and_asks_for_nothing(browser: Any, file: Path, view: tuple[int, str, str]) -> None:
     """Zero by axe-core, best practices included; no request, no complaint, nothing cut, nothing too wide."""
@@ -69,7 +69,7 @@ def test_the_page_has_no_violation_and_asks_for_nothing(browser: Any, file: Path
     shown.page.close()
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(
     ("put", "said"),
     [
@@ -112,7 +112,7 @@ def test_dark_is_dark_and_paper_is_white(browser: Any, short: Path) -> None:
     assert colours["dark", "screen"] == ["rgb(23, 23, 23)"] * 2
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_the_keyboard_reaches_everything(browser: Any, file: Path) -> None:
     """From the skip link through the contents; what has the focus shows it."""
     shown = Shown(browser, file, (1280, "light", "screen"))

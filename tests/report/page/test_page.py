@@ -50,7 +50,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Report]:
         yield Report(springlab("report", *(f"--only={name}" for name in SHOWN), "--out", str(folder)), folder)
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_the_report_succeeds_and_says_where_it_is(report: Report) -> None:
     """With the first finding of every experiment."""
     assert (report.said.code, report.said.err) == (0, "")
@@ -138,7 +138,7 @@ def test_the_page_is_in_a_language_and_has_headings_in_order(report: Report) -> 
     assert {attributes["scope"] for attributes in shown.of("th")} == {"col", "row"}
 
 
-@pytest.mark.rotating(3, in_turn=True)
+@pytest.mark.rotating(5, in_turn=True)
 def test_two_findings_are_shown_and_the_rest_is_folded(report: Report) -> None:
     """All of them are on the page."""
     for name in SHOWN:

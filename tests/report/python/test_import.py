@@ -30,7 +30,7 @@ def python(folder: Path, *words: str, program: str = "") -> subprocess.Completed
     return subprocess.run(words, input=program, capture_output=True, text=True, env=environment, cwd=folder)
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("words", [["own.py"], ["-"]], ids=["script", "standard input"])
 def test_a_program_without_a_guard_runs_once_engines_included(words: list[str], tmp_path: Path) -> None:
     """What it prints is printed once, and nothing is complained of."""

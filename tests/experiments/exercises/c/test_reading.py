@@ -56,7 +56,7 @@ def test_what_is_written_is_what_was_read(file: Path) -> None:
     assert text_of(read(once)) == once
 
 
-@pytest.mark.rotating(2)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize(
     "name", ["e01/right_struct_copy", "e02/right_helper", "e03/right_malloc", "e04/right_arrays", "e07/right_barrier"]
 )

@@ -84,7 +84,7 @@ def test_one_slip_is_led_to_its_line_and_kind_and_told_to_nobody_else() -> None:
     assert "double a =" in closer.told[0].change
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize(
     ("number", "old", "new", "line", "family"),
     [
@@ -136,7 +136,7 @@ def changes_of(number: int, text: str) -> CChanges:
     return found
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_a_variant_answers_as_the_changed_text_does(tmp_path: Path) -> None:
     """Switched on, a change does what it does where it is written into the text; switched off, nothing."""
     changes = changes_of(1, STEP.replace("dt * a", "dt + a"))
@@ -192,7 +192,7 @@ def test_one_change_that_the_compiler_refuses_takes_no_other_with_it() -> None:
     assert first not in after
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.parametrize(
     ("number", "name", "old", "new"),
     [(3, "right_malloc", "x[i - 1][1]", "x[i - 0][1]"), (4, "right_arrays", "v[i][k] += dt", "v[i][k] -= dt")],
@@ -255,7 +255,7 @@ def test_a_program_that_is_not_read_is_told_its_behaviour_as_before() -> None:
     assert closer.findings
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_no_more_changes_are_compiled_than_time_allows() -> None:
     """The cheapest ones are."""
     changes = changes_of(4, right(4).replace("+= ", "-= ", 1))

@@ -16,7 +16,7 @@ from tests.report.chromium import VIEWS, Shown, chromium
 pytestmark = pytest.mark.rotating(3)
 
 
-@pytest.mark.rotating(6)
+@pytest.mark.rotating(9)
 def test_the_texts_have_no_violation_and_ask_for_nothing(tmp_path: Path, request: pytest.FixtureRequest) -> None:
     """Zero by axe-core, no request, nothing cut or too wide, tables neither: in one view; with --full in all.
 

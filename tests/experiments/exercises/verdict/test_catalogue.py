@@ -96,7 +96,7 @@ def test_the_bridge_is_the_scene() -> None:
     assert found == pytest.approx(limit, rel=1e-6)
 
 
-@pytest.mark.rotating(6)
+@pytest.mark.rotating(9)
 @ALL
 @pytest.mark.parametrize("key", [None, "sesame"])
 def test_no_mistake_can_be_taken_for_another(exercise: Exercise, key: str | None) -> None:
