@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import gc
-from collections import Counter
 from collections.abc import Generator, Iterator
 from pathlib import Path
 from typing import Any
-from zlib import crc32
 
 import hypothesis
 import pytest
@@ -16,7 +14,7 @@ from engines.engine import Engine, find, registry, version
 from engines.process.packages import APART
 from engines.process.worker import FOR_SCHEMES, import_beforehand
 from reference.errors import InputError
-from tests.parts import LONGEST, PARTS, kept, part, todays
+from tests.parts import LONGEST, PARTS, Turns, part, todays
 
 # How long an example takes is a matter of what else the machine does.
 hypothesis.settings.register_profile("lab", deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow])
@@ -102,24 +100,19 @@ def pytest_collection() -> Generator[None, object, object]:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Leave out the `rotating` tests and cases whose day it is not; none with --full, --all-cases, or named by `::`.
 
-    All tests of a file begin with the same day: what they share is made on that day only, and files have other days.
-    Those that take turns are counted together, test by test and case by case. What takes longest comes first.
+    What takes longest comes first.
     """
     items.sort(key=lambda item: not item.nodeid.startswith(LONGEST))
     if config.option.full or config.option.all_cases or any("::" in argument for argument in config.args):
         return
-    seen: Counter[str] = Counter()
+    turns = Turns(config.option.part)
     left_out = []
     for item in items:
         marker = item.get_closest_marker("rotating")
         if marker is not None:
             _require_that_it_comes_round(item, marker.args[0])
-            test = item.nodeid.partition("[")[0]
-            file = test.partition("::")[0]
-            counted = file if marker.kwargs.get("in_turn") else test
-            if not kept(crc32(file.encode()) + seen[counted], marker.args[0], config.option.part):
+            if not turns.keep(item.nodeid, marker.args[0], marker.kwargs.get("in_turn", False)):
                 left_out.append(item)
-            seen[counted] += 1
     config.hook.pytest_deselected(items=left_out)
     gone = set(left_out)
     items[:] = [item for item in items if item not in gone]
