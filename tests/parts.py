@@ -18,12 +18,13 @@ LONGEST = (
     "tests/test_wheel.py",
     "tests/soak/test_cluster.py",
     "tests/experiments/engine_versions/test_versions.py",
-    "tests/experiments/exercises/c/",
+    "tests/experiments/exercises/c/test_c.py",
+    "tests/experiments/exercises/c/test_search.py",
     "tests/experiments/exercises/process/test_hostile.py",
     "tests/experiments/exercises/teaching/test_pages.py",
     "tests/experiments/exercises/test_blind.py",
     "tests/report/browser/test_bits.py",
-    "tests/report/site/",
+    "tests/report/site/test_site.py",
     "tests/test_recipes.py",
 )
 
