@@ -29,8 +29,9 @@ from reference.theory.step_coefficients import solves_for_positions
 from report.browser.javascript import Translation, definitions, of_expression, plain_function
 from report.browser.spring_laws import ASKED, law_functions
 from report.browser.step_functions import damps_in_proportion, step_refusal, steps_script
-from report.site.linear_form import NotLinear, equations
+from report.site.linear_form import NotLinear
 from report.site.mathml import of_equations
+from report.site.solved_form import equations_of
 
 #: Dimensions of systems.
 DIMENSIONS = (1, 2, 3)
@@ -185,8 +186,8 @@ def _loops(scheme: Scheme) -> dict[str, str]:
 def _equations(scheme: Scheme) -> str:
     """What it computes in a step, as MathML; empty where that is no row of sums."""
     try:
-        return of_equations(equations(trace(scheme)))
-    except (Unsupported, NotLinear):
+        return of_equations(equations_of(scheme))
+    except NotLinear:
         return ""
 
 

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from reference.compiled.tracing import trace
-from reference.errors import Unsupported
 from reference.schemes.catalogue import schemes
 from report.figures.overview import Explained
-from report.site.linear_form import NotLinear, equations
+from report.site.linear_form import NotLinear
 from report.site.mathml import of_equations
+from report.site.solved_form import equations_of
 
 
 @dataclass(frozen=True)
@@ -35,8 +34,8 @@ class Shown:
 def scheme_equations(engines: Sequence[Explained]) -> list[Shown]:
     """Those of the textbook's schemes that are sums, and of all that an engine was identified as.
 
-    Schemes that solve equations in a step have no such row of sums, and are left out; so are those with rods for
-    springs.
+    Those that are no sums, as with dampers that are implicit while springs are not, are left out; so are those with
+    rods for springs.
     """
     shown = []
     for name, scheme in schemes().items():
@@ -44,8 +43,8 @@ def scheme_equations(engines: Sequence[Explained]) -> list[Shown]:
         if not here and scheme.kind != "scheme":
             continue
         try:
-            text = of_equations(equations(trace(scheme)))
-        except (Unsupported, NotLinear):
+            text = of_equations(equations_of(scheme))
+        except NotLinear:
             continue
         shown.append(Shown(name, scheme.summary, scheme.order, here, text))
     return shown

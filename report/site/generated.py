@@ -6,13 +6,12 @@ import inspect
 from collections.abc import Callable
 from textwrap import dedent
 
-from reference.compiled.tracing import trace
-from reference.errors import Unsupported
 from reference.schemes.catalogue import Scheme, schemes
 from report.commands import main
 from report.site.engines_page import engines_page
-from report.site.linear_form import NotLinear, equations
+from report.site.linear_form import NotLinear
 from report.site.mathml import of_equations
+from report.site.solved_form import equations_of
 
 #: What each kind of scheme is called on the page.
 KINDS = {
@@ -26,8 +25,10 @@ SCHEMES_PAGE = """\
 
 Positions are x, velocities v, the step is h, and a(x, v) are the accelerations: the forces of springs, dampers, drag
 and gravity on each mass, over its mass. A prime marks the new state. The equations are not typed: each scheme's own
-function is run on symbols, and what it computes is multiplied out. Where a scheme cannot be run on symbols, because it
-solves equations or goes from mass to mass, its function stands here as it is.
+function is run on symbols, and what it computes is multiplied out. Of one that solves equations or looks back, they are
+the sums that its steps keep to: an acceleration that stands in its own place is what it solves for, and indices of -1,
+and m, are what it remembers of the step before. Where a scheme is no such sum, or goes from mass to mass, its function
+stands here as it is.
 
 A scheme's order is what theory predicts; the tests measure it.
 """
@@ -86,9 +87,9 @@ def _section(scheme: Scheme) -> str:
         facts.append(f"also called {', '.join(f'`{alias}`' for alias in scheme.aliases)}")
     words.append(f"*{'; '.join(facts)}*\n")
     try:
-        words.append(f"{of_equations(equations(trace(scheme)))}\n")
+        words.append(f"{of_equations(equations_of(scheme))}\n")
         shown = "dropdown"
-    except (Unsupported, NotLinear):
+    except NotLinear:
         shown = "open"
     source = dedent(inspect.getsource(scheme.step)).rstrip()
     if shown == "dropdown":

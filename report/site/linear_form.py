@@ -6,8 +6,8 @@ c0 a0))). Multiplied out that is x + h v + h^2/2 a0: what a textbook prints.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
@@ -37,10 +37,12 @@ class Equations:
     Attributes:
         stages: positions and velocities at which each acceleration is taken.
         end: those of the new state.
+        remembers: what the next step is given besides, by its name there: m0, m1, ...
     """
 
     stages: tuple[tuple[Sum, Sum], ...]
     end: tuple[Sum, Sum]
+    remembers: Mapping[str, Sum] = field(default_factory=dict)
 
 
 def equations(program: Program) -> Equations:

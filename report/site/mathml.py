@@ -12,11 +12,13 @@ RAISED = ("", "", "\u00b2", "\u00b3", "\u2074", "\u2075", "\u2076", "\u2077", "\
 
 
 def of_equations(equations: Equations) -> str:
-    """Each stage's acceleration and the new state, one below the other."""
+    """Each stage's acceleration, the new state and what is remembered, one below the other."""
     lines = []
-    for i, (x, v) in enumerate(equations.stages):
-        lines.append(f"{_indexed('a', i)}<mo>=</mo>{_letter('a')}{_pair(_sum(x), _sum(v))}")
+    for i, place in enumerate(equations.stages):
+        at = (_new("x"), _new("v")) if place == equations.end else (_sum(place[0]), _sum(place[1]))
+        lines.append(f"{_indexed('a', i)}<mo>=</mo>{_letter('a')}{_pair(*at)}")
     lines += [f"{_new(name)}<mo>=</mo>{_sum(what)}" for name, what in zip("xv", equations.end, strict=True)]
+    lines += [f"{_new(_with_index(name))}<mo>=</mo>{_sum(what)}" for name, what in equations.remembers.items()]
     rows = "".join(f'<mtr><mtd style="text-align:left">{line}</mtd></mtr>' for line in lines)
     return f'<math display="block"><mtable displaystyle="true">{rows}</mtable></math>'
 
@@ -26,8 +28,8 @@ def _pair(one: str, other: str) -> str:
 
 
 def _sum(what: Sum) -> str:
-    """X + h v + h^2/2 a0: positions first, then velocities, then accelerations in their order."""
-    terms = [term for name in sorted(what, key=lambda name: "xva".index(name[0])) for term in _terms(name, what[name])]
+    """X + h v + h^2/2 a0: positions first, then velocities, what is remembered, and accelerations in their order."""
+    terms = [term for name in sorted(what, key=lambda name: "xvma".index(name[0])) for term in _terms(name, what[name])]
     text = "".join(
         (f"<mo>{'-' if factor < 0 else '+'}</mo>" if i or factor < 0 else "") + term
         for i, (factor, term) in enumerate(terms)
@@ -36,7 +38,7 @@ def _sum(what: Sum) -> str:
 
 
 def _terms(name: str, coefficient: Polynomial) -> list[tuple[Fraction, str]]:
-    symbol = _indexed(name[0], int(name[1:])) if name[1:] else _letter(name)
+    symbol = _letter(_with_index(name))
     return [(factor, _factor(abs(factor), power) + symbol) for power, factor in sorted(coefficient.items())]
 
 
@@ -50,7 +52,12 @@ def _factor(factor: Fraction, power: int) -> str:
 
 
 def _indexed(name: str, index: int) -> str:
-    return _letter(name + "".join(LOWERED[int(digit)] for digit in str(index)))
+    return _letter(_with_index(f"{name}{index}"))
+
+
+def _with_index(name: str) -> str:
+    """A0, m0, x-1 with what follows the letter below the line."""
+    return name[0] + "".join("\u208b" if sign == "-" else LOWERED[int(sign)] for sign in name[1:])
 
 
 def _new(name: str) -> str:

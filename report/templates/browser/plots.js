@@ -4,14 +4,16 @@
 function plot(id, {lines, low, high, from, to, logarithmic, marks = [], unit, axis}) {
   const of = document.getElementById(id), [width, height] = sizeCanvas(of), on = of.getContext("2d");
   on.clearRect(0, 0, width, height);
-  const left = 52, right = width - 10, bottom = height - 22, top = 8;
+  on.font = "12px system-ui, sans-serif";
+  const ends = [low, high].map(value => [value, shortNumber(value)]), widest = Math.max(...ends.map(([, text]) => on.measureText(text).width));
+  const left = Math.max(52, widest + 8), right = width - 10, bottom = height - 22, top = 8;
   const scale = value => logarithmic ? Math.log10(Math.max(value, 1e-300)) : value;
   const x = value => left + (right - left) * (value - from) / (to - from || 1);
   const y = value => bottom - (bottom - top) * (scale(value) - scale(low)) / (scale(high) - scale(low) || 1);
-  on.strokeStyle = on.fillStyle = soft(); on.lineWidth = 1; on.font = "12px system-ui, sans-serif";
+  on.strokeStyle = on.fillStyle = soft(); on.lineWidth = 1;
   on.beginPath(); on.moveTo(left, top); on.lineTo(left, bottom); on.lineTo(right, bottom); on.stroke();
   on.textAlign = "right"; on.textBaseline = "middle";
-  for (const value of [low, high]) on.fillText(value === 0 ? "0" : shortNumber(value), left - 4, Math.min(Math.max(y(value), 8), bottom - 4));
+  for (const [value, text] of ends) on.fillText(text, left - 4, Math.min(Math.max(y(value), 8), bottom - 4));
   on.textAlign = "left"; on.textBaseline = "alphabetic"; on.fillText(shortNumber(from), left, height - 6);
   on.textAlign = "right"; on.fillText(`${shortNumber(to)} ${axis}`, right, height - 6);
   on.textAlign = "left"; on.textBaseline = "top"; on.fillText(unit, left + 4, top);

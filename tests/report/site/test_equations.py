@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -18,17 +20,22 @@ from reference.state import State
 from report.site.generated import schemes_page
 from report.site.linear_form import Equations, NotLinear, Sum, equations
 from report.site.mathml import of_equations
+from report.site.solved_form import equations_of
 
 TRACED = [name for name, scheme in schemes().items() if why_not_compiled(scheme) is None]
+
+#: Those that a trace does not show, but their steps do; of the wide catalogue, too.
+SOLVED = ["backward_euler", "implicit_midpoint", "beeman", "newmark", "hht", "hht(alpha=-0.3)", "generalised_alpha"]
+SOLVED += ["bdf2", "radau_iia", "adams_bashforth_2"]
 
 #: Step [s], and up to which part of itself a sum may differ in another order of its terms.
 H, ROUNDING = 0.01, 1e-12
 
 
-def value(what: Sum, numbers: dict[str, Any]) -> Any:
+def value(what: Sum, numbers: dict[str, Any], h: float = H) -> Any:
     """A sum for some numbers."""
     return sum(
-        float(factor) * H**power * numbers[name]
+        float(factor) * h**power * numbers[name]
         for name, coefficient in what.items()
         for power, factor in coefficient.items()
     )
@@ -61,6 +68,68 @@ def check(written: Equations, scheme: Scheme) -> None:
 def test_the_equations_step_as_the_scheme_does(name: str) -> None:
     """Every scheme that can be traced; the tolerance is rounding, of sums in another order."""
     check(equations(trace(find(name))), find(name))
+
+
+def check_solved(written: Equations, scheme: Scheme) -> None:
+    """A second step, from what a first one remembers: accelerations are put into their own equations again and again.
+
+    They come nearer by h^2 k / m = 0.01 each time, to what Newton's method leaves: a billionth.
+    """
+    system, h = find_scene("string").system({"masses": 4, "damping": 0.03, "drag": 0.1}), 1e-3
+    motion, chance = SpringMotion(system), np.random.default_rng(5)
+    moving = ~system.fixed[:, None]
+    start = State(
+        0.0, system.positions + 0.05 * moving * chance.normal(size=(5, 2)), moving * chance.normal(size=(5, 2))
+    )
+    here = scheme.on(motion)(start, h)
+    end = scheme.on(motion)(here, h)
+    numbers: dict[str, Any] = {
+        "x": here.positions,
+        "v": here.velocities,
+        "x-1": start.positions,
+        "v-1": start.velocities,
+    }
+    numbers |= {"a-1": motion.acceleration(start), **{f"m{i}": kept for i, kept in enumerate(here.memory)}}
+    numbers |= {f"a{i}": 0 * here.positions for i in range(len(written.stages))}
+    for _ in range(30):
+        for i, (x, v) in enumerate(written.stages):
+            numbers[f"a{i}"] = motion.acceleration(State(0.0, value(x, numbers, h), value(v, numbers, h)))
+    found = [value(what, numbers, h) for what in (*written.end, *written.remembers.values())]
+    kept = [end.memory[int(name[1:])] for name in written.remembers]
+    for one, other in zip(found, [end.positions, end.velocities, *kept], strict=True):
+        assert one == pytest.approx(other, rel=1e-9, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_equations_that_are_solved_are_those_of_the_step(name: str) -> None:
+    """Of springs in motion, which are not linear, though they were seen on linear motion."""
+    check_solved(equations_of(find(name)), find(name))
+
+
+def test_a_wrong_equation_is_caught() -> None:
+    """Shown to fail: backward Euler's are not the implicit midpoint rule's; HHT's memory is no other's."""
+    with pytest.raises(AssertionError):
+        check_solved(equations_of(find("backward_euler")), find("implicit_midpoint"))
+    hht = equations_of(find("hht"))
+    with pytest.raises(AssertionError):
+        check_solved(replace(hht, remembers={"m0": {"a1": {0: Fraction(1)}}}), find("hht"))
+
+
+def test_solved_equations_are_written_as_in_a_textbook() -> None:
+    """Backward Euler: a0 = a(x', v'); BDF2 looks back at x-1 and v-1, HHT remembers its own acceleration."""
+    euler, bdf2, hht = (of_equations(equations_of(find(name))) for name in ("backward_euler", "bdf2", "hht"))
+    plain = re.sub(r"<[^>]*>", "", euler)
+    assert plain == "a\u2080=a(x\u2032,v\u2032)x\u2032=x+hv+h\u00b2a\u2080v\u2032=v+ha\u2080"
+    assert "x\u208b\u2081" in bdf2
+    assert "m\u2080\u2032" in hht
+    assert "m\u2080" not in bdf2
+
+
+@pytest.mark.parametrize("name", ["euler_in_place", "drift_kick_exponential_damping", "stormer_verlet"])
+def test_what_is_no_set_of_sums_has_none(name: str) -> None:
+    """It goes from mass to mass, has exponentials, or divides by dt."""
+    with pytest.raises(NotLinear):
+        equations_of(find(name))
 
 
 def test_a_wrong_coefficient_is_caught() -> None:
@@ -114,6 +183,6 @@ def test_the_page_has_every_scheme_with_its_equations_or_its_function() -> None:
     sections = {part.partition("\n")[0].strip(): part for part in page.split("\n### ")[1:]}
     assert sections.keys() == schemes().keys()
     for name, text in sections.items():
-        assert ("<math" in text) == (name in TRACED)
+        assert ("<math" in text) == (name in [*TRACED, *SOLVED])
         assert f"def {name}(" in text
     assert of_equations(equations(trace(find("rk4")))) in sections["rk4"]
