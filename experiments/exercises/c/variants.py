@@ -326,9 +326,12 @@ def _counted(statement: ast.stmt) -> frozenset[str]:
 
 def _used(node: ast.AST, kinds: Kinds) -> set[str]:
     """The names of values of a function that are used in an expression, or in what is copied."""
-    names = {inner.id for inner in ast.walk(node) if isinstance(inner, ast.Name)}
-    copied = [inner.text for inner in ast.walk(node) if isinstance(inner, Word | Verbatim)]
-    names.update(word for text in copied for word in re.findall(r"(?<![.\w>])[A-Za-z_]\w*", text))
+    names: set[str] = set()
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Name):
+            names.add(inner.id)
+        elif isinstance(inner, Word | Verbatim):
+            names.update(re.findall(r"(?<![.\w>])[A-Za-z_]\w*", inner.text))
     return {name for name in names if name in kinds and kinds[name].base != "function"}
 
 
