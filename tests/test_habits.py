@@ -74,6 +74,7 @@ def test_another_unit_is_caught() -> None:
     assert list(units('label = f"{name}: time [ms]"\naxes.set_xlabel("time [s]")')) == [(1, "ms")]
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("room", ROOMS)
 def test_equal_values_are_ordered_the_same_on_every_machine(room: str) -> None:
     """NumPy's quicker sort orders equal values by the processor's vector instructions; a stable one by their place."""

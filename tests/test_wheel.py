@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 
 # What takes long here is run every few days, and with --full.
-pytestmark = pytest.mark.rotating(4)
+pytestmark = pytest.mark.rotating(8)
 
 ROOT = Path(__file__).parents[1]
 

@@ -36,7 +36,7 @@ def check_as_the_reference(case: Case, outcome: Outcome) -> None:
     assert np.abs(np.sort(heights) - np.sort(right)).max() < system.size / 10
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("name", CLOTHS)
 def test_a_cloth_on_an_obstacle_is_as_in_the_reference(engine: Engine, name: str) -> None:
     """Or refused, as the table of refusals has it."""

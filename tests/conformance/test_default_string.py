@@ -58,6 +58,7 @@ def test_the_engine_is_identified_as_it_claims(engine: Engine, case: str) -> Non
     )
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("case", [name for name, values in SETTINGS.items() if "damping" in values])
 def test_what_an_engine_solves_it_solves_nearly_to_the_end(engine: Engine, case: str) -> None:
     """Its distance from the exact solve, max |x_engine - x_exact|, is at most 1e-6 m.

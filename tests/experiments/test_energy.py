@@ -345,6 +345,7 @@ def test_findings_follow_the_kinds(mixed: list[Row]) -> None:
     assert "In-place variants do not conserve momentum (heun_link_by_link)" in said
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_findings_are_not_written_for_one_outcome(mixed: list[Row]) -> None:
     """Without rods, in-place variants and engines not a word of them; other kinds are other exceptions; nobody."""
     said = " ".join(result_of(mixed[:2]).findings)

@@ -164,6 +164,7 @@ def test_errata_shows_that_slide_11_is_slide_7(errata: dict[tuple[str, str], flo
     assert errata["11", "distance from the scheme it is identified as, heun"] == 0
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_errata_shows_what_overwriting_costs_and_gives(errata: dict[tuple[str, str], float]) -> None:
     """Order 1 in place of 2, within 0.05; and larger stable steps, as in tests/reference/schemes/test_in_place.py."""
     orders = {"euler": 1, "euler_in_place": 1, "heun": 2, "heun_link_by_link": 1, "heun_aliased": 1}

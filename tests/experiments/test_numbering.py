@@ -52,6 +52,7 @@ def seen(scheme: Scheme) -> frozenset[str]:
     return permutation_effects(lambda s: run(s, 1e-3, 100), system).depends_on(1e-12 * system.size)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     ("scheme", "orders"),
     [

@@ -61,6 +61,7 @@ def test_what_drives_a_scene_is_shown() -> None:
     assert np.ptp(shown.positions[:, :, 1], axis=0).max() > 1e-3
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", ["strip", "string"])
 def test_a_scene_is_shown_by_a_run_that_is_done(name: str) -> None:
     """The strip's own dt of 0.1 ms is too long for Heun: half of it will do, and the end is that of a tenth of it.

@@ -74,6 +74,7 @@ def check_rule(made: Obstacle, rule: Rule, seed: int) -> None:
     assert again[1] == pytest.approx(kept, abs=1e-13)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("made", OBSTACLES, ids=label)
 @property_test
 @given(seed=seeds)

@@ -43,6 +43,7 @@ def test_a_run_that_blows_up_has_diverged_and_says_where_and_when() -> None:
     assert len(outcome.trajectory) > 4
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("name", catalogued())
 @pytest.mark.parametrize("dt", [0.05, 0.3, 5.0, 1e80])
 def test_no_step_is_so_large_that_a_run_raises(name: str, dt: float) -> None:

@@ -29,7 +29,7 @@ from tests.soak.conftest import Size
 from tests.soak.stored import check_accounted_for, check_same, kept_in, rows
 
 # What takes long here is run every few days, and with --full.
-pytestmark = pytest.mark.rotating(4)
+pytestmark = pytest.mark.rotating(8)
 
 needs_dask = pytest.mark.skipif(importlib.util.find_spec("distributed") is None, reason="Dask is not installed")
 

@@ -58,6 +58,7 @@ def test_every_run_is_accounted_for_though_processes_are_killed(tmp_path: Path, 
     check_accounted_for(store, range(size.runs))
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_every_quick_run_is_accounted_for_though_processes_are_killed_all_the_time(tmp_path: Path, size: Size) -> None:
     """As above, with a kill after every eighth answer."""
     store = tmp_path / "store.sqlite"
@@ -87,6 +88,7 @@ def test_a_run_that_kills_itself_is_given_up(tmp_path: Path) -> None:
     assert [(answers[task.key].ending, answers[task.key].reason) for task in tasks[1:]] == list(map(faults.due, well))
 
 
+@pytest.mark.rotating(2, in_turn=True)
 def test_a_lost_run_and_a_wrong_blame_are_told(undisturbed: Path, size: Size) -> None:
     """Shown to fail: a row less, one more, one twice, another outcome or reason, another answer, a bit of an array."""
     good, folder = rows(undisturbed), undisturbed.parent / "arrays"

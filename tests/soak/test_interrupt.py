@@ -23,7 +23,7 @@ from tests.soak.conftest import Size
 from tests.soak.stored import kept_in
 
 # What takes long here is run every few days, and with --full.
-pytestmark = pytest.mark.rotating(3)
+pytestmark = pytest.mark.rotating(7, in_turn=True)
 
 #: Runs of the sweep, one after the other: some seconds of them.
 RUNS = 40

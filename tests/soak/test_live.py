@@ -23,7 +23,7 @@ from tests.report.live.commands import ends
 from tests.soak.guests import Guest
 
 # What takes long here is run every few days, and with --full.
-pytestmark = pytest.mark.rotating(4)
+pytestmark = pytest.mark.rotating(8)
 
 #: Memory may grow by this part of itself, once everything has been imported and compiled.
 GROWTH = 0.1

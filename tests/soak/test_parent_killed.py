@@ -25,7 +25,7 @@ from tests.soak.stored import (
 )
 
 # What takes long here is run every few days, and with --full.
-pytestmark = pytest.mark.rotating(3)
+pytestmark = pytest.mark.rotating(7, in_turn=True)
 
 #: A kill comes at most so long [s] after the run it waits for: at any moment of the next.
 MOMENT = 0.05

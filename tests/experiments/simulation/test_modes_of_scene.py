@@ -192,7 +192,7 @@ def test_kick_drift_swings_too_fast_by_the_square_of_its_step() -> None:
     assert 2 * np.pi * swing.predicted.frequency == pytest.approx(2 * np.arcsin(w * 5e-3 / 2) / 5e-3, rel=1e-12)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(7)
 def test_pictures_and_a_film_of_modes(tmp_path: Path) -> None:
     """In the plane and in space; a film only with a place for it."""
     for scene in ("string", "jello"):

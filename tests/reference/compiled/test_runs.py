@@ -94,7 +94,7 @@ def test_blocks_give_the_bits_of_the_schemes_function(
     check_same_bits(SYSTEMS[name], scheme, threads, kind)
 
 
-@pytest.mark.rotating(3)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize(
     ("name", "scheme", "threads", "kind"),
     [("jello on the ground", "heun", 1, RunLoops), ("cloth", "euler", 2, RunLoops), ("cloth", "heun", 1, MeshLoops)],

@@ -169,7 +169,7 @@ def check_elastica(end: State, masses: int) -> None:
     assert sag_of(end) == pytest.approx(elastica(0.06, 0.03), rel=1.6 / masses**2)
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_strip_hangs_as_the_elastica(request: pytest.FixtureRequest) -> None:
     """Bent by more than 50 degrees; not if it pushes by a tenth more, nor without pushes at all."""
     for masses in (10, 40) if request.config.getoption("--full") else (10,):
@@ -178,6 +178,7 @@ def test_a_strip_hangs_as_the_elastica(request: pytest.FixtureRequest) -> None:
         check_elastica(least_energy(pushing_more(strip(masses=10))), 10)
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_strip_twice_its_bending_length_hangs_at_peirces_angle() -> None:
     """41.5 degrees from the clamp to its end (Peirce 1930): the laboratory's definition of the bending length.
 

@@ -197,6 +197,7 @@ def nearer_at_half_the_step(known: Scheme) -> float:
     return float(off[0] / off[1])
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize("known", constraint_schemes().values(), ids=label)
 def test_they_are_of_first_order(known: Scheme) -> None:
     """Half the step, half the distance: between 1.7 and 2.4 times less.

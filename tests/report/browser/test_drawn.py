@@ -33,7 +33,7 @@ def browser() -> Iterator[Any]:
         yield found
 
 
-@pytest.mark.rotating(5)
+@pytest.mark.rotating(4, in_turn=True)
 def test_gravity_that_swings_is_no_moving_ground(browser: Any, tmp_path: Path) -> None:
     """A file's sine of gravity, and one of a ground motion: each is told as what it is."""
     tables = {
@@ -54,6 +54,7 @@ def test_gravity_that_swings_is_no_moving_ground(browser: Any, tmp_path: Path) -
         shown.page.close()
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_plots_have_axes_before_the_first_step(browser: Any, page: Path) -> None:
     """Energy from less to more than the system was given, distances from a millionth of the scene on."""
     shown = opened(browser, page, "s=string&w=kick_drift,rk4")
@@ -76,6 +77,7 @@ def test_all_schemes_and_scenes_have_german_descriptions(browser: Any, page: Pat
     shown.page.close()
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_of_a_table_the_sides_that_are_seen_are_filled(browser: Any, tmp_path: Path) -> None:
     """Places on its top, its long side and its end, each beside the cloth: none is as the paper is; beside it is."""
     made = tmp_path / "lab.html"

@@ -47,6 +47,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return made
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("scene", SCENES)
 def test_steps_in_the_page_are_the_lab_s(browser: Any, file: Path, scene: str) -> None:
     """The same program told the same: positions and velocities to the bit, a change on the fly and a way back too."""

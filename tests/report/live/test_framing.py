@@ -25,6 +25,7 @@ def seen(points: Array, place: Array, target: Array, window: Window) -> Array:
     return (away @ axes) / -(away @ back)[:, None] / [up * window.aspect, up]
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("window", WINDOWS, ids=str)
 @pytest.mark.parametrize("scene", names())
 def test_all_is_in_the_picture_and_fills_it(scene: str, window: Window) -> None:

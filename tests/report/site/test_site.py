@@ -16,7 +16,7 @@ from tests.report.chromium import Shown, chromium, new_page
 from tests.report.html import Page
 
 # What takes long here is run every few days, and with --full.
-pytestmark = pytest.mark.rotating(3)
+pytestmark = pytest.mark.rotating(7)
 
 ROOT = Path(__file__).parents[3]
 

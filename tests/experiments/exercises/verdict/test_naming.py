@@ -154,6 +154,7 @@ def test_another_scheme_is_said_to_be_right_in_itself() -> None:
     assert (verdict.outcome, verdict.name) == ("another scheme", "kick_drift")
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.usefixtures("trusted")
 @pytest.mark.parametrize("exercise", exercises().values(), ids=lambda e: e.name)
 def test_every_starter_runs_and_fails_politely(exercise, tmp_path: Path) -> None:  # type: ignore[no-untyped-def]
