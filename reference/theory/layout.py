@@ -1,4 +1,4 @@
-"""How a whole state is one vector z: free positions, dt x velocities, dt x what a multistep scheme remembers."""
+"""How a whole state is one vector z: free positions, dt x velocities, and what a multistep scheme remembers."""
 
 from __future__ import annotations
 
@@ -14,15 +14,19 @@ from reference.theory.equilibria import Equilibrium
 #: So many steps, each from rest, and the impulses that hold springs there have come to what they are.
 WARM_STEPS = 200
 
+#: Moves that tell in which units a scheme remembers, as a part of the length they are to be small against.
+SMALL = 1e-6
+
 
 @dataclass(frozen=True)
 class Layout:
-    """How a whole state is one vector z: free positions, dt x velocities, dt x what is remembered.
+    """How a whole state is one vector z: free positions, dt x velocities, and what is remembered.
 
     Attributes:
         rest: about which it is told.
         dt: the step [s].
         remembered: how many arrays of the masses the scheme remembers.
+        units: by what each of these is multiplied; dt where none are given.
         of_springs: how many numbers it remembers of the springs, one array: the impulses of a warm start.
     """
 
@@ -30,6 +34,7 @@ class Layout:
     dt: float
     remembered: int
     of_springs: int = 0
+    units: tuple[float, ...] = ()
 
     @cached_property
     def block(self) -> int:
@@ -63,8 +68,7 @@ class Layout:
 
     @cached_property
     def _units(self) -> list[float]:
-        """Of what is remembered nobody knows the unit, and none matters to eigenvalues."""
-        return [1.0, *[self.dt] * (1 + self.remembered)]
+        return [1.0, self.dt, *(self.units or [self.dt] * self.remembered)]
 
 
 def layout_of(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:
@@ -74,7 +78,21 @@ def layout_of(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, Sta
     memory = scheme.on(rest.motion)(rest.state, dt).memory
     if memory and memory[-1].shape != rest.state.positions.shape:
         return _warm_layout(scheme, rest, dt)
-    return Layout(rest, dt, len(memory)), rest.state.remembering(*memory)
+    return Layout(rest, dt, len(memory), units=_units(scheme, rest, dt, memory)), rest.state.remembering(*memory)
+
+
+def _units(scheme: Scheme, rest: Equilibrium, dt: float, at_rest: tuple[Array, ...]) -> tuple[float, ...]:
+    """By what arrays that are remembered are multiplied to be as large as the moves that they are of.
+
+    To eigenvalues no unit matters, to differences it does: a position over dt would be moved far from rest.
+    """
+    size = SMALL * rest.scale
+    moves = np.where(rest.free[:, None], size, 0.0) * np.random.default_rng(0).uniform(
+        -1, 1, rest.state.positions.shape
+    )
+    moved = State(0.0, rest.state.positions + moves, rest.state.velocities + moves / dt)
+    changes = [np.abs(q - r).max() for q, r in zip(scheme.on(rest.motion)(moved, dt).memory, at_rest, strict=True)]
+    return tuple(float(size / change) if change > 0 else dt for change in changes)
 
 
 def _warm_layout(scheme: Scheme, rest: Equilibrium, dt: float) -> tuple[Layout, State]:

@@ -122,26 +122,52 @@ def _near(low: float, high: float) -> bool:
 
 def _without_expectation(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     """What runs show where no one limit is predicted: growth at every dt that is tried, or at none."""
-    growths = {part: measured_mode_growth(scheme, rest, part / found.fastest, found) for part in TRIED}
+    growths, unsolved = _growths_tried(scheme, rest, found)
     shortest = TRIED[0]
+    if shortest not in growths:
+        return Limit(None, f"not measured: {unsolved}")
     if growths[shortest] > MARGIN:
         rate = float(growths[shortest])
         return Limit(
             None, f"unstable at {shortest / found.fastest:.2g} s: grows by {rate:.2g} of itself in a step", rate
         )
-    grown = [part for part in TRIED if growths[part] > MARGIN]
-    if not grown:
-        return Limit(None, f"stable at all of {', '.join(f'{part / found.fastest:.2g}' for part in TRIED)} s")
-    return Limit(None, f"stable at {shortest / found.fastest:.2g} s, unstable at {grown[0] / found.fastest:.2g} s")
+    grown = [part for part in growths if growths[part] > MARGIN]
+    if grown:
+        return Limit(None, f"stable at {shortest / found.fastest:.2g} s, unstable at {grown[0] / found.fastest:.2g} s")
+    tried = ", ".join(f"{part / found.fastest:.2g}" for part in growths)
+    return Limit(None, f"stable at {tried} s; {unsolved}" if unsolved else f"stable at all of {tried} s")
 
 
-@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def _growths_tried(scheme: Scheme, rest: Equilibrium, found: Rates) -> tuple[dict[float, float], str]:
+    """What runs show at the parts TRIED, up to the first at which a step's equations are not solved, and what that is.
+
+    A solver that gives up is no growth: what it gives up at says nothing about stability.
+    """
+    growths: dict[float, float] = {}
+    for part in TRIED:
+        dt = part / found.fastest
+        try:
+            growths[part] = _growth_of_run(scheme, rest, dt, found)
+        except SolverError as error:
+            return growths, f"at {dt:.2g} s its equations were not solved: {error}"
+    return growths, ""
+
+
 def measured_mode_growth(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -> float:
     """By how much of itself the fastest mode grows in a step [1]; infinite where the scheme comes to no next state."""
     try:
+        return _growth_of_run(scheme, rest, dt, found)
+    except SolverError:
+        return np.inf
+
+
+@np.errstate(over="ignore", invalid="ignore", divide="ignore")
+def _growth_of_run(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -> float:
+    """The same; raises SolverError where the scheme's equations are not solved."""
+    try:
         mode = fastest_mode_of_step(scheme, rest, dt, found)
         return np.inf if mode is None else mode_growth(np.array([*offsets(scheme, rest, dt, mode.shape)]), mode.left)
-    except (SolverError, np.linalg.LinAlgError):
+    except np.linalg.LinAlgError:
         return np.inf
 
 

@@ -71,6 +71,8 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             converged = limit_of_relative(scheme, rest.linear, unit)
             start = NEARLY * converged if np.isfinite(converged) else start
         limit = _scan(excess, start, unit, margin, FARTHEST / float(np.abs(found.values).min()), precision)
+        if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
+            return Limit(None, unsolved)
         phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
         if phantom:
             return _of_unresisted_motion(scheme, rest, found, unit)
@@ -79,6 +81,17 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         reason = f"{size} positions and velocities, which this scheme does not step alike; up to {WHOLE_UP_TO} it is"
         return Limit(None, f"not computed for {reason}")
     return limit_of_large(scheme, rest.linear, rest, unit)
+
+
+def _not_solved(scheme: Scheme, rest: Equilibrium, dt: float | None) -> str:
+    """What is said of a limit [s] above which the step's equations are not solved, which is none; else nothing."""
+    if dt is None:
+        return ""
+    try:
+        step_jacobian(scheme, rest, (1 + ROUGH) * dt)
+    except SolverError as error:
+        return f"not computed: stable up to {dt:.3g} s, above which the step's equations were not solved: {error}"
+    return ""
 
 
 def unstable_at_any(rate: float, dt: float) -> str:
@@ -164,8 +177,11 @@ def _falls_as_a_power(grown: list[float], margin: float) -> bool:
 
 
 def _growth_of_mode(scheme: Scheme, rest: Equilibrium, mu: complex, dt: float) -> float:
-    """Growth of a mode in a step of dt [s]."""
-    jacobian = step_jacobian(scheme, rest, dt)
+    """Growth of a mode in a step of dt [s]; none is seen where the step's equations are not solved."""
+    try:
+        jacobian = step_jacobian(scheme, rest, dt)
+    except SolverError:
+        return -np.inf
     if not np.isfinite(jacobian).all():
         return np.inf
     values = np.linalg.eigvals(jacobian)

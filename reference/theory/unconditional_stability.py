@@ -111,7 +111,11 @@ def _common_denominator(monic: Array, terms: Array) -> Array | None:
 
 
 def _of_left_half(polynomial: Array) -> Array:
-    """The polynomial in s with l = (1 + s) / (1 - s), of s^0 first; its largest term is made positive."""
+    """The polynomial in s with l = (1 + s) / (1 - s), of s^0 first; its largest term is made positive.
+
+    A root l = -1 whatever a and b, as the generalised alpha method's of radius 1, stays on the circle;
+    it is s = infinity, and the highest coefficient is nothing.
+    """
     k = len(polynomial) - 1
     turned = np.zeros_like(polynomial)
     for i, coefficient in enumerate(polynomial):
@@ -119,7 +123,8 @@ def _of_left_half(polynomial: Array) -> Array:
             np.polynomial.polynomial.polypow([1, 1], i), np.polynomial.polynomial.polypow([1, -1], k - i)
         )
         turned += np.multiply.outer(expanded, coefficient)
-    return turned / turned.ravel()[np.abs(turned).argmax()]
+    turned /= turned.ravel()[np.abs(turned).argmax()]
+    return turned[: np.flatnonzero(np.abs(turned).max(axis=(1, 2)) > ROUNDING)[-1] + 1]
 
 
 def has_roots_in_left_half(polynomial: Array) -> bool:

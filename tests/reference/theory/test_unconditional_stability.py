@@ -24,7 +24,7 @@ from reference.theory.unconditional_stability import (
 )
 
 #: Newmark's method is if and only if 2 beta >= gamma >= 1/2 (Hughes 1987, 9.1); HHT for alpha from -1/3 to 0 and the
-#: generalised alpha method for 0 <= radius < 1 by their construction; BDF2 and Radau IIA are A-stable (Hairer and
+#: generalised alpha method for 0 <= radius <= 1 by their construction; BDF2 and Radau IIA are A-stable (Hairer and
 #: Wanner 1996, IV.5 and V.1).
 STABLE = [
     "backward_euler",
@@ -35,6 +35,7 @@ STABLE = [
     "hht(alpha=-0.3)",
     "generalised_alpha",
     "generalised_alpha(radius=0.0)",
+    "generalised_alpha(radius=1.0)",
     "bdf2",
     "radau_iia",
 ]
