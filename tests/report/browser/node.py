@@ -52,10 +52,11 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
     grown(asked.system, memory, rest.x, name, asked.dt, asked.steps, asked.size));
   if (asked.ask === "grown") return asked.schemes.flatMap(name => {
     const {limit} = limitOf(name, linear, known, asked.system);
-    const steps = limit > 0 && limit < Infinity ? stepsToSee(linear, name, limit) : 0;
-    if (!(steps > 0 && steps < asked.most)) return [];
-    const run = part => grown(asked.system, memory, rest.x, name, part * limit, steps, asked.size);
-    return [[name, run(0.98), run(1.02)]];
+    const run = (dt, steps) => grown(asked.system, memory, rest.x, name, dt, steps, asked.size);
+    const explicit = limitOf("kick_drift", linear, known, asked.system).limit;
+    if (limit === Infinity) return [[name, run(20 * explicit, asked.long), null]];
+    const steps = limit > 0 ? stepsToSee(linear, name, limit) : 0;
+    return steps > 0 && steps < asked.most ? [[name, run(0.98 * limit, steps), run(1.02 * limit, steps)]] : [];
   });
   throw Error(asked.ask);
 });
