@@ -62,7 +62,7 @@ def until(page: Any, statement: str) -> None:
         page.wait_for_timeout(50)
 
 
-@pytest.mark.rotating(7)
+@pytest.mark.rotating(4)
 @pytest.mark.parametrize("view", VIEWS[:4], ids=lambda view: "-".join(map(str, view)))
 def test_it_is_shown_without_a_request_or_a_complaint(browser: Any, file: Path, view: tuple[int, str, str]) -> None:
     """And without a violation that axe-core knows, or a part that reaches out of the window."""

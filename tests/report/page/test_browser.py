@@ -55,7 +55,7 @@ def _section(name: str, folder: Path) -> Section:
     return Section(find(name), result, picture.svg(), picture.alt, downloads, motions=animate(name, result))
 
 
-@pytest.mark.rotating(8)
+@pytest.mark.rotating(5)
 @pytest.mark.parametrize("view", VIEWS, ids=str)
 def test_the_page_has_no_violation_and_asks_for_nothing(browser: Any, file: Path, view: tuple[int, str, str]) -> None:
     """Zero by axe-core, best practices included; no request, no complaint, nothing cut, nothing too wide."""
