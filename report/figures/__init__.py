@@ -68,10 +68,11 @@ def new_figure(figsize: tuple[float, float], **options: Any) -> tuple[Any, Any]:
     Made without pyplot, which would keep every figure for ever.
     """
     from matplotlib import rc_context
-    from matplotlib.figure import Figure
+
+    from report.figures.laid_out import LaidOut
 
     with ONE_AT_A_TIME, rc_context(STYLE):
-        figure = Figure(figsize=figsize)
+        figure = LaidOut(figsize=figsize)
         return figure, figure.subplots(**options)
 
 
