@@ -56,7 +56,7 @@ const answers = JSON.parse(require("fs").readFileSync(0, "utf8")).map(asked => {
     const explicit = limitOf("kick_drift", linear, known, asked.system).limit;
     if (limit === Infinity) return [[name, run(20 * explicit, asked.long), null]];
     const steps = limit > 0 ? stepsToSee(linear, name, limit) : 0;
-    return steps > 0 && steps < asked.most ? [[name, run(0.98 * limit, steps), run(1.02 * limit, steps)]] : [];
+    return steps > 0 && steps < asked.most ? [[name, run(0.98 * limit, steps), run(1.02 * limit, 3 * steps)]] : [];
   });
   throw Error(asked.ask);
 });
