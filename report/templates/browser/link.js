@@ -4,7 +4,7 @@ function stateText() {
   const words = [["v", FORMAT], ["s", lab.scene.name], ["w", lab.lanes.map(lane => lane.scheme).join(",")], ["dt", String(startDt())]];
   const changes = lab.changes.filter(change => !(change.time === 0 && change.parameter === "dt"));
   if (changes.length) words.push(["at", changes.map(({time, parameter, value}) => `${timeText(time)}:${parameter}:${[value].flat().join("+")}`).join(",")]);
-  const {steps} = furthest().world;
+  const steps = stepsTried();
   if (steps) words.push(["n", steps]);
   if (lab.speed !== 1) words.push(["speed", lab.speed]);
   if (lab.beside) words.push(["beside", 1]);
@@ -12,6 +12,12 @@ function stateText() {
   if (lab.lesson) words.push(["lesson", lab.lesson]);
   if (language !== "en") words.push(["lang", language]);
   return words.map(([key, value]) => `${key}=${encodeURIComponent(value).replace(/%2C/g, ",").replace(/%3A/g, ":").replace(/%2B/g, "+")}`).join("&");
+}
+
+// How many steps of the furthest lane come to what is seen: with the one that a solver gave up, or an engine refused.
+function stepsTried() {
+  const {steps} = furthest().world, gaveUp = ({blownUp}) => blownUp && ["unsolved", "refused"].includes(blownUp.what);
+  return steps + lab.lanes.some(({world}) => world.steps === steps && gaveUp(world));
 }
 
 // The dt that the run began with: what it became later is among the changes.

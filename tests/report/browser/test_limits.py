@@ -157,11 +157,11 @@ def test_the_rest_is_found_anew_when_parameters_change() -> None:
 def test_runs_grow_beyond_the_limit_and_stay_below_it(request: pytest.FixtureRequest) -> None:
     """A perturbation of 1e-6 of a spring's length at rest grows over 1.02 times the limit, and not under 0.98 times it.
 
-    Over it a run is three times as long as theory needs for a growth by 1e5, a thousandfold is asked for, as a part of
-    the perturbation is in the mode that grows; below it, within a hundredfold: a mode of a step that is not symmetric may
-    rise a little at first. Where that takes more steps than `most`, as with Euler on a string with a little drag, whose
-    growth at 1.02 times the limit is 0.01 (dt w)^2 = 1e-8 a step, there is nothing to be seen. What is predicted stable
-    at any dt does not grow at twenty times the limit of kick-drift.
+    Over it a run is three times as long as theory needs for a growth by 1e5, a thousandfold is asked for, as a part
+    of the perturbation is in the mode that grows; below it, within a hundredfold: a mode of a step that is not
+    symmetric may rise a little at first. Where that takes more steps than `most`, as with Euler on a string with a
+    little drag, whose growth at 1.02 times the limit is 0.01 (dt w)^2 = 1e-8 a step, there is nothing to be seen.
+    What is predicted stable at any dt does not grow at twenty times the limit of kick-drift.
     """
     full = request.config.getoption("--full")
     presets = [preset for preset in PRESETS if full or preset.stem in PUSHED]

@@ -105,3 +105,19 @@ def test_where_all_lanes_have_stopped_the_status_says_so(browser: Any, file: Pat
     assert said not in status
     assert shown.page.evaluate("say('link_short')") in status
     shown.page.close()
+
+
+@pytest.mark.rotating(7, in_turn=True)
+@pytest.mark.parametrize("lanes", ["backward_euler,bdf2", "backward_euler,implicit_midpoint"])
+def test_a_link_to_lanes_that_stopped_opens_as_they_stopped(browser: Any, file: Path, lanes: str) -> None:
+    """The same places and steps, and the same said of them: also where the last lane has stopped in the first step."""
+    shown = opened(browser, file, f"s=cloth&w={lanes}&dt=0.2&n=10")
+    told = "[stateText(), lab.lanes.map(({world}) => [world.steps, (world.blownUp || {}).what]), "
+    told += "lab.lanes.map(({world: {memory: {F, at}}}) => Array.from(F.slice(at.x, at.x + 2 * at.n * at.d)))]"
+    first, said = shown.page.evaluate(told), shown.page.inner_text("#said")
+    assert "stopped" in said
+    shown.page.close()
+    again = opened(browser, file, first[0])
+    assert again.page.evaluate(told) == first
+    assert again.page.inner_text("#said") == said
+    again.page.close()
