@@ -1,6 +1,7 @@
-"""What drives a scene, drawn with it: a truck in the middle of the masses that it adds, and ground with an arrow.
+"""What drives a scene, drawn with it: a truck in the middle of masses that it adds, ground or gravity by an arrow.
 
 Seen from ground that moves the fixed masses are at rest, as they are computed: the arrow is the ground's acceleration.
+Where gravity swings by itself the arrow is gravity, and there is no ground.
 """
 
 from __future__ import annotations
@@ -20,8 +21,9 @@ if TYPE_CHECKING:
     from report.live.scenes import OpenedScene
 
 #: The size of a truck, the width of what stands for ground under a fixed mass, and an arrow's length at LARGE, as parts
-#: of the system's size; and an acceleration that is large [m/s^2].
+#: of the system's size; and an acceleration that is large [m/s^2]: of the ground, and of gravity.
 TRUCK, GROUND, ARROW, LARGE = 0.06, 0.05, 0.15, 1.0
+LARGE_GRAVITY = 9.81
 
 #: Of trucks, ground and arrows.
 COLOUR = (90, 90, 90)
@@ -41,7 +43,7 @@ def ground_acceleration(opened: MassSpringSystem, now: MassSpringSystem) -> Arra
 
 
 class DrivenShapes:
-    """The truck of a lane, or the ground under it, at the lane's place in the picture.
+    """The truck of a lane, the ground under it, or the gravity that swings, at the lane's place in the picture.
 
     Args:
         client: the viewer.
@@ -61,18 +63,30 @@ class DrivenShapes:
             dimensions = tuple(self._size * TRUCK * np.array([1.0, 0.5, 0.4]))
             self._truck = scene.add_box(f"{name}/truck", COLOUR, dimensions, visible=False)
             self.nodes.append(self._truck)
-        if "gravity" in opened.driven and opened.system.fixed.any():
+        if "gravity" in opened.driven:
+            self._on_ground = opened.ground_moves and bool(opened.system.fixed.any())
             points = self._bars()
+            self._low = self._below(points)
+            self._ground = points if self._on_ground else points[:0]
             self._arrow = scene.add_line_segments(
-                f"{name}/ground", points, as_light(COLOUR), thickness=4.0, thickness_units="screen", position=shift
+                f"{name}/drive",
+                np.concatenate([self._ground, self._arrow_of(opened.system)]).astype(np.float32),
+                as_light(COLOUR),
+                thickness=4.0,
+                thickness_units="screen",
+                position=shift,
             )
-            self._low = np.array([points[..., 0].mean(), points[..., 1].min() - 0.1 * self._size, 0.0])
-            self._ground = points
-            words = "acceleration of the ground, which this is seen from"
-            at = shift + self._low - [0.0, 0.03 * self._size, 0.0]
+            words = "acceleration of the ground, which this is seen from" if self._on_ground else "gravity"
+            at = shift + self._low + [0.0, (-0.03 if self._on_ground else 0.03) * self._size, 0.0]
             self.nodes += [
                 self._arrow,
-                scene.add_label(f"{name}/says", words, position=at, anchor="top-center", font_screen_scale=0.8),
+                scene.add_label(
+                    f"{name}/says",
+                    words,
+                    position=at,
+                    anchor="top-center" if self._on_ground else "bottom-center",
+                    font_screen_scale=0.8,
+                ),
             ]
 
     def show(self, now: MassSpringSystem, state: State) -> None:
@@ -88,13 +102,24 @@ class DrivenShapes:
 
     def _bars(self) -> Array:
         """A bar under every fixed mass, ends of shape (k, 2, 3) [m]."""
-        places = np.array([_in_space(place) for place in self._opened.positions[self._opened.fixed]])
+        fixed = self._opened.positions[self._opened.fixed]
+        places = np.array([_in_space(place) for place in fixed]).reshape(-1, 3)
         half = np.array([GROUND * self._size, 0.0, 0.0])
         return np.asarray(np.stack([places - half, places + half], axis=1) - [0.0, 0.02 * self._size, 0.0])
 
+    def _below(self, bars: Array) -> Array:
+        """Where an arrow begins: below the ground, or the masses where there is none."""
+        masses = np.array([_in_space(place) for place in self._opened.positions])[:, None]
+        low = bars if self._on_ground else masses
+        return np.array([low[..., 0].mean(), low[..., 1].min() - 0.1 * self._size, 0.0])
+
     def _arrow_of(self, now: MassSpringSystem) -> Array:
-        """From below the ground along its acceleration, with a head: ends of shape (3, 2, 3) [m]."""
-        along = ARROW * self._size / LARGE * _in_space(ground_acceleration(self._opened, now))
+        """Along the ground's acceleration or along gravity, with a head: ends of shape (3, 2, 3) [m]."""
+        if self._on_ground:
+            part, acceleration = 1 / LARGE, ground_acceleration(self._opened, now)
+        else:
+            part, acceleration = 1 / LARGE_GRAVITY, now.gravity
+        along = ARROW * self._size * part * _in_space(acceleration)
         end = self._low + along
         aside = 0.2 * np.array([-along[1], along[0], 0.0])
         back = end - 0.3 * along

@@ -35,6 +35,7 @@ class OpenedScene:
         settings: parameters of the scene that were set otherwise, as text.
         changes: parameters that change while it moves, by themselves.
         as_named: whether name and settings say it all.
+        ground_moves: whether gravity changes as it does seen from ground that moves.
     """
 
     name: str
@@ -43,6 +44,7 @@ class OpenedScene:
     settings: Mapping[str, str] = field(default_factory=dict)
     changes: tuple[Change, ...] = ()
     as_named: bool = True
+    ground_moves: bool = False
 
     @property
     def stem(self) -> str:
@@ -80,7 +82,7 @@ def open_scene(name: str, settings: Mapping[str, str] | None = None, barrier: bo
     if barrier is not None and barrier != bool(system.obstacles):
         system = replace(system, obstacles=(in_the_way(system),) if barrier else ())
         as_named = False
-    return OpenedScene(name, system, setup.dt, settings, setup.changes, as_named)
+    return OpenedScene(name, system, setup.dt, settings, setup.changes, as_named, setup.ground_moves)
 
 
 def in_the_way(system: MassSpringSystem) -> Obstacle:

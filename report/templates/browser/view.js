@@ -157,7 +157,7 @@ function drawLane(lane, k) {
   strokeSprings(pathsByStrain(lane.world, places), s > THICK_UP_TO, k);
   paper.setLineDash([]); paper.globalAlpha = 1;
   if (k === 0 || lab.beside) drawDriven(lane, k);
-  const size = n > 60 ? 2.5 : 5;
+  const size = Math.max(2, Math.min(n > 60 ? 2.5 : 5, 0.3 * view.scale * meanLength(lane.world)));
   for (let i = 0; i < n; i++) {
     if (I[at.fixed + i]) drawFixed(places[2 * i], places[2 * i + 1], n > 60 ? 3 : 5);
     else if (n <= MARKED_UP_TO) drawMarker(paper, k, places[2 * i], places[2 * i + 1], size);
@@ -167,6 +167,17 @@ function drawLane(lane, k) {
     paper.strokeStyle = ink(); paper.lineWidth = 2; paper.beginPath();
     paper.arc(places[2 * chosen], places[2 * chosen + 1], 10, 0, 7); paper.stroke();
   }
+}
+
+// How long springs are in the mean at the start [m]: markers of masses are smaller than that.
+function meanLength(world) {
+  const {start, memory: {I, at: {s, d, springs}}} = world;
+  if (world.apart === undefined) {
+    const squares = (a, b) => { let sum = 0; for (let e = 0; e < d; e++) sum += (start[d * b + e] - start[d * a + e]) ** 2; return sum; };
+    world.apart = s ? 0 : Infinity;
+    for (let j = 0; j < s; j++) world.apart += Math.sqrt(squares(I[springs + 2 * j], I[springs + 2 * j + 1])) / s;
+  }
+  return world.apart;
 }
 
 // One path for the springs of each class of strain; a spring that begins where the one before it in its class ended goes on

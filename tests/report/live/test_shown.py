@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import gzip
+from dataclasses import replace
+from pathlib import Path
 from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
 
 from report.live.colours import LANE_COLOURS, as_light, of_strain
-from report.live.driven_shapes import ground_acceleration, truck_place
+from report.live.driven_shapes import DrivenShapes, ground_acceleration, truck_place
 from report.live.lab import Lab
 from report.live.markup import legend
+from report.live.scenes import open_scene
 from report.live.title import TITLE, titled
 from tests.report.live.labs import open_lab
 
@@ -39,6 +43,53 @@ def test_the_ground_s_acceleration_is_what_gravity_lacks(labs: list[Lab]) -> Non
     t = (300 - 0.5) * lab.timeline.dt
     expected = np.sin(2 * np.pi * (0.5 * t + 4.5 * t**2 / (2 * 1.8)))
     assert ground_acceleration(lab.timeline.opened.system, lab.timeline.system) == pytest.approx([expected, 0.0])
+
+
+class Drawn:
+    """In place of a viewer: what is drawn, by its name."""
+
+    def __init__(self) -> None:
+        self.lines: dict[str, Any] = {}
+        self.labels: list[str] = []
+        self.scene = self
+
+    def add_line_segments(self, name: str, points: Any, *colours: Any, **how: Any) -> Any:
+        """Kept."""
+        self.lines[name] = SimpleNamespace(points=points, **how)
+        return self.lines[name]
+
+    def add_label(self, name: str, words: str, **how: Any) -> Any:
+        """Kept."""
+        self.labels.append(words)
+        return SimpleNamespace(**how)
+
+
+@pytest.mark.parametrize(
+    ("table", "words", "bars"),
+    [
+        ('[[sines]]\nparameter = "gravity"\namplitude = 4.0\nfrequency = 1.0\n', "gravity", 0),
+        (
+            "[ground_motion]\nfrom_frequency = 1.0\nto_frequency = 3.0\namplitude = 1.0\nduration = 0.5\n",
+            "acceleration of the ground, which this is seen from",
+            1,
+        ),
+    ],
+)
+def test_gravity_that_swings_is_no_moving_ground(tmp_path: Path, table: str, words: str, bars: int) -> None:
+    """A string on one fixed mass: a bar under it where the ground moves, an arrow along gravity where it does not."""
+    file = tmp_path / "scene.toml"
+    file.write_text(f'scene = "string"\ndt = 1e-3\nduration = 0.5\n\n{table}')
+    opened, drawn = open_scene(str(file)), Drawn()
+    shapes = DrivenShapes(cast(Any, drawn), "lane", opened, np.zeros(3))
+    now = replace(opened.system, gravity=np.array([3.0, -4.0]))
+    shapes.show(now, opened.system.start)
+    assert drawn.labels == [words]
+    (line,) = drawn.lines.values()
+    shaft = line.points[bars]
+    along = (shaft[1] - shaft[0])[:2]
+    expected = now.gravity if not bars else opened.system.gravity - now.gravity
+    assert along / np.linalg.norm(along) == pytest.approx(expected / np.linalg.norm(expected), abs=1e-5)
+    assert len(line.points) == bars + 3
 
 
 def test_a_spring_has_its_lane_s_colour_the_deeper_the_more_it_is_strained() -> None:
