@@ -166,13 +166,10 @@ def test_runs_grow_beyond_the_limit_and_stay_below_it(request: pytest.FixtureReq
     full = request.config.getoption("--full")
     presets = [preset for preset in PRESETS if full or preset.stem in PUSHED]
     schemes = [scheme for scheme in page_schemes() if full or scheme in PUSHED_SCHEMES]
-    questions = []
     for preset in presets:
         system = alone(preset.setup.system)
         size = 1e-6 * float(np.median(system.rest_lengths)) or 1e-6 * system.size
-        asked = asked_of_page(system, ask="grown", schemes=schemes, size=size, most=20_000, long=60)
-        questions.append(asked)
-    for preset, answer in zip(presets, ask(questions), strict=True):
+        (answer,) = ask([asked_of_page(system, ask="grown", schemes=schemes, size=size, most=20_000, long=60)])
         seen = {scheme: (below, beyond) for scheme, below, beyond in answer}
         assert seen.keys() >= {scheme for scheme in PUSHED_SCHEMES if scheme in schemes}, preset.stem
         for scheme, (below, beyond) in seen.items():
