@@ -161,10 +161,11 @@ def test_runs_grow_beyond_the_limit_and_stay_below_it(request: pytest.FixtureReq
     of the perturbation is in the mode that grows; below it, within a hundredfold: a mode of a step that is not
     symmetric may rise a little at first. Where that takes more steps than `most`, as with Euler on a string with a
     little drag, whose growth at 1.02 times the limit is 0.01 (dt w)^2 = 1e-8 a step, there is nothing to be seen.
-    What is predicted stable at any dt does not grow at twenty times the limit of kick-drift.
+    What is predicted stable at any dt does not grow at twenty times the limit of kick-drift. The slinky is left out:
+    nothing holds it, its springs are as short as they can be, and so it rests where all its masses are in one place.
     """
     full = request.config.getoption("--full")
-    presets = [preset for preset in PRESETS if full or preset.stem in PUSHED]
+    presets = [preset for preset in PRESETS if (full or preset.stem in PUSHED) and preset.scene != "slinky"]
     schemes = [scheme for scheme in page_schemes() if full or scheme in PUSHED_SCHEMES]
     for preset in presets:
         system = alone(preset.setup.system)
