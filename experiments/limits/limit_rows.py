@@ -9,7 +9,7 @@ from typing import Any
 
 from engines.process.isolation import EngineStepper
 from experiments.limits.engine_limit import measure_engine
-from experiments.limits.predictions import Predictions, named
+from experiments.limits.predictions import Predictions, limits_of_engines_elsewhere, named
 from experiments.runs.progress import Progress
 from experiments.runs.runner import current
 from reference.derivation.seen import slopes_of
@@ -117,19 +117,21 @@ def _caveat(stepper: Stepper) -> str:
 
 
 class _AtWork:
-    """One system, whose engines are at work in the threads of a pool."""
+    """One system, whose engines are at work in the threads of a pool, which begin what is given to them in its order.
+
+    So engines are identified once their runs, which were given before, have begun: none waits for what waits for it.
+    """
 
     def __init__(self, system: MassSpringSystem, steppers: Sequence[Stepper], pool: ThreadPoolExecutor) -> None:
         self._system, self._steppers, self._pool = system, steppers, pool
         alone = replace(system, obstacles=())
         self._alone = Predictions(alone, spring_equilibrium(alone))
         engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
-        self._identifying = [(engine, pool.submit(self._alone.identifying_run, engine)) for engine in engines]
-        self._measuring: dict[str, tuple[Limit, Future[Limit | Outcome]]] = {}
+        running = [(engine, pool.submit(self._alone.identifying_run, engine)) for engine in engines]
+        self._measuring = pool.submit(self._begin_to_measure, running)
 
     def rows_of_schemes(self, progress: Progress) -> dict[str, Row]:
-        """By name; meanwhile engines, now that it is known what they are, are measured."""
-        self._begin_to_measure()
+        """By name."""
         on_obstacles, about = self._alone, ""
         if self._system.obstacles:
             rest, about = equilibrium_on_obstacles(self._system)
@@ -143,24 +145,28 @@ class _AtWork:
 
     def all_rows(self, of_schemes: Mapping[str, Row]) -> Iterator[Row]:
         """In the steppers' order, once all engines are measured."""
+        measuring = self._measuring.result()
         for stepper in self._steppers:
             if stepper.name in of_schemes:
                 yield of_schemes[stepper.name]
-            elif stepper.name in self._measuring:
-                predicted, measured = self._measuring[stepper.name]
+            elif stepper.name in measuring:
+                predicted, measured = measuring[stepper.name]
                 row = _engine_row(stepper, self._system, predicted, measured.result())
                 yield replace(row, about="of the scene without its obstacles" if self._system.obstacles else "")
             else:
                 none = Limit(None, "stability is of schemes and engines; identify says which scheme this is")
                 yield Row(stepper.name, stepper.kind, self._system, none, none, "unsupported")
 
-    def _begin_to_measure(self) -> None:
-        identified = self._alone.identified((engine, run.result()) for engine, run in self._identifying)
-        for engine, _ in self._identifying:
-            found = identified[engine.name]
-            predicted = self._alone.of_engine(found)
-            measured = self._pool.submit(measure_engine, engine, self._alone, named(found), predicted)
-            self._measuring[engine.name] = predicted, measured
+    def _begin_to_measure(
+        self, running: Sequence[tuple[EngineStepper, Future[Outcome]]]
+    ) -> dict[str, tuple[Limit, Future[Limit | Outcome]]]:
+        """What is predicted of each engine, by name, and its measurement, which is at work."""
+        runs = [(engine, run.result()) for engine, run in running]
+        found, measuring = limits_of_engines_elsewhere(self._alone.system, runs), {}
+        for (engine, _), (scheme, predicted) in zip(runs, found, strict=True):
+            measured = self._pool.submit(measure_engine, engine, self._alone, named(scheme), predicted)
+            measuring[engine.name] = predicted, measured
+        return measuring
 
 
 def _scheme_row_about(

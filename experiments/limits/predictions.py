@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from engines.process.isolation import EngineStepper
+from engines.process.isolation import EngineStepper, in_this_process, isolated
 from experiments.limits.perturbed import rest_of_scheme
 from experiments.runs.task import digest
 from reference.identification import Identification, identify_all
@@ -15,7 +16,7 @@ from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.stepper import SchemeStepper, stepper_named
 from reference.system import MassSpringSystem
-from reference.theory.equilibria import Equilibrium
+from reference.theory.equilibria import Equilibrium, spring_equilibrium
 from reference.theory.limits import stability_limit
 from reference.theory.rates import Rates, rates
 
@@ -86,6 +87,30 @@ class Predictions:
         """Which scheme each engine is, by name, from its `identifying_run`."""
         found = identify_all(list(runs), self.system, 0.1 * self.unit, steps)
         return {each.stepper: each for each in found.each}
+
+
+def limits_of_engines(
+    system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]]
+) -> list[tuple[Identification, Limit]]:
+    """Which scheme each engine is, from its `identifying_run`, and the limit of that scheme."""
+    predictions = Predictions(system, spring_equilibrium(system))
+    identified = predictions.identified(runs)
+    found = [identified[engine.name] for engine, _ in runs]
+    return [(each, predictions.of_engine(each)) for each in found]
+
+
+def limits_of_engines_elsewhere(
+    system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]]
+) -> list[tuple[Identification, Limit]]:
+    """The same, found in another process, while this one is at something else.
+
+    Here after all where a stepper cannot travel there, or no answer comes: then it is told here what is wrong.
+    """
+    if runs and not any(engine.isolate is in_this_process for engine, _ in runs):
+        found = isolated(limits_of_engines, system, runs, time_limit=math.inf, memory_limit=math.inf)
+        if not isinstance(found, Outcome):
+            return found
+    return limits_of_engines(system, runs) if runs else []
 
 
 def named(found: Identification) -> SchemeStepper | None:
