@@ -48,10 +48,10 @@ def truths(name: str, value: npt.ArrayLike, of_each: str) -> npt.NDArray[np.bool
     try:
         array = np.asarray(value)
     except ValueError:  # lists of unequal lengths
-        array = np.zeros(0)
-    if array.dtype != bool:
+        array = np.zeros(1)
+    if array.dtype != bool and array.size:
         raise InputError(f"{name} = {value!r}: expected true or false for each {of_each}")
-    return array
+    return array.astype(bool, copy=False)
 
 
 def check_sizes(name: str, value: npt.ArrayLike, divided_by: bool = False) -> None:

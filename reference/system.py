@@ -125,9 +125,10 @@ class MassSpringSystem:
         springs = checked_springs(self.springs, n)
         s = len(springs)
         gravity = finite("gravity", self.gravity, "m/s^2")
-        # no pull at all fits any number of masses, so that `replace` may give a system others
+        # no pull at all fits any number of masses, and none broken any of springs, so that `replace` may give it others
         pulls = finite("pulls", self.pulls, UNIT)
         pulls = pulls if pulls.any() else np.zeros(1)
+        broken = truths("broken", self.broken, "spring")
         checked = {
             "positions": positions,
             "springs": springs,
@@ -139,7 +140,7 @@ class MassSpringSystem:
             "velocities": shaped("velocities", finite("velocities", self.velocities, "m/s"), (n, d)),
             "pulls": shaped("pulls", pulls, (n, d)),
             "fixed": shaped("fixed", truths("fixed", self.fixed, "mass"), (n,)),
-            "broken": shaped("broken", truths("broken", self.broken if np.any(self.broken) else False, "spring"), (s,)),
+            "broken": shaped("broken", broken if broken.any() else np.zeros(1, dtype=bool), (s,)),
         }
         object.__setattr__(self, "drag", float(in_range("drag", self.drag, (), "N s/m")))
         for name, array in checked.items():

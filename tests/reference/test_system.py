@@ -192,6 +192,7 @@ def test_bad_input_is_refused_in_one_line(fields: dict[str, Any], message: str) 
 
 @property_test
 @example("pulls", [[], [0.0]])
+@example("broken", [[], [0.0]])
 @given(
     name=st.sampled_from([f.name for f in dataclasses.fields(MassSpringSystem)]),
     value=st.one_of(
