@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
-from engines.process.isolation import EngineStepper, in_this_process, isolated
+from engines.process.isolation import EngineStepper, in_this_process
 from experiments.limits.perturbed import rest_of_scheme
+from experiments.runs.elsewhere import elsewhere
 from experiments.runs.task import digest
 from reference.identification import Identification, identify_all
 from reference.limit import Limit
@@ -102,15 +102,12 @@ def limits_of_engines(
 def limits_of_engines_elsewhere(
     system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]]
 ) -> list[tuple[Identification, Limit]]:
-    """The same, found in another process, while this one is at something else.
-
-    Here after all where a stepper cannot travel there, or no answer comes: then it is told here what is wrong.
-    """
-    if runs and not any(engine.isolate is in_this_process for engine, _ in runs):
-        found = isolated(limits_of_engines, system, runs, time_limit=math.inf, memory_limit=math.inf)
-        if not isinstance(found, Outcome):
-            return found
-    return limits_of_engines(system, runs) if runs else []
+    """The same, found in another process, while this one is at something else; here where a stepper cannot travel."""
+    if not runs:
+        return []
+    if any(engine.isolate is in_this_process for engine, _ in runs):
+        return limits_of_engines(system, runs)
+    return elsewhere(limits_of_engines, system, runs)
 
 
 def named(found: Identification) -> SchemeStepper | None:

@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from experiments.runs.elsewhere import elsewhere
 from experiments.runs.progress import Progress
 from experiments.runs.room import check_room
+from experiments.runs.runner import current
 from experiments.runs.side_by_side import side_by_side
 from reference.changes import Change
 from reference.errors import SolverError
@@ -124,14 +126,16 @@ def compare(
     steps = setup.steps
     kept = [s for s in steppers if patient or not too_slow(s, setup.system)]
     check_room(kept, setup.system, steps, beside=1)
-    progress("true motion")
-    true, why_not = true_motion(setup.system, setup.dt, steps, setup.changes)
 
     def task(stepper: Stepper) -> Outcome:
         left_out = None if patient else too_slow(stepper, setup.system)
         return left_out or stepper.run(setup.system, setup.dt, steps, setup.changes)
 
-    outcomes = list(side_by_side(steppers, task, progress))
+    with current().threads(1) as beside:
+        truth = beside.submit(elsewhere, true_motion, setup.system, setup.dt, steps, setup.changes)
+        outcomes = list(side_by_side(steppers, task, progress))
+        progress("true motion")
+        true, why_not = truth.result()
     progress("catalogue of schemes")
     identified = identify_all(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []

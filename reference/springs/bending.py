@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
+from reference.checked_numbers import finite
 from reference.checked_springs import IntArray
 from reference.springs.angular import AngularSprings
 from reference.system import MassSpringSystem
@@ -21,10 +22,11 @@ def with_bending(system: MassSpringSystem, stiffness: npt.ArrayLike) -> MassSpri
     Raises:
         InputError: as a system does.
     """
-    if not np.any(stiffness):
+    bending = finite("bending", stiffness, "N m/rad")
+    if not bending.any():
         return system
     masses = at_every_middle(system.springs, len(system.masses))
-    return replace(system, angular_springs=AngularSprings(masses, np.asarray(stiffness, dtype=float)))
+    return replace(system, angular_springs=AngularSprings(masses, bending))
 
 
 def at_every_middle(springs: IntArray, count: int) -> IntArray:

@@ -135,6 +135,9 @@ def setup_options(command: Command) -> Command:
         sines: Any,
         **others: Any,
     ) -> Any:
+        from engines.process.worker import start_beforehand
+
+        start_beforehand()
         from reference.files.setup import setup_for
 
         _refuse_stepper(scene)

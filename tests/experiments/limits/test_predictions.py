@@ -48,16 +48,13 @@ def test_engines_are_predicted_in_another_process(monkeypatch: pytest.MonkeyPatc
 
 
 def test_a_stepper_that_cannot_travel_is_predicted_here(monkeypatch: pytest.MonkeyPatch) -> None:
-    """And so is one about which no answer comes from there: it is told here what is wrong."""
-    here = replace(ENGINE, isolate=in_this_process)
-    runs = runs_of(here)
-    monkeypatch.setattr(predictions, "isolated", fails)
+    """As one that runs in this process."""
+    runs = runs_of(replace(ENGINE, isolate=in_this_process))
+    monkeypatch.setattr(predictions, "elsewhere", fails)
     assert [found.identified_as for found, _ in limits_of_engines_elsewhere(SYSTEM, runs)] == ["kick_drift"]
-    monkeypatch.setattr(predictions, "isolated", lambda *_, **__: Outcome("crashed", "no memory"))
-    assert [found.identified_as for found, _ in limits_of_engines_elsewhere(SYSTEM, runs_of(ENGINE))] == ["kick_drift"]
 
 
 def test_no_process_is_asked_about_no_engines(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where schemes alone are asked for."""
-    monkeypatch.setattr(predictions, "isolated", fails)
+    monkeypatch.setattr(predictions, "elsewhere", fails)
     assert limits_of_engines_elsewhere(SYSTEM, []) == []

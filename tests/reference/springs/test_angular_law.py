@@ -337,3 +337,13 @@ def test_an_angular_spring_goes_with_the_spring_along_its_arm(dimension: int) ->
     for springs, goes in cases:
         held = replace(system, springs=np.array(springs), **one).with_parameter("break", [0])
         assert (angular_of(held).stiffness == 0).all() == goes, springs
+
+
+@pytest.mark.parametrize("stiffness", [[[], [0.0]], "stiff", float("nan"), -1.0, [1.0, 2.0]], ids=str)
+def test_stiffness_that_is_none_is_refused(stiffness: Any) -> None:
+    """In one line that names it; zero and nothing leave the system as it was."""
+    string = find_scene("string").system({})
+    with pytest.raises(InputError, match=r"bending = |angular_springs\.stiffness"):
+        with_bending(string, stiffness)
+    assert with_bending(string, 0.0) is string
+    assert with_bending(string, []) is string
