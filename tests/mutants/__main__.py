@@ -12,16 +12,14 @@ from collections.abc import Sequence
 from itertools import zip_longest
 from pathlib import Path
 
+from tests.mutants.calls import Calls
 from tests.mutants.equivalent import entry_of, equivalents, is_meant
 from tests.mutants.kinds import KINDS
 from tests.mutants.mutations import Mutant, mutants
-from tests.mutants.verdicts import Judge, Verdict
+from tests.mutants.verdicts import MISSED, Judge, Verdict
 
 ROOT = Path(__file__).parents[2]
 ROOMS = ("reference", "engines", "experiments", "report")
-
-#: What is found of mutants that no test notices.
-MISSED = ("survived", "not covered")
 
 
 def sample(root: Path, places: Sequence[str], count: int, seed: int) -> list[Mutant]:
@@ -71,7 +69,7 @@ def main(words: Sequence[str], root: Path = ROOT) -> int:
         return 0
     # so that nothing is left of a run that is ended from outside
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    begin, judge = time.monotonic(), Judge(root)
+    begin, judge = time.monotonic(), Judge(root, Calls.kept() if root == ROOT else Calls())
 
     def told(mutant: Mutant, verdict: Verdict) -> None:
         what = described(mutant) if verdict in MISSED else described(mutant).splitlines()[0]

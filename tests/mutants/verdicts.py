@@ -1,4 +1,4 @@
-"""Whether the tests near a mutant notice it."""
+"""Whether the tests that call what a mutant changes, and those near it, notice it."""
 
 from __future__ import annotations
 
@@ -11,12 +11,14 @@ from tempfile import TemporaryDirectory
 from threading import Event
 from typing import Literal
 
+from tests.mutants.calls import Calls
 from tests.mutants.mutations import Mutant
 from tests.mutants.near import Imports, engines_of
 from tests.mutants.project_copy import ProjectCopy, TestRun
 
 #: What is found of a mutant. Timed out counts as killed; not covered as survived.
 Verdict = Literal["killed", "timed out", "survived", "not covered"]
+MISSED: tuple[Verdict, ...] = ("survived", "not covered")
 
 #: What all tests of a mutant take together at most; a file that takes longer judges none [s on a processor].
 ALL = 45.0
@@ -31,10 +33,12 @@ class Judge:
 
     Attributes:
         root: of the project.
+        calls: which tests call which of its functions, as far as that is known.
         failing: test files that fail without any mutant, with the end of what they print. They judge nothing.
     """
 
     root: Path
+    calls: Calls = field(default_factory=Calls)
     failing: dict[str, str] = field(default_factory=dict)
     _runs: dict[tuple[str, tuple[str, ...]], TestRun] = field(default_factory=dict)
 
@@ -51,7 +55,10 @@ class Judge:
             def judged(mutant: Mutant) -> Verdict:
                 copy = copies.get()
                 try:
-                    verdict = self._verdict(copy, mutant, imports.near(mutant.file))
+                    source = (self.root / mutant.file).read_text(encoding="utf-8")
+                    verdict = self._by_calls(copy, mutant, self.calls.of(mutant, source))
+                    if verdict in MISSED:
+                        verdict = self._verdict(copy, mutant, imports.near(mutant.file), verdict)
                 finally:
                     copies.put(copy)
                 told(mutant, verdict)
@@ -65,13 +72,34 @@ class Judge:
                     pool.shutdown(cancel_futures=True)
                     raise
 
-    def _verdict(self, copy: ProjectCopy, mutant: Mutant, near: Sequence[str]) -> Verdict:
+    def _by_calls(self, copy: ProjectCopy, mutant: Mutant, calling: Sequence[tuple[str, float]]) -> Verdict:
+        """By the quickest tests that call the function, all at once; those that fail without the mutant judge none."""
+        tests: list[str] = []
+        left = ALL
+        for test, seconds in calling:
+            left -= seconds
+            if left > 0:
+                tests.append(test)
+        while tests:
+            with copy.mutated(mutant):
+                run = copy.run(tests, ("--all-cases",), TIMES * ALL)
+            if run.passed:
+                return "survived"
+            failed = [test for test in tests if _failed(test, run)] or tests
+            if self._unmutated(copy, failed, ("--all-cases",)).passed:
+                return "killed" if run.in_time else "timed out"
+            tests = [test for test in tests if test not in failed]
+        return "not covered"
+
+    def _verdict(self, copy: ProjectCopy, mutant: Mutant, near: Sequence[str], verdict: Verdict) -> Verdict:
         """The nearest test first: what a test does without the mutant is asked only where it fails with it.
 
         Cases that take turns are all run: what kills a mutant kills it on every day.
+
+        Args:
+            verdict: of those before.
         """
         options = ("--all-cases", *(f"--engine={name}" for name in engines_of(mutant.file)))
-        verdict: Verdict = "not covered"
         left = ALL
         for test in near:
             known = self._runs.get((test, options))
@@ -94,7 +122,7 @@ class Judge:
         self, copy: ProjectCopy, mutant: Mutant, test: str, options: tuple[str, ...], run: TestRun
     ) -> TestRun | None:
         """The run of a test file if it tells of the mutant, again if it had too little time; None if it judges none."""
-        without = self._unmutated(copy, test, options)
+        without = self._unmutated(copy, [test], options)
         if not without.passed:
             return None
         if run.in_time or _limit(without) <= ALL:
@@ -102,15 +130,21 @@ class Judge:
         with copy.mutated(mutant):
             return copy.run([test], options, _limit(without))
 
-    def _unmutated(self, copy: ProjectCopy, test: str, options: tuple[str, ...]) -> TestRun:
-        """What comes of a test file without any mutant: what takes long is tried again, as it may have compiled."""
-        key = (test, options)
+    def _unmutated(self, copy: ProjectCopy, tests: Sequence[str], options: tuple[str, ...]) -> TestRun:
+        """What comes of tests without any mutant: what takes long is tried again, as it may have compiled."""
+        key = (" ".join(tests), options)
         if key not in self._runs:
-            run = copy.run([test], options, 3 * ALL)
-            self._runs[key] = copy.run([test], options, ALL) if run.passed and run.used > ALL else run
+            run = copy.run(tests, options, 3 * ALL)
+            self._runs[key] = copy.run(tests, options, ALL) if run.passed and run.used > ALL else run
             if not run.passed and run.in_time:
-                self.failing[test] = run.said
+                self.failing[key[0]] = run.said
         return self._runs[key]
+
+
+def _failed(test: str, run: TestRun) -> bool:
+    """Whether a run says of a test that it failed, or could not begin."""
+    lines = run.said.splitlines()
+    return any(f"{line} ".startswith((f"FAILED {test} ", f"ERROR {test} ")) for line in lines)
 
 
 def _limit(without: TestRun) -> float:
