@@ -9,7 +9,6 @@ mass, and one (2 d, 2 d) block says it all.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -123,19 +122,72 @@ def assemble(system: MassSpringSystem, blocks: Blocks, sparse: bool | None = Non
     A NumPy array where that is small, else a SciPy sparse matrix; `sparse` insists on one of them.
     """
     d = system.dimension
-    size = int((~system.fixed).sum()) * d
-    pattern = _small_pattern(system) if size <= DENSE_UP_TO else _pattern(system)
-    own = blocks.masses[pattern.free, None, None] * np.eye(d)
-    values = [blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own]
+    size = int(np.count_nonzero(~system.fixed)) * d
+    three, of_three = np.zeros((0, 3), dtype=np.int64), np.zeros((0, d, d))
     if system.angular_springs is not None:
-        values.append(_of_three(system.angular_springs, blocks.angles, d))
-    entries = np.concatenate(values)[pattern.kept].ravel()
+        three, of_three = system.angular_springs.masses, _of_three(system.angular_springs, blocks.angles, d)
     if sparse if sparse is not None else size > DENSE_UP_TO:
-        from scipy.sparse import coo_array
+        return _sparse(system, blocks, three, of_three)
+    matrix = np.zeros((size, size))
+    _add_blocks(system.fixed, system.springs, blocks.springs, blocks.masses, three, of_three, matrix)
+    return matrix
 
-        return coo_array((entries, (pattern.rows, pattern.columns)), shape=(size, size)).tocsc()
-    # entries of one place are added in their order
-    return np.bincount(pattern.places, entries, size**2).reshape(size, size)
+
+def add_blocks(
+    fixed: BoolArray,
+    springs: IntArray,
+    of_springs: Array,
+    of_masses: Array,
+    three: IntArray,
+    of_three: Array,
+    out: Array,
+) -> None:
+    """Add all blocks to a dense matrix of zeros: those at one place in the order in which a sparse one lists them."""
+    d = of_springs.shape[1]
+    row = np.full(len(fixed), -1)
+    free = 0
+    for i in range(len(fixed)):
+        if not fixed[i]:
+            row[i] = free * d
+            free += 1
+    for first, second, sign in ((0, 1, 1.0), (1, 0, 1.0), (0, 0, -1.0), (1, 1, -1.0)):
+        for j in range(len(springs)):
+            a, b = row[springs[j, first]], row[springs[j, second]]
+            if a >= 0 and b >= 0:
+                for axis in range(d):
+                    for other in range(d):
+                        out[a + axis, b + other] += sign * of_springs[j, axis, other]
+    for i in range(len(fixed)):
+        if row[i] >= 0:
+            for axis in range(d):
+                out[row[i] + axis, row[i] + axis] -= of_masses[i]
+    for k in range(len(of_three)):
+        a, b = row[three[k // 9, k % 9 // 3]], row[three[k // 9, k % 3]]
+        if a >= 0 and b >= 0:
+            for axis in range(d):
+                for other in range(d):
+                    out[a + axis, b + other] += of_three[k, axis, other]
+
+
+def _sparse(system: MassSpringSystem, blocks: Blocks, three: IntArray, of_three: Array) -> Any:
+    """The same as a SciPy sparse matrix."""
+    from scipy.sparse import coo_array
+
+    n, d = system.positions.shape
+    free = np.flatnonzero(~system.fixed)
+    index = np.full(n, -1)
+    index[free] = np.arange(len(free))
+    a, b = index[system.springs.T]
+    of_angles = index[three]
+    # at (a, b), (b, a), (a, a), (b, b), then each mass's own, then the nine of every angular spring
+    i = np.concatenate([a, b, a, b, np.arange(len(free)), np.repeat(of_angles, 3)])
+    j = np.concatenate([b, a, a, b, np.arange(len(free)), np.tile(of_angles, 3).ravel()])
+    own = blocks.masses[free, None, None] * np.eye(d)
+    values = np.concatenate([blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own, of_three])
+    kept, axes = (i >= 0) & (j >= 0), np.arange(d)
+    rows = np.broadcast_to((i[kept, None] * d + axes)[:, :, None], (kept.sum(), d, d)).ravel()
+    columns = np.broadcast_to((j[kept, None] * d + axes)[:, None, :], (kept.sum(), d, d)).ravel()
+    return coo_array((values[kept].ravel(), (rows, columns)), shape=(len(free) * d, len(free) * d)).tocsc()
 
 
 def _of_three(springs: AngularSprings, angles: Array, d: int) -> Array:
@@ -147,52 +199,6 @@ def _of_three(springs: AngularSprings, angles: Array, d: int) -> Array:
     arms = np.kron([[1.0, -1.0, 0.0], [0.0, -1.0, 1.0]], np.eye(d))
     whole = arms.T @ np.broadcast_to(angles, (k, 2 * d, 2 * d)) @ arms
     return whole.reshape(k, 3, d, 3, d).transpose(0, 1, 3, 2, 4).reshape(-1, d, d)
-
-
-@dataclass(frozen=True, eq=False)
-class _Pattern:
-    """Where the entries of blocks are in the matrix.
-
-    Attributes:
-        free: the free masses.
-        kept: which of the blocks (at (a, b), (b, a), (a, a), (b, b), then each mass's own, then the nine of every
-            angular spring) are of free masses.
-        rows, columns: of all entries of those, block after block.
-        size: how many of either there are.
-    """
-
-    free: IntArray
-    kept: BoolArray
-    rows: IntArray
-    columns: IntArray
-    size: int
-
-    @cached_property
-    def places(self) -> IntArray:
-        """Of the same entries, row after row."""
-        return self.rows * self.size + self.columns
-
-
-def _pattern(system: MassSpringSystem) -> _Pattern:
-    n, d = system.positions.shape
-    free = np.flatnonzero(~system.fixed)
-    index = np.full(n, -1)
-    index[free] = np.arange(len(free))
-    a, b = index[system.springs.T]
-    three = np.zeros((0, 3), dtype=np.int64) if system.angular_springs is None else index[system.angular_springs.masses]
-    i = np.concatenate([a, b, a, b, np.arange(len(free)), np.repeat(three, 3)])
-    j = np.concatenate([b, a, a, b, np.arange(len(free)), np.tile(three, 3).ravel()])
-    kept = (i >= 0) & (j >= 0)
-    axes = np.arange(d)
-    rows = np.broadcast_to((i[kept, None] * d + axes)[:, :, None], (kept.sum(), d, d)).ravel()
-    columns = np.broadcast_to((j[kept, None] * d + axes)[:, None, :], (kept.sum(), d, d)).ravel()
-    return _Pattern(free, kept, rows, columns, len(free) * d)
-
-
-@lru_cache(maxsize=16)
-def _small_pattern(system: MassSpringSystem) -> _Pattern:
-    """The same, kept: an implicit scheme asks for that of a small system thousands of times."""
-    return _pattern(system)
 
 
 def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> Array:
@@ -207,18 +213,18 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
     """
     free = ~system.fixed
     many = right.ndim == 3
+    size = int(np.count_nonzero(free)) * system.dimension
     # the iteration knows blocks of springs only
-    large = free.sum() * system.dimension >= ITERATE_FROM and not many and system.angular_springs is None
+    large = size >= ITERATE_FROM and not many and system.angular_springs is None
     found = _by_iteration(system, blocks, right) if large else None
     if found is not None:
         return found
     mass = np.repeat(system.masses[free], system.dimension)
     matrix = assemble(system, -1.0 * blocks, sparse=False if many else None)
-    momentum = (mass * right[free].reshape(len(mass), -1).T).T
+    momentum = (mass * right[free].reshape(size, *right.shape[2:]).T).T
     result = np.zeros_like(right)
     if isinstance(matrix, np.ndarray):
-        diagonal = np.einsum("ii->i", matrix)  # a view
-        diagonal += mass
+        matrix.flat[:: size + 1] += mass  # the diagonal
         try:
             solution = np.linalg.solve(matrix, momentum)
         except np.linalg.LinAlgError:
@@ -279,6 +285,7 @@ def matrix_vector_product(
 
 
 (_matrix_vector_product,) = compiled(matrix_vector_product)
+(_add_blocks,) = compiled(add_blocks)
 
 
 def _outer(u: Array, w: Array) -> Array:
