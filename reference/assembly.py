@@ -121,56 +121,49 @@ def assemble(system: MassSpringSystem, blocks: Blocks, sparse: bool | None = Non
 
     A NumPy array where that is small, else a SciPy sparse matrix; `sparse` insists on one of them.
     """
-    d = system.dimension
-    size = int(np.count_nonzero(~system.fixed)) * d
-    three, of_three = np.zeros((0, 3), dtype=np.int64), np.zeros((0, d, d))
-    if system.angular_springs is not None:
-        three, of_three = system.angular_springs.masses, _of_three(system.angular_springs, blocks.angles, d)
+    d, n = system.dimension, len(system.masses)
+    size = (n - int(np.count_nonzero(system.fixed))) * d
     if sparse if sparse is not None else size > DENSE_UP_TO:
-        return _sparse(system, blocks, three, of_three)
-    matrix = np.zeros((size, size))
-    _add_blocks(system.fixed, system.springs, blocks.springs, blocks.masses, three, of_three, matrix)
+        return _sparse(system, blocks)
+    index, matrix = np.empty(n, dtype=np.int64), np.zeros((size, size))
+    _add_blocks(system.fixed, system.springs, blocks.springs, blocks.masses, index, matrix)
+    if system.angular_springs is not None:
+        i, j = _pairs(index[system.angular_springs.masses])
+        kept = (i >= 0) & (j >= 0)
+        of_three = _of_three(system.angular_springs, blocks.angles, d)
+        np.add.at(matrix.reshape(-1, d, size // d, d).swapaxes(1, 2), (i[kept], j[kept]), of_three[kept])
     return matrix
 
 
 def add_blocks(
-    fixed: BoolArray,
-    springs: IntArray,
-    of_springs: Array,
-    of_masses: Array,
-    three: IntArray,
-    of_three: Array,
-    out: Array,
+    fixed: BoolArray, springs: IntArray, of_springs: Array, of_masses: Array, index: IntArray, out: Array
 ) -> None:
-    """Add all blocks to a dense matrix of zeros: those at one place in the order in which a sparse one lists them."""
-    d = of_springs.shape[1]
-    row = np.full(len(fixed), -1)
-    free = 0
+    """Add blocks to a dense matrix of zeros, those of one place in the order in which `_sparse` has them.
+
+    Args:
+        index: written, where each mass is among the free ones; -1 for fixed ones.
+    """
+    d, free = of_springs.shape[1], 0
     for i in range(len(fixed)):
-        if not fixed[i]:
-            row[i] = free * d
-            free += 1
-    for first, second, sign in ((0, 1, 1.0), (1, 0, 1.0), (0, 0, -1.0), (1, 1, -1.0)):
+        index[i] = -1 if fixed[i] else free
+        free += 0 if fixed[i] else 1
+    for end in range(2):
         for j in range(len(springs)):
-            a, b = row[springs[j, first]], row[springs[j, second]]
-            if a >= 0 and b >= 0:
-                for axis in range(d):
-                    for other in range(d):
-                        out[a + axis, b + other] += sign * of_springs[j, axis, other]
-    for i in range(len(fixed)):
-        if row[i] >= 0:
-            for axis in range(d):
-                out[row[i] + axis, row[i] + axis] -= of_masses[i]
-    for k in range(len(of_three)):
-        a, b = row[three[k // 9, k % 9 // 3]], row[three[k // 9, k % 3]]
-        if a >= 0 and b >= 0:
+            a, b = index[springs[j, end]], index[springs[j, 1 - end]]
             for axis in range(d):
                 for other in range(d):
-                    out[a + axis, b + other] += of_three[k, axis, other]
+                    if a >= 0:
+                        out[a * d + axis, a * d + other] -= of_springs[j, axis, other]
+                    if a >= 0 and b >= 0:
+                        out[a * d + axis, b * d + other] += of_springs[j, axis, other]
+    for i in range(len(fixed)):
+        for axis in range(d):
+            if not fixed[i]:
+                out[index[i] * d + axis, index[i] * d + axis] -= of_masses[i]
 
 
-def _sparse(system: MassSpringSystem, blocks: Blocks, three: IntArray, of_three: Array) -> Any:
-    """The same as a SciPy sparse matrix."""
+def _sparse(system: MassSpringSystem, blocks: Blocks) -> Any:
+    """The same as a SciPy sparse matrix; entries of one place are added in their order."""
     from scipy.sparse import coo_array
 
     n, d = system.positions.shape
@@ -178,16 +171,24 @@ def _sparse(system: MassSpringSystem, blocks: Blocks, three: IntArray, of_three:
     index = np.full(n, -1)
     index[free] = np.arange(len(free))
     a, b = index[system.springs.T]
-    of_angles = index[three]
-    # at (a, b), (b, a), (a, a), (b, b), then each mass's own, then the nine of every angular spring
-    i = np.concatenate([a, b, a, b, np.arange(len(free)), np.repeat(of_angles, 3)])
-    j = np.concatenate([b, a, a, b, np.arange(len(free)), np.tile(of_angles, 3).ravel()])
-    own = blocks.masses[free, None, None] * np.eye(d)
-    values = np.concatenate([blocks.springs, blocks.springs, -blocks.springs, -blocks.springs, -own, of_three])
+    own = np.arange(len(free))
+    i, j = np.concatenate([a, b, a, b, own]), np.concatenate([b, a, a, b, own])
+    values = [blocks.springs, blocks.springs, -blocks.springs, -blocks.springs]
+    values.append(-blocks.masses[free, None, None] * np.eye(d))
+    if system.angular_springs is not None:
+        of_angles = _pairs(index[system.angular_springs.masses])
+        i, j = np.concatenate([i, of_angles[0]]), np.concatenate([j, of_angles[1]])
+        values.append(_of_three(system.angular_springs, blocks.angles, d))
     kept, axes = (i >= 0) & (j >= 0), np.arange(d)
     rows = np.broadcast_to((i[kept, None] * d + axes)[:, :, None], (kept.sum(), d, d)).ravel()
     columns = np.broadcast_to((j[kept, None] * d + axes)[:, None, :], (kept.sum(), d, d)).ravel()
-    return coo_array((values[kept].ravel(), (rows, columns)), shape=(len(free) * d, len(free) * d)).tocsc()
+    entries = np.concatenate(values)[kept].ravel()
+    return coo_array((entries, (rows, columns)), shape=(len(free) * d, len(free) * d)).tocsc()
+
+
+def _pairs(three: IntArray) -> tuple[IntArray, IntArray]:
+    """Of three masses each, shape (k, 3), the two of each of nine blocks, row by row: shape (9 k,) each."""
+    return np.repeat(three, 3), np.tile(three, 3).ravel()
 
 
 def _of_three(springs: AngularSprings, angles: Array, d: int) -> Array:
