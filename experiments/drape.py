@@ -12,6 +12,7 @@ areas all. Stiffness is the bending length c, whose third power is rigidity over
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from itertools import pairwise
 from math import pi, sqrt
 from typing import Any
@@ -25,7 +26,7 @@ from experiments.runs.progress import Progress
 from experiments.runs.runner import answer, current
 from reference.outcome import Outcome
 from reference.scenes import find
-from reference.scenes.drape import STANDARD_GRAVITY, Disc, disc
+from reference.scenes.drape import STANDARD_GRAVITY, disc
 from reference.state import Array
 from reference.system import IntArray, MassSpringSystem
 
@@ -79,7 +80,7 @@ def hung(bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
 
     system, dt = cloth(bending_length, spacing, sample)
     kernel = Kernel(system, find_scheme("kick_drift"))
-    return _at_rest(system, lambda: kernel.advance(dt, round(LOOK / dt)), kernel.state, disc(RADIUS, spacing, sample))
+    return _at_rest(lambda: kernel.advance(dt, round(LOOK / dt)), kernel.state, spacing, sample)
 
 
 def hung_in(engine: Engine, bending_length: float, spacing: float, sample: int) -> dict[str, Any]:
@@ -91,11 +92,11 @@ def hung_in(engine: Engine, bending_length: float, spacing: float, sample: int) 
         for _ in range(round(LOOK / dt)):
             simulation.step()
 
-    return _at_rest(system, advance, simulation.state, disc(RADIUS, spacing, sample))
+    return _at_rest(advance, simulation.state, spacing, sample)
 
 
 def _at_rest(
-    system: MassSpringSystem, advance: Callable[[], object], state: Callable[[], tuple[Array, Array]], cut: Disc
+    advance: Callable[[], object], state: Callable[[], tuple[Array, Array]], spacing: float, sample: int
 ) -> dict[str, Any]:
     """Advance by LOOK again and again until masses are slower than AT_REST in the mean, or for PATIENCE."""
     time, speed = 0.0, np.inf
@@ -104,19 +105,31 @@ def _at_rest(
         time += LOOK
         speed = float(np.sqrt((state()[1] ** 2).sum(axis=1).mean()))
     positions = state()[0]
-    return {"positions": positions, "time": time, "speed": speed, **shadow(positions, cut.triangles, system)}
+    fallen = shadow(positions, disc(RADIUS, spacing, sample).triangles, flat_area(spacing, sample))
+    return {"positions": positions, "time": time, "speed": speed, **fallen}
 
 
-def shadow(positions: Array, triangles: IntArray, system: MassSpringSystem) -> dict[str, Any]:
-    """The drape coefficient, and how far the shadow reaches in each of DIRECTIONS [m]."""
-    fallen, flat = (covered(x, triangles) for x in (positions, system.positions))
+@cache
+def flat_area(spacing: float, sample: int) -> float:
+    """What a cloth covers before it falls [m^2], however stiff it is."""
+    system, _ = cloth(LENGTHS[0], spacing, sample)
+    return float(covered(system.positions, disc(RADIUS, spacing, sample).triangles).area)
+
+
+def shadow(positions: Array, triangles: IntArray, flat: float) -> dict[str, Any]:
+    """The drape coefficient, and how far the shadow reaches in each of DIRECTIONS [m].
+
+    Args:
+        flat: what the cloth covers before it falls [m^2].
+    """
+    fallen = covered(positions, triangles)
     inner = pi * SUPPORT**2
     edge = np.concatenate([np.array(part.exterior.coords) for part in getattr(fallen, "geoms", [fallen])])
     angles, reach = np.arctan2(edge[:, 1], edge[:, 0]), np.hypot(edge[:, 0], edge[:, 1])
     order = np.argsort(angles, kind="stable")
     round_about = np.linspace(-pi, pi, DIRECTIONS, endpoint=False)
     outline = np.interp(round_about, angles[order], reach[order], period=2 * pi)
-    return {"coefficient": float((fallen.area - inner) / (flat.area - inner)), "outline": outline}
+    return {"coefficient": float((fallen.area - inner) / (flat - inner)), "outline": outline}
 
 
 def covered(positions: Array, triangles: IntArray) -> Any:

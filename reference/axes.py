@@ -43,12 +43,15 @@ def across(axis: Axes) -> Axes:
 
 def axes_of(vectors: Array) -> Axes:
     """Vectors (..., d) as d arrays (...)."""
-    return list(np.moveaxis(vectors, -1, 0))
+    return [vectors[..., i] for i in range(vectors.shape[-1])]
 
 
 def vectors_of(axes: Axes, like: Array) -> Array:
     """The reverse of `axes_of`, in the shape of an array."""
-    return np.stack(np.broadcast_arrays(*axes, like[..., 0])[:-1], axis=-1)
+    vectors = np.empty_like(like, order="C")
+    for i, entries in enumerate(axes):
+        vectors[..., i] = entries
+    return vectors
 
 
 def downwards(gravity: Array, dimension: int) -> Array:

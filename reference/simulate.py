@@ -10,11 +10,12 @@ from reference.changes import Change, applied, changes_by_step, whole_steps
 from reference.collisions.impacts import collide
 from reference.compiled.in_place import step_of
 from reference.forces import SpringMotion
+from reference.jit import compiled
 from reference.motion import EquationsOf
 from reference.obstacles import project_out
 from reference.schemes.catalogue import Scheme
 from reference.springs.breaking import after_breaking
-from reference.state import State, Trajectory
+from reference.state import Array, State, Trajectory
 from reference.system import MassSpringSystem
 
 
@@ -60,7 +61,7 @@ def simulate(
                 system = left
                 motion = equations(system)
                 step = step_of(scheme, motion, steps - i)
-            if not (np.isfinite(state.positions).all() and np.isfinite(state.velocities).all()):
+            if not (_all_finite(state.positions) and _all_finite(state.velocities)):
                 break
         return motion.trajectory(states)
 
@@ -76,3 +77,14 @@ def projected(system: MassSpringSystem, state: State, time: float) -> State:
     if system.collisions is not None:
         x, v = collide(system.collisions, np.where(system.fixed, 0.0, 1 / system.masses), x, v)
     return State(time, x, v, state.memory)
+
+
+def all_finite(numbers: Array) -> bool:
+    """Whether all are numbers, of an array of any shape: after every step that is asked, of few numbers mostly."""
+    found = True
+    for number in numbers.flat:
+        found &= np.isfinite(number)
+    return found
+
+
+(_all_finite,) = compiled(all_finite)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from experiments import drape
-from experiments.drape import DIRECTIONS, able, cloth, covered, folds, hung, hung_in, shadow
+from experiments.drape import DIRECTIONS, able, cloth, covered, flat_area, folds, hung, hung_in, shadow
 from reference.scenes.drape import disc
 from reference.state import Array
 from reference.system import IntArray
@@ -44,10 +44,10 @@ def test_a_flat_cloth_has_coefficient_one_and_one_hung_straight_down_none() -> N
     """The limits: DC = 1; and of masses pulled in to the disc's edge, 0 to the raggedness of that edge."""
     system, _ = cloth(0.017, 0.006, 0)
     triangles = disc(drape.RADIUS, 0.006, 0).triangles
-    assert shadow(system.positions, triangles, system)["coefficient"] == 1.0
+    assert shadow(system.positions, triangles, flat_area(0.006, 0))["coefficient"] == 1.0
     r = np.hypot(*system.positions[:, [0, 2]].T)
     pulled = system.positions * np.minimum(1.0, drape.SUPPORT / np.maximum(r, 1e-9))[:, None]
-    assert shadow(pulled, triangles, system)["coefficient"] == pytest.approx(0.0, abs=0.02)
+    assert shadow(pulled, triangles, flat_area(0.006, 0))["coefficient"] == pytest.approx(0.0, abs=0.02)
 
 
 def test_the_outline_is_how_far_the_shadow_reaches_in_each_direction() -> None:
@@ -56,7 +56,7 @@ def test_the_outline_is_how_far_the_shadow_reaches_in_each_direction() -> None:
     triangles = disc(drape.RADIUS, 0.006, 0).triangles
     x, _, z = system.positions.T
     moved = system.positions * np.column_stack([np.where(x > 0, 2.0, 1.0), np.ones(len(x)), np.where(z < 0, 0.5, 1.0)])
-    outline = shadow(moved, triangles, system)["outline"]
+    outline = shadow(moved, triangles, flat_area(0.006, 0))["outline"]
     backwards, down, along, up = outline[[0, DIRECTIONS // 4, DIRECTIONS // 2, 3 * DIRECTIONS // 4]] / drape.RADIUS
     assert (backwards, down, along, up) == pytest.approx((1.0, 0.5, 2.0, 1.0), rel=0.05)
 
