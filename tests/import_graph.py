@@ -91,13 +91,13 @@ def circles(graph: Mapping[str, Collection[str]]) -> list[set[str]]:
 
 def modules_named(source: str, known: Collection[str]) -> set[str]:
     """The modules whose names stand in strings of a source text, docstrings aside; the parts of f-strings, too."""
-    tree = ast.parse(source)
-    prose = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-    strings = [
-        node.value
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in prose
-    ]
+    prose: set[int] = set()
+    strings: list[str] = []
+    for node in ast.walk(ast.parse(source)):  # what an expression is of comes before it
+        if isinstance(node, ast.Expr):
+            prose.add(id(node.value))
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in prose:
+            strings.append(node.value)
     return {_module_of(name, known) for text in strings for name in NAME.findall(text)} - {"", *ROOMS}
 
 
