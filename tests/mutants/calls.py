@@ -138,7 +138,7 @@ class Recorder:
         self._seen[id(code)] = code
 
     def _write_down(self, test: str, seconds: float) -> None:
-        for code in self._seen.values():
+        for code in list(self._seen.values()):  # threads that a test has left go on
             if code.co_filename.startswith(ROOMS):
                 file = Path(code.co_filename).relative_to(ROOT).as_posix()
                 # what stands in brackets within a function is of that function
