@@ -40,6 +40,7 @@ def test_looking_at_engines_imports_no_engine_and_nothing_heavy(code: str) -> No
     assert imported_by(code) == set()
 
 
+@pytest.mark.rotating(3)
 def test_the_look_at_imports_sees_what_is_imported() -> None:
     """Shown to fail: a file that imports Numba at its top is seen to."""
     assert "numba" in imported_by("import reference.forces")

@@ -165,6 +165,7 @@ def test_failures_have_their_reasons_and_cost_nobody_else_his_slope(mixed: list[
     assert stranger.slope == pytest.approx(1, abs=NEAR)
 
 
+@pytest.mark.rotating(3)
 def test_findings_follow_the_slopes(mixed: list[Row]) -> None:
     """All near, and the engine on its scheme's line; one made to be off is named with both numbers; none at all."""
     said = " ".join(result_of(mixed).findings)

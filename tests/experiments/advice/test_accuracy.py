@@ -32,11 +32,13 @@ def check_step(name: str, factor: float = 1.0) -> None:
     assert 0.75 * PART < run.largest_error / SETUP.system.size < 1.2 * PART
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_an_engine_with_the_predicted_step_is_as_near_as_asked() -> None:
     """Kick-drift, of first order."""
     check_step("mujoco_tendons")
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_step_twice_as_long_is_not() -> None:
     """Shown to fail."""
     with pytest.raises(AssertionError):

@@ -105,6 +105,7 @@ def check_row(row: Row, ratio: float) -> None:
     assert row.measured.dt == pytest.approx(closed_form(ratio), rel=precision), row.stepper
 
 
+@pytest.mark.rotating(3)
 def test_engines_blow_up_where_closed_forms_say(ratio: float) -> None:
     """All that are installed, from runs."""
     engines = [EngineStepper(engine) for engine in registry().values() if engine.package not in APART]

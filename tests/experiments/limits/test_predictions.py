@@ -31,6 +31,7 @@ def fails(*_: object) -> None:
     raise AssertionError("called here")
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_engines_are_predicted_in_another_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is replaced here is not replaced there, and the answer is kick-drift's limit, dt = 2 / w.
 
@@ -47,6 +48,7 @@ def test_engines_are_predicted_in_another_process(monkeypatch: pytest.MonkeyPatc
         limits_of_engines(SYSTEM, runs)
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_stepper_that_cannot_travel_is_predicted_here(monkeypatch: pytest.MonkeyPatch) -> None:
     """As one that runs in this process."""
     runs = runs_of(replace(ENGINE, isolate=in_this_process))

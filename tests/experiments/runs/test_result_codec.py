@@ -55,6 +55,7 @@ def there_and_back(answer: Any) -> Any:
         return decode(json.loads(json.dumps(document, allow_nan=False)), dict(opened))
 
 
+@pytest.mark.rotating(3)
 @property_test
 @given(answers)
 def test_an_answer_comes_back_bit_for_bit(answer: Any) -> None:

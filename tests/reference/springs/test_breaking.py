@@ -46,6 +46,7 @@ def slowly_loaded(system: MassSpringSystem, dt: float, duration: float) -> tuple
     return simulate(system, find("kick_drift"), dt, duration, changes), changes
 
 
+@pytest.mark.rotating(3)
 def test_a_chain_breaks_where_its_tension_is_largest() -> None:
     """At the top, which carries all: where gravity grows slowly, once it is F / (n m), and all that is below falls.
 

@@ -33,6 +33,7 @@ def damped_string() -> Equilibrium:
     return spring_equilibrium(find_scene("string").system({"masses": 2, "damping": 0.5}))
 
 
+@pytest.mark.rotating(3)
 def test_a_solver_that_gives_up_is_told_as_that_and_not_as_a_limit() -> None:
     """Predicted, up to where it was computed; measured, up to where it ran."""
     rest = damped_string()

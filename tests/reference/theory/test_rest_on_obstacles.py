@@ -100,6 +100,7 @@ def test_what_slides_off_is_on_no_rest() -> None:
         spring_equilibrium(system)
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_a_block_is_carried_by_the_floor() -> None:
     """The contacts' forces are its weight together, and none pulls."""
     rest, about = equilibrium_on_obstacles(find_scene("drop").system({}))

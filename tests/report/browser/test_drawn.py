@@ -67,6 +67,7 @@ def test_plots_have_axes_before_the_first_step(browser: Any, page: Path) -> None
     shown.page.close()
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_all_schemes_and_scenes_have_german_descriptions(browser: Any, page: Path) -> None:
     """English ones are the catalogue's own; what has none in German would be shown in English."""
     german = WORDS["de"]

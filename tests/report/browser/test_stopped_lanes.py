@@ -61,6 +61,7 @@ def test_where_a_solver_gives_up_it_says_why_that_is_no_instability(
     page.close()
 
 
+@pytest.mark.rotating(7, in_turn=True)
 def test_where_an_explosion_came_first_the_way_back_is_before_that(browser: Any, file: Path) -> None:
     """Euler alone, which solves nothing, explodes."""
     shown = opened(browser, file, "s=string&w=euler&dt=0.02&n=3000")

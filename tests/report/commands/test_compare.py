@@ -95,6 +95,7 @@ def test_the_scene_is_the_string_unless_another_is_named() -> None:
     assert all(name in said.out for name in ("heun", "rk4"))
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(("name", "scheme"), IDENTIFIED.items())
 def test_every_engine_of_the_issue_is_identified_within_1e12(name: str, scheme: str) -> None:
     """On the default string: max |x_engine - x_scheme| <= 1e-12 m, of all masses over 500 steps."""

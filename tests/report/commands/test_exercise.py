@@ -47,3 +47,15 @@ def test_several_files_or_a_table_are_a_class(
     ran = CliRunner().invoke(check_command, [*files, *options], catch_exceptions=False)
     assert ran.exit_code == 0
     assert checked == [expected]
+
+
+@pytest.mark.parametrize(("columns", "width"), [(60, 60), (100, 100), (140, 100)])
+def test_words_are_as_wide_as_the_terminal_and_not_too_wide(
+    columns: int, width: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A word of that width is one line, a longer one is two; what no terminal reads is left as it is."""
+    monkeypatch.setenv("COLUMNS", str(columns))
+    assert exercise._wrapped("a" * 200) == "a" * 200
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    assert exercise._wrapped("a" * width) == "a" * width
+    assert exercise._wrapped("a" * (width + 1)) == "a" * width + "\n  a"

@@ -28,12 +28,14 @@ def drawn(kind: type[Figure], laid_out: bool = True) -> str:
     return file.getvalue()
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_the_bytes_are_matplotlibs_own() -> None:
     """And not those of axes that nobody lays out."""
     assert drawn(LaidOut) == drawn(Figure)
     assert drawn(LaidOut) != drawn(Figure, laid_out=False)
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_figure_that_is_saved_is_drawn_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Matplotlib's twice."""
     count = {LaidOut: 0, Figure: 0}

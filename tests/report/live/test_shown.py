@@ -64,6 +64,7 @@ class Drawn:
         return SimpleNamespace(**how)
 
 
+@pytest.mark.rotating(3)
 @pytest.mark.parametrize(
     ("table", "words", "bars"),
     [

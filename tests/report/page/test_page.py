@@ -59,6 +59,7 @@ def test_the_report_succeeds_and_says_where_it_is(report: Report) -> None:
         assert f"{find(name).title}: " in report.said.out
 
 
+@pytest.mark.rotating(4, in_turn=True)
 def test_the_page_asks_for_nothing(report: Report) -> None:
     """No src, href or url() leads anywhere but into the page."""
     check_self_contained(report.html)

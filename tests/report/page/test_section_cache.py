@@ -75,6 +75,7 @@ def test_what_changes_the_answer_runs_it_again(monkeypatch: pytest.MonkeyPatch, 
     assert len(COUNT) == 2
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_failed_section_is_not_kept(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     """It is run again, and fails again, with exit code 1."""
     put(monkeypatch, replace(find("errata"), run=failing))

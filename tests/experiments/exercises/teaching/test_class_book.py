@@ -186,6 +186,7 @@ def test_a_table_makes_no_folders(tmp_path: Path) -> None:
     assert not gone.exists()
 
 
+@pytest.mark.rotating(3)
 def test_seeds_are_tied_to_students(tmp_path: Path) -> None:
     """One who has another's, by the class list or beside another, is told to the teacher."""
     text = solution("loops", 5)
