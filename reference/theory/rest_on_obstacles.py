@@ -35,6 +35,9 @@ MOST_STEPS = 500
 #: How often it is decided anew which masses touch.
 ROUNDS = 20
 
+#: What rounding leaves of a stiffness, as a part of the largest.
+TRACE = 1e-13
+
 
 def rest_on_obstacles(system: MassSpringSystem) -> tuple[State, Contacts]:
     """The stable state at rest outside all obstacles, downhill from the start, and the contacts that press there.
@@ -183,9 +186,11 @@ def _newton(
         if c:
             contacts = _contacts(descent, q, touching, forces)
             free = free - curving(descent.system, descent.at(q).positions, contacts)
-        trace = 1e-13 * (abs(free).max() or 1.0)
-        free = free + trace * _identity(len(q))
-        whole = block_array([[free, -along.T], [-along, -trace * _identity(c)]]) if c else free
+        stiffest = abs(free).max() or 1.0
+        # so that what nothing holds, and contacts that say the same twice, can be solved for
+        free = free + TRACE * stiffest * _identity(len(q))
+        soft = TRACE / stiffest * _identity(c)
+        whole = block_array([[free, -along.T], [-along, -soft]]) if c else free
         right = np.concatenate([descent.force(q) + normals.T @ forces, distances])
         change = splu(whole.tocsc()).solve(right)
         q, forces = q + change[: len(q)], forces + change[len(q) :]

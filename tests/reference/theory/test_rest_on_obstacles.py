@@ -59,6 +59,19 @@ def test_a_mass_on_the_floor_swings_like_a_pendulum_in_tension() -> None:
     assert stability_limit(find("kick_drift"), alone).dt != pytest.approx(2 / swing, rel=0.1)
 
 
+@pytest.mark.parametrize("scale", [1e-12, 1e-6, 1.0, 1e6, 1e12])
+@pytest.mark.parametrize("stiffness", [0.0, STIFFNESS])
+def test_the_rest_is_the_same_in_any_unit_of_mass(scale: float, stiffness: float) -> None:
+    """N = m g - k (H - L0), as before, for masses and stiffness as many times as large; without stiffness N = m g."""
+    start, loose = np.array([0.3, 0.0]), stiffness == 0.0
+    system = on_spring(start, FLOOR, masses=np.full(2, scale * MASS), stiffness=np.array([scale * stiffness]))
+    rest = spring_equilibrium(system)
+    np.testing.assert_allclose(rest.state.positions[1], start if loose else [0.0, 0.0], atol=1e-12)
+    assert rest.contacts is not None
+    pressed = MASS * WEIGHT - stiffness * (HEIGHT - LENGTH)
+    np.testing.assert_allclose(rest.contacts.forces, [scale * pressed], rtol=1e-12)
+
+
 def test_a_surface_that_curves_lets_a_mass_slide() -> None:
     """On top of a circle of radius R below the spring, m w^2 = k (1 - L0 / H) - N / R: less than on a floor."""
     radius, stiffness = 2.0, 60.0

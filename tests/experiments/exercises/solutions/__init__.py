@@ -1,0 +1,1 @@
+"""Programs that students hand in, right and wrong."""
