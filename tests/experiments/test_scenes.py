@@ -7,12 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from engines.process.isolation import EngineStepper, in_this_process
 from experiments import scenes
 from experiments.experiment import Result
 from reference.identification import identify_run
 from reference.outcome import outcome_of
 from reference.scenes import find
 from reference.stepper import catalogued
+from tests.conformance.doctored import Doctored
 
 
 def ran(name: str, scheme: str, steps: int = scenes.STEPS, shift: float = 0.0) -> scenes.Run:
@@ -40,6 +42,19 @@ def test_who_meets_an_obstacle_is_counted_apart() -> None:
     late = ran("barrier", "heun", 600)
     assert late.met_obstacle
     assert "Of 1 engine runs that meet an obstacle 1 are" in " ".join(of(ran("string", "heun"), late).findings)
+
+
+def test_every_engine_is_identified_on_every_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    """An engine of our own that is kick-drift, on two scenes, one after the other; and both scenes are shown."""
+    engine = EngineStepper(Doctored(), isolate=in_this_process)
+    monkeypatch.setattr(scenes, "installed_engines", lambda: [engine])
+    monkeypatch.setattr(scenes, "scenes", lambda: {name: find(name) for name in ("string", "chain")})
+    found = scenes.run(lambda _: None)
+    (table,) = found.tables
+    rows = [dict(zip(table.columns, row, strict=True)) for row in table.rows]
+    assert [row["scene"] for row in rows] == ["string", "chain"]
+    assert {row["identified as"] for row in rows} == {"kick_drift"}
+    assert list(found.data["motions"]) == ["string", "chain"]
 
 
 def test_the_motion_shown_is_the_scenes_from_start_to_end() -> None:

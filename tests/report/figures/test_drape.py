@@ -78,3 +78,9 @@ def test_the_words_for_it_have_the_means() -> None:
     """Of the reference's samples."""
     for c, mean, _ in rows_of(result("drape").data["cloths"], SPACING):
         assert f"{1e3 * c:g} mm: {mean:.2f}" in shown("drape").alt
+
+
+def test_cloths_are_shown_from_the_limpest_to_the_stiffest() -> None:
+    """The first and the last of all, and between them one more."""
+    assert list(SHOWN) == sorted(SHOWN)
+    assert (SHOWN[0], SHOWN[-1]) == (min(LENGTHS), max(LENGTHS))

@@ -30,7 +30,7 @@ LOOKED_AT = {
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The whole site; a warning of Sphinx, or a notebook that fails, fails it."""
-    folder = tmp_path_factory.mktemp("site")
+    folder = tmp_path_factory.mktemp("site") / "not there yet"
     with pytest.MonkeyPatch.context() as patch:
         # notebooks are run by a Python of their own
         paths = [str(ROOT), str(ROOT / "report" / "python"), os.environ.get("PYTHONPATH", "")]
