@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from reference.errors import InputError, SolverError
 from reference.forces import SpringMotion
 from reference.scenes import find as find_scene
+from reference.springs.bending import with_bending
 from reference.state import State
 from reference.system import MassSpringSystem
 from reference.theory.equilibrium import equilibrium, hanging_string
@@ -218,8 +219,11 @@ def test_a_free_system_without_gravity_relaxes() -> None:
         random_mesh(1, 5, 2),
         find_scene("string").system({"stiffness": 0.0}),
         replace(find_scene("string").system({"masses": 2}), fixed=np.array([True, False, True])),
+        find_scene("string").system({"hardening": "100"}),
+        with_bending(find_scene("string").system({}), 0.1),
+        replace(find_scene("string").system({}), pulls=np.array([1.0, 0.0]) * np.ones((11, 1))),
     ],
-    ids=["mesh", "no stiffness", "held at both ends"],
+    ids=["mesh", "no stiffness", "held at both ends", "no linear springs", "resists bending", "pulled"],
 )
 def test_only_strings_hang_straight(system: MassSpringSystem) -> None:
     """Any other system is refused."""
