@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from reference.changes import Change
 from reference.errors import InputError
 from reference.scenes import find
-from report.live.scenes import MOST_MASSES, open_scene
+from report.live.scenes import MOST_MASSES, OFTEN, OpenedScene, open_scene
 
 
 @pytest.mark.parametrize(("scene", "barrier"), [("string", True), ("barrier", False)])
@@ -36,3 +37,11 @@ def test_a_scene_that_nobody_could_watch_is_refused() -> None:
     """With how large it may be."""
     with pytest.raises(InputError, match=f"expected at most {MOST_MASSES:,} "):
         open_scene("string", {"masses": str(MOST_MASSES + 1)})
+
+
+@pytest.mark.parametrize(("count", "driven"), [(OFTEN, False), (OFTEN + 1, True)])
+def test_what_changes_often_is_driven(count: int, driven: bool) -> None:
+    """Nobody else can change it then; a parameter that changes now and then is free."""
+    changes = tuple(Change(0.1 * i, "stiffness", 100.0 + i) for i in range(count)) + (Change(0.0, "drag", 0.1),)
+    opened = OpenedScene("string", find("string").system({}), 0.01, changes=changes)
+    assert opened.driven == (frozenset({"stiffness"}) if driven else frozenset())
