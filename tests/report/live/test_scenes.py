@@ -42,6 +42,6 @@ def test_a_scene_that_nobody_could_watch_is_refused() -> None:
 @pytest.mark.parametrize(("count", "driven"), [(OFTEN, False), (OFTEN + 1, True)])
 def test_what_changes_often_is_driven(count: int, driven: bool) -> None:
     """Nobody else can change it then; a parameter that changes now and then is free."""
-    changes = tuple(Change(0.1 * i, "stiffness", 100.0 + i) for i in range(count)) + (Change(0.0, "drag", 0.1),)
-    opened = OpenedScene("string", find("string").system({}), 0.01, changes=changes)
+    changes = [Change(0.1 * i, "stiffness", 100.0 + i) for i in range(count)]
+    opened = OpenedScene("string", find("string").system({}), 0.01, changes=(*changes, Change(0.0, "drag", 0.1)))
     assert opened.driven == (frozenset({"stiffness"}) if driven else frozenset())
