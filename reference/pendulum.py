@@ -35,8 +35,9 @@ class PendulumMotion:
         self.system = system
         self._anchor = system.positions[0]
         self._lengths = system.rest_lengths
-        self._masses = system.masses[1:]
-        hanging = np.cumsum(self._masses[::-1])[::-1]
+        masses = system.masses[1:]
+        self._weight = masses[:, None] * system.gravity
+        hanging = np.cumsum(masses[::-1])[::-1]
         longest = np.maximum.outer(np.arange(len(hanging)), np.arange(len(hanging)))
         self._inertia = np.outer(self._lengths, self._lengths) * hanging[longest]
         self.start = self.state_of(system.start)
@@ -46,7 +47,9 @@ class PendulumMotion:
         angles, rates = state.positions, state.velocities
         difference = angles[:, None] - angles[None, :]
         torque = np.asarray(-(self._inertia * np.sin(difference)) @ rates**2)
-        load = self._masses[:, None] * self.system.gravity - self.system.drag * self._mass_velocities(angles, rates)
+        load = self._weight
+        if self.system.drag:
+            load = load - self.system.drag * self._mass_velocities(angles, rates)
         # Every mass loads all the rods above it: rod i feels the sum over the masses i, i+1, ...
         below = np.cumsum(load[::-1], axis=0)[::-1]
         torque = torque + self._lengths * (below[:, 0] * np.cos(angles) + below[:, 1] * np.sin(angles))
