@@ -79,6 +79,8 @@ class RopeMotion:
         moved = ~system.fixed[system.springs].all(axis=1)
         self._ends = system.springs[moved].T
         self.rest_lengths = system.rest_lengths[moved]
+        self._falling = np.where(system.fixed[:, None], 0.0, system.gravity)
+        self._inverse_of_rods = self._inverse[self._ends].sum(axis=0)
 
     def rods(self, state: State) -> Rods:
         """Where the rods point, and at which rates they get longer."""
@@ -99,9 +101,8 @@ class RopeMotion:
         Raises:
             SolverError: if there are no such multipliers.
         """
-        free = np.where(self.system.fixed[:, None], 0.0, self.system.gravity)
-        free = free - self.system.drag * self._inverse[:, None] * state.velocities
-        softness = compliance * self._inverse[self._ends].sum(axis=0)
+        free = self._falling - self.system.drag * self._inverse[:, None] * state.velocities
+        softness = compliance * self._inverse_of_rods
         if compliance and len(rods.lengths) > DENSE_UP_TO:
             return self._constrained_sparse(free, rods, target, softness)
         rows = self.rows(rods).reshape(len(rods.lengths), free.size)
