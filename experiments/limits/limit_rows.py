@@ -163,7 +163,8 @@ class _AtWork:
         """What is predicted of each engine, by name, and its measurement, which is at work."""
         runs = [(engine, run.result()) for engine, run in running]
         found, measuring = limits_of_engines_elsewhere(self._alone.system, runs), {}
-        for (engine, _), (scheme, predicted) in zip(runs, found, strict=True):
+        for (engine, _), (scheme, limit) in zip(runs, found, strict=True):
+            predicted = self._alone.of_engine(scheme) if limit is None else limit
             measured = self._pool.submit(measure_engine, engine, self._alone, named(scheme), predicted)
             measuring[engine.name] = predicted, measured
         return measuring

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from threading import Lock
 
 import numpy as np
 
@@ -26,6 +27,9 @@ IDENTIFYING_STEPS = 200
 
 #: Of schemes on rods, by the digest of all they were found from.
 _LIMITS_ON_RODS: dict[tuple[SchemeStepper, str], Limit] = {}
+
+#: Of threads that ask for such a limit, one finds it.
+_FINDING_ON_RODS = Lock()
 
 
 class Predictions:
@@ -67,10 +71,11 @@ class Predictions:
         """Rods have neither stiffness nor damping: of systems that differ in these only it is found once."""
         rods = replace(self.system, stiffness=np.array(1.0), damping=np.array(0.0))
         key = stepper, digest(rods)
-        if key not in _LIMITS_ON_RODS:
-            rest = rest_of_scheme(stepper, rods, self.rest)
-            _LIMITS_ON_RODS[key] = rest if isinstance(rest, Limit) else stability_limit(stepper.scheme, rest)
-        return _LIMITS_ON_RODS[key]
+        with _FINDING_ON_RODS:
+            if key not in _LIMITS_ON_RODS:
+                rest = rest_of_scheme(stepper, rods, self.rest)
+                _LIMITS_ON_RODS[key] = rest if isinstance(rest, Limit) else stability_limit(stepper.scheme, rest)
+            return _LIMITS_ON_RODS[key]
 
     def of_engine(self, found: Identification) -> Limit:
         """That of the scheme an engine was identified with."""
@@ -91,17 +96,21 @@ class Predictions:
 
 def limits_of_engines(
     system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]]
-) -> list[tuple[Identification, Limit]]:
-    """Which scheme each engine is, from its `identifying_run`, and the limit of that scheme."""
+) -> list[tuple[Identification, Limit | None]]:
+    """Which scheme each engine is, from its `identifying_run`, and the limit of that scheme; on rods None.
+
+    Those on rods are found once for many systems (`Predictions.of`), which the process that asks goes through.
+    """
     predictions = Predictions(system, spring_equilibrium(system))
     identified = predictions.identified(runs)
     found = [identified[engine.name] for engine, _ in runs]
-    return [(each, predictions.of_engine(each)) for each in found]
+    on_rods = [scheme is not None and scheme.on_rods for scheme in map(named, found)]
+    return [(each, None if rods else predictions.of_engine(each)) for each, rods in zip(found, on_rods, strict=True)]
 
 
 def limits_of_engines_elsewhere(
     system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]]
-) -> list[tuple[Identification, Limit]]:
+) -> list[tuple[Identification, Limit | None]]:
     """The same, found in another process, while this one is at something else; here where a stepper cannot travel."""
     if not runs:
         return []
