@@ -213,6 +213,8 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
         SolverError: if there is no such velocity.
     """
     free = ~system.fixed
+    if not free.any():
+        return np.zeros_like(right)
     many = right.ndim == 3
     size = int(np.count_nonzero(free)) * system.dimension
     # the iteration knows blocks of springs only

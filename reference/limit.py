@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isinf
+from math import inf, isinf
 from typing import Literal
 
 #: How sure a limit is: proved up to rounding; from eigenvalues or runs; or known only to lie between two values.
@@ -24,6 +24,7 @@ class Limit:
         at_most: the upper one of two values between which the limit lies [s].
         note: what is to be known of a limit that there is.
         windows: where above the limit a step is stable again: (from, to) [s], rising; the last may have no end.
+        looked_to: up to where such were looked for [s]: one that ends there may go on.
     """
 
     dt: float | None
@@ -35,6 +36,7 @@ class Limit:
     at_most: float | None = None
     note: str = ""
     windows: tuple[tuple[float, float], ...] = ()
+    looked_to: float = inf
 
     @property
     def exact(self) -> bool:
@@ -47,9 +49,10 @@ class Limit:
         words = [word for word in (self.reason, self.note) if word]
         if self.certainty == "between" and self.dt is not None and self.at_most is not None:
             words.append(f"between {self.dt:.6g} and {self.at_most:.6g} s")
-        words += [f"stable again {_window(*window)}" for window in self.windows]
+        words += [f"stable again {self._window(*window)}" for window in self.windows]
         return "; ".join(words)
 
-
-def _window(low: float, high: float) -> str:
-    return f"from {low:.4g} s on" if isinf(high) else f"from {low:.4g} to {high:.4g} s"
+    def _window(self, low: float, high: float) -> str:
+        if high < self.looked_to:
+            return f"from {low:.4g} to {high:.4g} s"
+        return f"from {low:.4g} s on" + ("" if isinf(high) else f", looked at up to {high:.4g} s")

@@ -184,7 +184,7 @@ def own_stepper(word: str) -> OwnStepper:
         path, function = word, ""
     file = Path(path)
     try:
-        source = file.read_text(encoding="utf-8")
+        source = file.read_text(encoding="utf-8-sig")  # editors on Windows write a mark first, which Python skips
     except OSError as error:
         raise InputError(f"stepper {word!r}: expected a file that can be read: {error.strerror}") from None
     except UnicodeDecodeError:

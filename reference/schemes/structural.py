@@ -114,6 +114,8 @@ def radau_iia(motion: MotionOfSprings, state: State, dt: float) -> State:
     """
     system = motion.system
     free = ~system.fixed
+    if not free.any():
+        return State(state.time + dt, state.positions, state.velocities)
     mass = np.repeat(system.masses[free], system.dimension)
     size, shape = len(mass), state.positions.shape
     stages = [motion.acceleration(state)] * 2

@@ -88,12 +88,27 @@ class Definiteness:
         rounding = -1e-12 * self.linear.mass.max()
         return bool(self.stiffness_part >= 0 and min(springs.min(initial=0), masses.min(initial=0)) >= rounding)
 
-    @cached_property
+    @property
     def in_proportion(self) -> bool:
         """Whether the damping's part is in proportion to dt."""
+        return not (self.springs_grow or self.drag_grows)
+
+    @property
+    def springs_grow(self) -> bool:
+        """Whether what damps springs grows faster than dt."""
+        return self._grow[0]
+
+    @property
+    def drag_grows(self) -> bool:
+        """Whether drag in a step grows faster than dt."""
+        return self._grow[1]
+
+    @cached_property
+    def _grow(self) -> tuple[bool, bool]:
         once, twice = self.damping_part(self.unit), self.damping_part(2 * self.unit)
         rounding = 1e-12 * self.linear.mass.max()
-        return all(np.allclose(2 * a, b, rtol=1e-9, atol=rounding) for a, b in zip(once, twice, strict=True))
+        springs, drag = (not np.allclose(2 * a, b, rtol=1e-9, atol=rounding) for a, b in zip(once, twice, strict=True))
+        return springs, drag
 
     def damping_part(self, dt: float) -> tuple[Array, Array]:
         """4 Q - 2 E [kg] as one number per spring, shape (s,), and one per mass, shape (n,)."""

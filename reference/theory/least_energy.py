@@ -56,6 +56,8 @@ def least_energy(system: MassSpringSystem) -> State:
     Raises:
         SolverError: if it is not reached, and what could be done.
     """
+    if system.fixed.all():
+        return State(0.0, system.positions, np.zeros_like(system.positions))
     descent = Descent(system, loads(system, parts_of(system)))
     try:
         with np.errstate(over="ignore", invalid="ignore"):

@@ -35,13 +35,10 @@ from reference.theory.step_on_obstacles import require_pressed
 from reference.theory.step_spectrum import WHOLE_UP_TO, first_limit, unstable_at_any
 from reference.theory.strong_damping import drowned_from, limit_with_rods
 from reference.theory.unconditional_stability import stable_at_any_dt
-from reference.theory.windows import windows_of
+from reference.theory.windows import looked_to, windows_of
 
 #: Schemes that stop their iteration early have, to what they leave, the limit of what they would come to.
 SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
-
-#: Of limits beyond steps in which damping is all but rigid.
-DROWNS = "in such steps the damping of springs drowns all else in rounding"
 
 #: Steps that solve for positions are differenced on obstacles up to this size of the whole state only: it takes long.
 IMPLICIT_UP_TO = 12
@@ -106,13 +103,22 @@ def _by_definiteness(definite: Definiteness) -> Limit:
     last = np.inf if definite.in_proportion else drowned_from(definite)
     dt = definite.first_limit(last)
     if np.isfinite(dt):
-        return Limit(dt, certainty="certified", windows=windows_of(definite, dt))
+        windows = windows_of(definite, dt)
+        return Limit(dt, certainty="certified", windows=windows, looked_to=looked_to(definite, dt))
     if np.isinf(last):
         return Limit(None, "stable at any dt", certainty="certified")
     with_rods = limit_with_rods(definite, last)
+    drowns = _drowns(definite)
     if with_rods is None:
-        return Limit(last, certainty="between", note=f"at least {last:.4g} s: {DROWNS}")
-    return Limit(with_rods, note=DROWNS) if np.isfinite(with_rods) else Limit(None, "stable at any dt", note=DROWNS)
+        return Limit(last, certainty="between", note=f"at least {last:.4g} s: {drowns}")
+    return Limit(with_rods, note=drowns) if np.isfinite(with_rods) else Limit(None, "stable at any dt", note=drowns)
+
+
+def _drowns(definite: Definiteness) -> str:
+    """What is said of limits beyond steps in which damping or drag is all but rigid."""
+    grows = {"the damping of springs": definite.springs_grow, "drag": definite.drag_grows}
+    words = [word for word, is_so in grows.items() if is_so]
+    return f"in such steps {' and '.join(words)} drown{'s' if len(words) == 1 else ''} all else in rounding"
 
 
 def _by_polynomial(polynomial: tuple[float, ...], rest: Equilibrium, found: Rates) -> Limit:

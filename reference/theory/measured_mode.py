@@ -89,8 +89,9 @@ def measured_mode_limit(scheme: Scheme, rest: Equilibrium, predicted: Limit, fou
     if low is None or high is None:
         where = f"{(1 - WIDEST) * predicted.dt:.4g} and {(1 + WIDEST) * predicted.dt:.4g} s"
         return Limit(None, f"no limit between {where}: runs are {'stable' if high is None else 'unstable'} at both")
-    windows = tuple(_window(unstable, *window) for window in predicted.windows)
-    return Limit((low + high) / 2, windows=tuple(window for window in windows if window is not None))
+    measured = (_window(unstable, *window, predicted.looked_to) for window in predicted.windows)
+    windows = tuple(window for window in measured if window is not None)
+    return Limit((low + high) / 2, windows=windows, looked_to=predicted.looked_to)
 
 
 def _around(unstable: Callable[[float], bool], dt: float) -> tuple[float | None, float | None]:
@@ -107,11 +108,16 @@ def _around(unstable: Callable[[float], bool], dt: float) -> tuple[float | None,
     return bisect(unstable, low, high, lambda low, high: high - low <= PRECISION * low)
 
 
-def _window(unstable: Callable[[float], bool], low: float, high: float) -> tuple[float, float] | None:
-    """A window of stability, measured: its ends where they are expected; None where runs are unstable inside."""
+def _window(unstable: Callable[[float], bool], low: float, high: float, looked_to: float) -> tuple[float, float] | None:
+    """A window of stability, measured: its ends where they are expected; None where runs are unstable inside.
+
+    Where it ends because no further was looked, no end is measured: runs there are to be stable still.
+    """
     if unstable((low + high) / 2):
         return None
     _, first = bisect(lambda dt: not unstable(dt), 0.99 * low, (low + high) / 2, _near)
+    if high >= looked_to and not unstable(high):
+        return first, high
     last, _ = bisect(unstable, (low + high) / 2, 1.01 * high, _near)
     return first, last
 

@@ -22,7 +22,7 @@ from reference.theory.large_steps import NEARLY, limit_of_large, limit_of_relati
 from reference.theory.layout import layout_of
 from reference.theory.rates import Rates
 from reference.theory.step_map import TORN_APART, resisted, step_jacobian
-from reference.theory.windows import windows_of
+from reference.theory.windows import looked_to, windows_of
 
 #: Up to this size of the whole state all eigenvalues of steps are taken, dt by dt; and of a few steps up to the second.
 WHOLE_UP_TO, FEW_UP_TO = 260, 700
@@ -76,7 +76,7 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
         if phantom:
             return _of_unresisted_motion(scheme, rest, found, unit)
-        return replace(limit, windows=_windows(scheme, rest, unit, limit, excess, margin))
+        return _with_windows(scheme, rest, unit, limit, excess, margin)
     if scheme.needs == "accelerations of one mass" or rest.linear is None:
         reason = f"{size} positions and velocities, which this scheme does not step alike; up to {WHOLE_UP_TO} it is"
         return Limit(None, f"not computed for {reason}")
@@ -99,24 +99,25 @@ def unstable_at_any(rate: float, dt: float) -> str:
     return f"unstable at any dt: grows by {rate:.2g} of itself in a step of {dt:.2g} s"
 
 
-def _windows(
+def _with_windows(
     scheme: Scheme, rest: Equilibrium, unit: float, limit: Limit, excess: Callable[[float], float], margin: float
-) -> tuple[tuple[float, float], ...]:
-    """Where a scheme that stops its iteration early is stable again: inside the windows of what it would come to."""
+) -> Limit:
+    """With where a scheme that stops its iteration early is stable again: inside windows of what it would come to."""
     if not scheme.iterated or limit.dt is None or rest.linear is None:
-        return ()
+        return limit
     relative = relative_of(scheme, rest.linear, unit)
     if relative is None:
-        return ()
+        return limit
 
     def unstable(dt: float) -> bool:
         return excess(dt) > margin * max(1.0, dt / unit)
 
-    return tuple(
+    windows = tuple(
         (low, high)
         for low, high in windows_of(relative, limit.dt)
         if not any(unstable(low + part * (high - low)) for part in (0.01, 0.5, 0.99))
     )
+    return replace(limit, windows=windows, looked_to=looked_to(relative, limit.dt))
 
 
 def _start(found: Rates) -> float:
@@ -147,8 +148,10 @@ def _undamped_modes_grow(scheme: Scheme, rest: Equilibrium, found: Rates, margin
 def _is_of_unresisted_motion(scheme: Scheme, rest: Equilibrium, found: Rates, dt: float) -> bool:
     """Whether what grows above a limit is motion that nothing resists: it does below, too, hidden by rounding."""
     values = np.linalg.eigvals(step_jacobian(scheme, rest, 1.001 * dt))
-    others = values[np.argsort(np.abs(values - 1), kind="stable")[found.unresisted :]]
-    return bool(np.abs(others).max(initial=0.0) < 1 + TORN_APART)
+    by_distance = np.argsort(np.abs(values - 1), kind="stable")
+    nearest, others = values[by_distance[: found.unresisted]], values[by_distance[found.unresisted :]]
+    fastest = float(np.abs(others).max(initial=0.0))
+    return fastest < 1 + TORN_APART and float(np.abs(nearest).max()) > fastest
 
 
 def _of_unresisted_motion(scheme: Scheme, rest: Equilibrium, found: Rates, dt: float) -> Limit:

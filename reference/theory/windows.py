@@ -22,8 +22,13 @@ MOST, LOOKS, FAR = 120, 120, 1e3
 PRECISION = 1e-7
 
 
+def looked_to(definite: Definiteness, first: float) -> float:
+    """Up to which dt [s] windows are looked for above the first limit."""
+    return min(FAR * first, drowned_from(definite))
+
+
 def windows_of(definite: Definiteness, first: float) -> tuple[tuple[float, float], ...]:
-    """The intervals of dt [s] above the first limit in which S is not negative again."""
+    """The intervals of dt [s] above the first limit in which S is not negative again, as far as is looked."""
     if definite.in_proportion or len(definite.linear.mass) > MOST:
         return ()
 
@@ -32,7 +37,7 @@ def windows_of(definite: Definiteness, first: float) -> tuple[tuple[float, float
             matrix = definite.matrix(dt, part)
             return bool(np.isfinite(matrix).all()) and negative_eigenvalues(matrix) == 0
 
-    last = min(FAR * first, drowned_from(definite))
+    last = looked_to(definite, first)
     if last <= first:
         return ()
     steps = np.geomspace((1 + 1e-6) * first, last, LOOKS)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from reference.errors import InputError
 from reference.printable import printable
 from report.commands.options import (
     dt_option,
@@ -50,6 +51,9 @@ def stability_command(
     damping 0.1 and 0.5, drag 0.1 N s/m.
     --dt is the step of a map that has no dt axis.
     """
+    without = [word for word, given in (("--dt", dt is not None), ("--range", bool(ranges))) if given and not axes]
+    if without:
+        raise InputError(f"{' and '.join(without)}: expected with --map X Y only")
     if axes:
         _write_maps(scene, settings, dt, axes, ranges, names or ("heun",), out)
     else:

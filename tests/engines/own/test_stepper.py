@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import shutil
 from dataclasses import replace
 from pathlib import Path
@@ -225,6 +226,13 @@ def test_what_is_no_stepper_is_refused(text: str, word: str, said: str, tmp_path
     assert said in str(refused.value)
     with pytest.raises(InputError, match="expected a file that can be read"):
         own_stepper(str(tmp_path / "nothing.py"))
+
+
+def test_a_file_that_begins_with_a_mark_is_read_as_python_does(tmp_path: Path) -> None:
+    """Editors on Windows begin UTF-8 with one, and end lines with two characters."""
+    file = tmp_path / "mine.py"
+    file.write_bytes(codecs.BOM_UTF8 + FORMS["euler"].replace("\n", "\r\n").encode())
+    assert own_stepper(str(file)).name == "mine.py"
 
 
 def test_which_names_are_files() -> None:

@@ -18,7 +18,7 @@ from reference.system import MassSpringSystem
 from reference.theory.equilibrium import equilibrium, hanging_string
 from reference.theory.exact import exact
 from tests import wrong
-from tests.reference.systems import IN_PLACE, label, moving_string, random_mesh
+from tests.reference.systems import IN_PLACE, label, moving_string, random_mesh, with_fields
 
 ALL = list(schemes().values())
 UNDAMPED = {"damping": 0.0, "drag": 0.0}
@@ -210,3 +210,12 @@ def test_unknown_scheme_is_refused_with_a_suggestion() -> None:
     """One letter off."""
     with pytest.raises(InputError, match=r"^unknown scheme 'huen': did you mean 'heun'\?$"):
         find("huen")
+
+
+@pytest.mark.parametrize("name", ["backward_euler", "implicit_midpoint", "kick_drift_implicit_damping", "radau_iia"])
+def test_where_all_is_held_there_is_nothing_to_solve_for(name: str) -> None:
+    """Every mass stays, until one is released."""
+    string = find_scene("string").system({"masses": 2, "damping": 0.1})
+    held = with_fields(string, fixed=True)
+    run = simulate(held, find(name), 1e-3, 2e-3)
+    np.testing.assert_array_equal(run.positions[-1], string.positions)

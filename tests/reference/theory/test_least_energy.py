@@ -131,3 +131,10 @@ def test_a_stiffness_that_cannot_be_inverted_is_no_equilibrium() -> None:
     """As of springs so soft, or so stiff, that floats hold nothing beside them."""
     with pytest.raises(SolverError, match="no equilibrium: the stiffness of the springs cannot be inverted"):
         _solve(csc_matrix((2, 2)), 0.0, np.ones(2))
+
+
+def test_what_is_all_held_rests_where_it_is() -> None:
+    """Until something is released nothing moves."""
+    string = replace(find("string").system({"masses": 2}), fixed=np.array([True, True, True]))
+    np.testing.assert_array_equal(least_energy(string).positions, string.positions)
+    assert len(squared_frequencies(string, least_energy(string))) == 0

@@ -8,6 +8,7 @@ import pytest
 from reference.limit import Limit
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
+from reference.system import MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
 from tests import wrong
@@ -83,6 +84,51 @@ def test_exponential_damping_with_its_window(ratio: float) -> None:
         assert limit.windows[0] == pytest.approx((edges[1], across), rel=1e-6)
     else:
         assert limit.windows == ()
+
+
+def dragged(name: str, drag: float, weak: float = 0.0) -> Limit:
+    """Of a mass along a line under drag [N s/m]; with a light one that hangs on it by a spring of `weak` [N/m]."""
+    light = [[0.3]] if weak else []
+    system = MassSpringSystem(
+        positions=np.array([[0.0], [-0.1], *light]),
+        springs=np.array([[0, 1], [1, 2]][: 2 if weak else 1]),
+        masses=np.array([1.0, M, 3e-6][: 3 if weak else 2]),
+        rest_lengths=np.array(0.1),
+        stiffness=np.array([M * W**2, weak][: 2 if weak else 1]),
+        damping=np.array(0.0),
+        drag=drag,
+        gravity=np.array(0.0),
+        fixed=np.array([True, False, False][: 3 if weak else 2]),
+    )
+    return stability_limit(find(name), spring_equilibrium(system))
+
+
+@pytest.mark.parametrize("ratio", [0.01, 0.2, 0.26, 0.5, 1.5])
+def test_exponential_drag_has_the_edges_of_exponential_damping_or_none(ratio: float) -> None:
+    """Where h^2 w^2 never comes to 2 (1 + e^(h Cd/m)), any step is stable, however long."""
+    edges, limit = exponential_edges(ratio), dragged("kick_drift_exponential_drag", 2 * ratio * W * M)
+    if edges:
+        assert limit.dt == pytest.approx(edges[0], rel=PRECISION)
+    else:
+        assert limit.dt is None
+        assert limit.reason == "stable at any dt"
+
+
+def test_a_light_mass_that_drag_stops_hides_no_limit_of_a_heavy_one() -> None:
+    """Its e^(h Cd/m) leaves no digits, from a fifteenth of the heavy one's limit on; to that one it is as if held."""
+    ratio = 0.01
+    limit = dragged("kick_drift_exponential_drag", 2 * ratio * W * M, weak=1e-9)
+    assert limit.dt == pytest.approx(exponential_edges(ratio)[0], rel=PRECISION)
+    assert "drag drowns all else" in limit.note
+
+
+def test_a_window_whose_end_was_not_met_is_not_said_to_end() -> None:
+    """Along a line nothing follows on the spring's window; across it the pendulum ends that, which is told."""
+    open_ended = dragged("kick_drift_exponential_drag", 0.5)
+    ended = limit_of(find("drift_kick_exponential_damping"), 0.2)
+    assert open_ended.remark == "stable again from 0.219 s on, looked at up to 0.72 s"
+    assert ended.remark.startswith("stable again from 0.09429 to ")
+    assert "looked" not in ended.remark
 
 
 @pytest.mark.rotating(3)

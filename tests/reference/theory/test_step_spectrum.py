@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 
+from reference.schemes.catalogue import find
+from reference.system import MassSpringSystem
 from reference.theory import step_spectrum
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.limits import stability_limit
 
 
 @pytest.mark.parametrize("start", [1e-3, 0.7, 5.0, 400.0])
@@ -34,3 +39,23 @@ def test_rounding_at_long_steps_is_no_growth() -> None:
     assert rounding.dt is None
     assert growing.dt is not None
     assert math.isclose(growing.dt, 0.05, rel_tol=1e-5)
+
+
+def test_in_place_euler_of_one_mass_is_euler_where_nothing_resists_a_motion() -> None:
+    """One mass amid a string without tension: along it h < g/w^2, across it nothing pulls, and nothing grows.
+
+    Growth beyond the limit is a ten-millionth in a step: that is no rounding of the motion across.
+    """
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array(0.1),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(100.0),
+        damping=np.array(0.05),
+        drag=0.0,
+        gravity=np.array(0.0),
+        fixed=np.array([True, False, True]),
+    )
+    limit = stability_limit(find("euler_in_place"), spring_equilibrium(system))
+    assert limit.dt == pytest.approx(0.1 / 200, rel=1e-5)

@@ -89,6 +89,23 @@ def test_bad_words_are_one_line(words: list[str], said: str) -> None:
     assert done.err.count("\n") == 1
 
 
+@pytest.mark.parametrize("words", [("--dt", "nan"), ("--dt", "0.001"), ("--range", "dt=1e-3:4e-3")])
+def test_what_only_a_map_has_is_refused_without_one(words: tuple[str, str]) -> None:
+    """It was passed over, whatever it was."""
+    done = springlab("stability", "oscillator", "--stepper", "kick_drift", *words)
+    assert (done.code, done.err) == (2, f"springlab: {words[0]}: expected with --map X Y only\n")
+
+
+def test_a_scene_that_is_all_held_has_no_limit(tmp_path: Path) -> None:
+    """It ended with an error of a library's. Nothing moves, until something is released."""
+    file = tmp_path / "held.toml"
+    points = "positions = [[0.0, 0.0], [1.0, 0.0]]\nfixed = [0, 1]"
+    file.write_text(f"[system]\n{points}\nsprings = [[0, 1]]\nmasses = 0.1\nstiffness = 50.0\n")
+    words = ("--stepper", "kick_drift", "--stepper", "radau_iia", "--json", "--out", str(tmp_path))
+    rows = json.loads(springlab("stability", str(file), *words).out)
+    assert [row["reason"] for row in rows] == 2 * ["predicted and measured: nothing moves"]
+
+
 @pytest.mark.rotating(5, in_turn=True)
 def test_a_map_is_a_figure_and_a_table_of_growth(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A point for each pair of values, from one end of each range to the other: Pymunk's on 5 x 5 here."""
