@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from experiments.benchmark.meshes import CLOTH, lattice, string
-from experiments.benchmark.tuned import TunedHeun
+from experiments.benchmark.tuned import TunedHeun, library
 from reference.errors import Unsupported
 from reference.schemes import catalogue
 from reference.simulate import simulate
@@ -60,3 +61,16 @@ def test_a_mesh_in_c_is_heuns(shape: tuple[int, ...], offsets: tuple[tuple[int, 
     """In the plane and in space, to the same rounding."""
     found, expected = ends(stirred(lattice(shape, offsets)), as_string=False)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12)
+
+
+def test_a_compiler_that_refuses_the_anchor_is_quoted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the first line of what it says; and where there is none, that is said."""
+    compiler = tmp_path / "cc"
+    compiler.write_text("#!/bin/sh\necho 'cc: no such processor' >&2\necho more >&2\nexit 1\n")
+    compiler.chmod(0o755)
+    monkeypatch.setattr("shutil.which", lambda _: str(compiler))
+    with pytest.raises(Unsupported, match=r"^the C compiler refused the anchor: cc: no such processor$"):
+        library.__wrapped__(2)
+    monkeypatch.setattr("shutil.which", lambda _: None)
+    with pytest.raises(Unsupported, match="there is no C compiler"):
+        library.__wrapped__(2)

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
-from reference.derivation.implicit import implicit_tableau
+from reference.derivation.implicit import ONE_STAGE, _groups, implicit_tableau
 from reference.derivation.of_schemes import tableau_of_scheme, updates_of_scheme
 from reference.derivation.order_conditions import gamma, order_of, size, trees
 from reference.derivation.updates import in_words
@@ -84,3 +85,10 @@ def test_partitioned_schemes_are_told_as_formulas() -> None:
         "x' = x + h v + h^2 a1",
         "v' = v + h a1",
     ]
+
+
+def test_points_are_one_stage_where_they_are_near_beside_the_largest() -> None:
+    """Iterates of a solver: near is ONE_STAGE of the largest number there is, also where a point is zero."""
+    here, there = np.zeros(2), np.array([1.0, 2.0])
+    assert _groups([here, there, there + ONE_STAGE, there + 5 * ONE_STAGE]) == [[0], [1, 2], [3]]
+    assert _groups([]) == []

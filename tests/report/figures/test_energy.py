@@ -95,6 +95,8 @@ def test_axes_have_units_and_what_is_beyond_them_is_said() -> None:
     labels = tick_labels(above().yaxis)
     assert "or less" in labels[LOWEST]
     assert "or more" in labels[HIGHEST]
+    between = {place: text for place, text in labels.items() if LOWEST < place < HIGHEST}
+    assert between == {10.0**n: f"$10^{{{n}}}$" for n in (-7, -5, -3, -1, 1, 3)}
     assert below().get_xlabel().startswith("largest error [1]: dots, of momentum")
     assert "diamonds, of angular momentum" in below().get_xlabel()
     assert below().get_xscale() == "log"

@@ -95,3 +95,10 @@ def test_the_words_for_it_name_who_sees_something() -> None:
     alt = shown("numbering").alt
     assert "euler_in_place 2.0e-03 m, pymunk_springs 5.0e-06 m, stranger 7.0e-07 m." in alt
     assert "kick_drift" not in alt
+
+
+def test_all_rounds_have_their_place_and_nothing_else_much() -> None:
+    """From none to the most there are, with room for a note: no panel that is mostly empty."""
+    low, high = right().get_xlim()
+    assert low == 0
+    assert ROUNDS[-1] < high < 1.3 * ROUNDS[-1]
