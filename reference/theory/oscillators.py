@@ -39,7 +39,9 @@ def step_matrices(
     )
     step = scheme.on(LinearMotion(system, system.start))
     nothing = np.zeros_like(system.positions)
-    remembered = [q for q in step(State(0.0, nothing, nothing), dt).memory if q.shape == nothing.shape]
+    at_rest = State(0.0, nothing, nothing)
+    memory = () if scheme.one_step else step(at_rest, dt).memory
+    remembered = [q for q in memory if q.shape == nothing.shape]
     units = [1.0, dt, *[dt] * len(remembered)]
     columns = []
     for i, unit in enumerate(units):
