@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -37,3 +39,14 @@ def test_what_is_no_string_is_not_given(scene: str) -> None:
     for given in (exercise_string, exercise_spring):
         with pytest.raises((Unsupported, InputError), match="knows"):
             given(system)
+
+
+@pytest.mark.parametrize("damped", [[0], [1], [0, 1]])
+def test_a_string_with_one_damped_spring_is_none_of_exercise_4(damped: list[int]) -> None:
+    """Its step knows no damping: whichever spring has some, it would be left out in silence."""
+    string = find("string").system({"masses": 2})
+    assert exercise_string(string).masses.shape == (2,)
+    damping = np.zeros(2)
+    damping[damped] = 0.1
+    with pytest.raises(Unsupported, match="strings without damping only"):
+        exercise_string(replace(string, damping=damping))
