@@ -59,6 +59,9 @@ def test_the_page_has_advice_with_its_numbers_and_a_card_for_every_engine(scene:
     sections = [attributes["id"] for attributes in shown.of("section")]
     assert sections == ["found", "motion", "own_scene", "engines", "undone", "environment"]
     assert "which dt" in shown.words
+    found = html[html.index('id="found"') : html.index('id="motion"', html.index('id="found"'))]
+    assert found.count('<p class="finding">') == 1  # the advice, before its figure
+    assert found.index('<p class="finding">') < found.index("<figure")
     assert {a["download"] for a in shown.of("a") if "download" in a} >= {"advice.csv", "scene.csv"}
     with (scene.parent / "page" / "advice" / "advice.csv").open(newline="", encoding="utf-8") as file:
         (row,) = csv.DictReader(file)
