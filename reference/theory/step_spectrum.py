@@ -66,6 +66,10 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         return Limit(None, unstable_at_any(rate, 0.1 * unit), rate)
     if size <= WHOLE_UP_TO:
         start = _start(found)
+        if not scheme.one_step:
+            # in shorter ones what it remembers is all but what it has: rounding tears the two apart by eps / (h w)
+            slowest = float(np.abs(found.values).min())
+            start = max(start, min(1e-2 * unit, 4 * np.finfo(float).eps / (margin * slowest)))
         if scheme.iterated and rest.linear is not None:
             # up to near the limit of what it would come to, it does as that does
             converged = limit_of_relative(scheme, rest.linear, unit)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.system import MassSpringSystem
 from reference.theory import step_spectrum
@@ -59,3 +60,10 @@ def test_in_place_euler_of_one_mass_is_euler_where_nothing_resists_a_motion() ->
     )
     limit = stability_limit(find("euler_in_place"), spring_equilibrium(system))
     assert limit.dt == pytest.approx(0.1 / 200, rel=1e-5)
+
+
+@pytest.mark.parametrize("damping", [1e-3, 1e-7, 1e-9])
+def test_rounding_of_what_is_remembered_is_no_growth(damping: float) -> None:
+    """Verlet by positions on 100 1/s, hardly damped: 2/w, be the damping ever so small."""
+    rest = spring_equilibrium(find_scene("oscillator").system({"damping": damping}))
+    assert stability_limit(find("stormer_verlet"), rest).dt == pytest.approx(0.02, rel=1e-6)
