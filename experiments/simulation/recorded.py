@@ -7,9 +7,11 @@ mass at every step; or NPZ with the arrays time_s, positions_m and velocities_m_
 from __future__ import annotations
 
 import csv
+import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from zipfile import BadZipFile, is_zipfile
 
 import numpy as np
 
@@ -144,6 +146,8 @@ def _require_no_other_axis(file: Path, header: list[str], rows: Sequence[Sequenc
 
 
 def _of_npz(file: Path) -> Trajectory:
+    if file.is_file() and not is_zipfile(file):
+        raise InputError(f"{file}: expected an NPZ file, as numpy.savez writes it")
     try:
         with np.load(file, allow_pickle=False) as arrays:
             times, positions = _numbers(arrays["time_s"]), _numbers(arrays["positions_m"])
@@ -152,9 +156,11 @@ def _of_npz(file: Path) -> Trajectory:
             return Trajectory(times, positions, velocities)
     except KeyError as error:
         raise InputError(f"{file}: {error.args[0]}: expected time_s, positions_m, velocities_m_s") from None
-    except (ValueError, EOFError) as error:
+    except (ValueError, EOFError, BadZipFile, zlib.error) as error:
         raise InputError(f"{file}: expected an NPZ file of arrays of numbers: {error}") from None
 
 
 def _numbers(array: Array) -> Array:
+    if np.iscomplexobj(array) or not np.ndim(array):
+        raise ValueError(f"one holds {'complex numbers' if np.ndim(array) else 'a single one'}")
     return np.asarray(array, dtype=float)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import subprocess
 import sys
@@ -91,6 +92,41 @@ def test_what_is_no_recording_is_refused_in_a_line(text: str, said: str, tmp_pat
     """With the file, the line, and what was expected."""
     file = tmp_path / "run.csv"
     file.write_text(text)
+    found = springlab("identify", str(file), "spring", "--dt", "0.001")
+    assert found.code == 2
+    assert said in found.err
+    assert len(found.err.strip().splitlines()) == 1
+
+
+def spoilt(how: str) -> bytes:
+    """An NPZ file that is none, or not of arrays of numbers."""
+    made = io.BytesIO()
+    time = np.array(0.0) if how == "a single time" else np.arange(4) * 1e-3
+    np.savez(made, time_s=time, positions_m=np.zeros((4, 2, 2)) + (1j if how == "complex" else 0))
+    data = bytearray(made.getvalue())
+    if how == "a wrong byte":
+        data[120] ^= 0xFF
+    if how == "an array alone":
+        made = io.BytesIO()
+        np.save(made, time)
+        return made.getvalue()
+    return bytes(data[:200] if how == "cut off" else data)
+
+
+@pytest.mark.parametrize(
+    ("how", "said"),
+    [
+        ("cut off", "expected an NPZ file, as numpy.savez writes it"),
+        ("an array alone", "expected an NPZ file, as numpy.savez writes it"),
+        ("a wrong byte", "expected an NPZ file of arrays of numbers: Bad CRC-32"),
+        ("a single time", "expected an NPZ file of arrays of numbers: one holds a single one"),
+        ("complex", "expected an NPZ file of arrays of numbers: one holds complex numbers"),
+    ],
+)
+def test_a_spoilt_npz_file_is_refused_in_a_line(how: str, said: str, tmp_path: Path) -> None:
+    """Four ended with an error of a library's; of complex numbers the real part was taken."""
+    file = tmp_path / "run.npz"
+    file.write_bytes(spoilt(how))
     found = springlab("identify", str(file), "spring", "--dt", "0.001")
     assert found.code == 2
     assert said in found.err
