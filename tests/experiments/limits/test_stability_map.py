@@ -18,6 +18,8 @@ from reference.scenes import find as find_scene
 from reference.schemes import catalogue
 from reference.stepper import SchemeStepper
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.limits import stability_limit
 
 
 def test_a_swept_map_changes_colour_at_the_predicted_boundary() -> None:
@@ -110,3 +112,12 @@ def test_the_usual_range_of_an_axis_is_about_the_systems_first_spring_and_last_m
     for name, value in (("rest_length", 0.1), ("stiffness", 50.0), ("mass", 3.0)):
         x, _ = axes_for((name, "dt"), {}, system)
         assert (x.low, x.high) == pytest.approx((0.05 * value, 2 * value))
+
+
+def test_the_usual_steps_are_from_short_ones_to_where_most_schemes_have_given_up() -> None:
+    """With w the fastest frequency, kick-drift gives up at 2 / w and rk4 at 2.83 / w: from 0.05 to 3.5 / w."""
+    system = find_scene("string").system({})
+    x, _ = axes_for(("dt", "damping"), {}, system)
+    limit = stability_limit(catalogue.find("kick_drift"), spring_equilibrium(system)).dt
+    assert limit is not None
+    assert (x.low, x.high) == pytest.approx((limit / 40, 1.75 * limit), rel=1e-6)

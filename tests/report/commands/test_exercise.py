@@ -59,3 +59,12 @@ def test_words_are_as_wide_as_the_terminal_and_not_too_wide(
     monkeypatch.setattr("sys.stdout.isatty", lambda: True)
     assert exercise._wrapped("a" * width) == "a" * width
     assert exercise._wrapped("a" * (width + 1)) == "a" * width + "\n  a"
+
+
+def test_grades_are_no_folder(checked: list[str], tmp_path: Path) -> None:
+    """Refused before anything is run."""
+    (tmp_path / "a.py").write_text(PROGRAM, encoding="utf-8")
+    said = CliRunner().invoke(check_command, [str(tmp_path / "a.py"), "--csv", str(tmp_path)])
+    assert said.exit_code == 2
+    assert "is a directory" in said.output
+    assert checked == []

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from experiments.exercises.behaviour.terms import TermCase, cases, seen
+from experiments.exercises.behaviour.terms import TermCase, _error, cases, seen
 from experiments.exercises.exercise import find
 from experiments.exercises.verdict.answer_catalogue import catalogue_of
 
@@ -52,3 +52,12 @@ def test_where_all_terms_are_alike_nothing_is_told() -> None:
     assert told("", []) == []
     nothing = [{"values": []} for _ in CASES]
     assert seen(CATALOGUE, CASES, nothing) == []
+
+
+@pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
+def test_how_far_an_answer_is_off_is_a_part_of_the_right_one(size: float) -> None:
+    """Twice as much is wrong by all of it, however small it is; rounding is nothing."""
+    asked = [[np.array([size, -size])]]
+    assert _error((CASES[0], [[2 * asked[0][0]]], asked)) == pytest.approx(1.0)
+    assert _error((CASES[0], [[(1 + 1e-15) * asked[0][0]]], asked)) == 0.0
+    assert _error((CASES[0], None, asked)) == np.inf

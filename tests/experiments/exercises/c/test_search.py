@@ -14,7 +14,8 @@ from experiments.exercises.c.changes import MOST, CChanges
 from experiments.exercises.c.compiler import compiled
 from experiments.exercises.c.reading import read
 from experiments.exercises.c.switched import Switched, SwitchedProgram
-from experiments.exercises.c.variants import Variants
+from experiments.exercises.c.tree import Verbatim, functions_in
+from experiments.exercises.c.variants import Variants, _names_of
 from experiments.exercises.c.written import text_of
 from experiments.exercises.closer_look import CloserLook, Effort, _groups, look_closer
 from experiments.exercises.exercise import find
@@ -262,3 +263,12 @@ def test_no_more_changes_are_compiled_than_time_allows() -> None:
     on = [i for i, switches in enumerate(changes.variants.switches) if switches]
     assert 0.9 * FEW < len(on) <= FEW < MOST
     assert [e.cost for e in changes.edits] == sorted(e.cost for e in changes.edits)
+
+
+def test_names_that_a_copied_statement_declares_are_known_after_it() -> None:
+    """As those of a declaration that is read, and of none that declares nothing."""
+    copied = Verbatim()
+    copied.text, copied.names = "struct spring *s, t;", ["s", "t"]
+    assert _names_of(copied) == {"s", "t"}
+    (own,) = functions_in(read("void own(double x)\n{\ndouble l = 2 * x;\nx = l;\n}\n").tree)
+    assert [_names_of(one) for one in own.body] == [{"l"}, set()]

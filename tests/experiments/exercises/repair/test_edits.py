@@ -25,6 +25,7 @@ SLIPS = {
         "for i in r:\n    x[i] = f(x)\nreturn x",
         "_x_before = x.copy()\nfor i in r:\n    x[i] = f(_x_before)\nreturn x",
     ),
+    "the last line in the loop": ("for i in r:\n    f(i)\n    g(i)", "for i in r:\n    f(i)\ng(i)"),
     "from the beginning": ("for i in range(n):\n    g(i)", "for i in range(1, n):\n    g(i)"),
     "unpacked the wrong way": ("dv, dy = slope(s)\nreturn dy, dv", "dy, dv = slope(s)\nreturn dy, dv"),
     "turned round": ("w = np.roll(v, 1)\nreturn w", "w = np.roll(v, 1)\nw[0] = 0.0\nreturn w"),
