@@ -102,8 +102,8 @@ def stability_rows_of(
         SolverError: if a system has no equilibrium.
     """
     caveats = {stepper.name: _caveat(stepper) for stepper in steppers}
-    with current().threads() as pool:
-        begun = [_AtWork(system, steppers, pool) for system in systems]
+    with current().threads(1) as theory, current().threads() as pool:
+        begun = [_AtWork(system, steppers, pool, theory) for system in systems]
         of_schemes = [at_work.rows_of_schemes(tell) for at_work, tell in zip(begun, progress, strict=True)]
         found = [row for at_work, rows in zip(begun, of_schemes, strict=True) for row in at_work.all_rows(rows)]
         return [replace(row, caveat=caveats[row.stepper]) for row in found]
@@ -117,18 +117,21 @@ def _caveat(stepper: Stepper) -> str:
 
 
 class _AtWork:
-    """One system, whose engines are at work in the threads of a pool, which begin what is given to them in its order.
+    """One system, whose engines are at work in the threads of a pool; what they are is found in a thread of its own."""
 
-    So engines are identified once their runs, which were given before, have begun: none waits for what waits for it.
-    """
-
-    def __init__(self, system: MassSpringSystem, steppers: Sequence[Stepper], pool: ThreadPoolExecutor) -> None:
+    def __init__(
+        self,
+        system: MassSpringSystem,
+        steppers: Sequence[Stepper],
+        pool: ThreadPoolExecutor,
+        theory: ThreadPoolExecutor,
+    ) -> None:
         self._system, self._steppers, self._pool = system, steppers, pool
         alone = replace(system, obstacles=())
         self._alone = Predictions(alone, spring_equilibrium(alone))
         engines = [stepper for stepper in steppers if isinstance(stepper, EngineStepper)]
         running = [(engine, pool.submit(self._alone.identifying_run, engine)) for engine in engines]
-        self._measuring = pool.submit(self._begin_to_measure, running)
+        self._measuring = theory.submit(self._begin_to_measure, running)
 
     def rows_of_schemes(self, progress: Progress) -> dict[str, Row]:
         """By name."""
@@ -163,8 +166,7 @@ class _AtWork:
         """What is predicted of each engine, by name, and its measurement, which is at work."""
         runs = [(engine, run.result()) for engine, run in running]
         found, measuring = limits_of_engines_elsewhere(self._alone.system, runs), {}
-        for (engine, _), (scheme, limit) in zip(runs, found, strict=True):
-            predicted = self._alone.of_engine(scheme) if limit is None else limit
+        for (engine, _), (scheme, predicted) in zip(runs, found, strict=True):
             measured = self._pool.submit(measure_engine, engine, self._alone, named(scheme), predicted)
             measuring[engine.name] = predicted, measured
         return measuring

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
-from threading import Lock
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,12 +23,10 @@ from reference.theory.rates import Rates, rates
 #: An engine is identified from this many steps, at a tenth of what the fastest mode allows.
 IDENTIFYING_STEPS = 200
 
+#: Limits of schemes on rods, by the digest of all they were found from.
+LimitsOnRods = Mapping[tuple[SchemeStepper, str], Limit]
 
-#: Of schemes on rods, by the digest of all they were found from.
 _LIMITS_ON_RODS: dict[tuple[SchemeStepper, str], Limit] = {}
-
-#: Of threads that ask for such a limit, one finds it.
-_FINDING_ON_RODS = Lock()
 
 
 class Predictions:
@@ -71,11 +68,10 @@ class Predictions:
         """Rods have neither stiffness nor damping: of systems that differ in these only it is found once."""
         rods = replace(self.system, stiffness=np.array(1.0), damping=np.array(0.0))
         key = stepper, digest(rods)
-        with _FINDING_ON_RODS:
-            if key not in _LIMITS_ON_RODS:
-                rest = rest_of_scheme(stepper, rods, self.rest)
-                _LIMITS_ON_RODS[key] = rest if isinstance(rest, Limit) else stability_limit(stepper.scheme, rest)
-            return _LIMITS_ON_RODS[key]
+        if key not in _LIMITS_ON_RODS:
+            rest = rest_of_scheme(stepper, rods, self.rest)
+            _LIMITS_ON_RODS[key] = rest if isinstance(rest, Limit) else stability_limit(stepper.scheme, rest)
+        return _LIMITS_ON_RODS[key]
 
     def of_engine(self, found: Identification) -> Limit:
         """That of the scheme an engine was identified with."""
@@ -94,29 +90,45 @@ class Predictions:
         return {each.stepper: each for each in found.each}
 
 
-def limits_of_engines(
-    system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]]
-) -> list[tuple[Identification, Limit | None]]:
-    """Which scheme each engine is, from its `identifying_run`, and the limit of that scheme; on rods None.
+@dataclass(frozen=True)
+class EnginesLimits:
+    """Which schemes engines are on a system, and the limits of these.
 
-    Those on rods are found once for many systems (`Predictions.of`), which the process that asks goes through.
+    Attributes:
+        each: in the engines' order.
+        on_rods: all limits on rods that are known by now, of other systems too.
     """
+
+    each: Sequence[tuple[Identification, Limit]]
+    on_rods: LimitsOnRods
+
+
+def limits_of_engines(
+    system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]], on_rods: LimitsOnRods
+) -> EnginesLimits:
+    """Which scheme each engine is, from its `identifying_run`, and the limit of that scheme.
+
+    Args:
+        on_rods: limits that need not be found again.
+    """
+    _LIMITS_ON_RODS.update(on_rods)
     predictions = Predictions(system, spring_equilibrium(system))
     identified = predictions.identified(runs)
     found = [identified[engine.name] for engine, _ in runs]
-    on_rods = [scheme is not None and scheme.on_rods for scheme in map(named, found)]
-    return [(each, None if rods else predictions.of_engine(each)) for each, rods in zip(found, on_rods, strict=True)]
+    return EnginesLimits([(each, predictions.of_engine(each)) for each in found], dict(_LIMITS_ON_RODS))
 
 
 def limits_of_engines_elsewhere(
     system: MassSpringSystem, runs: Sequence[tuple[EngineStepper, Outcome]]
-) -> list[tuple[Identification, Limit | None]]:
+) -> Sequence[tuple[Identification, Limit]]:
     """The same, found in another process, while this one is at something else; here where a stepper cannot travel."""
     if not runs:
         return []
-    if any(engine.isolate is in_this_process for engine, _ in runs):
-        return limits_of_engines(system, runs)
-    return elsewhere(limits_of_engines, system, runs)
+    here = any(engine.isolate is in_this_process for engine, _ in runs)
+    known = dict(_LIMITS_ON_RODS)
+    found = limits_of_engines(system, runs, known) if here else elsewhere(limits_of_engines, system, runs, known)
+    _LIMITS_ON_RODS.update(found.on_rods)
+    return found.each
 
 
 def named(found: Identification) -> SchemeStepper | None:

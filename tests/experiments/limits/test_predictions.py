@@ -15,7 +15,6 @@ from reference.identification.result import Match
 from reference.limit import Limit
 from reference.outcome import Outcome
 from reference.scenes import find
-from reference.stepper import stepper_named
 from reference.theory.equilibria import spring_equilibrium
 from tests.conformance.doctored import Doctored
 
@@ -46,11 +45,10 @@ def test_engines_are_predicted_in_another_process(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(Predictions, "identified", fails)
     ((found, limit),) = limits_of_engines_elsewhere(SYSTEM, runs)
     assert found.identified_as == "kick_drift"
-    assert limit is not None
     fastest = math.sqrt((3 + math.sqrt(5)) / 2 * SYSTEM.stiffness[0] / SYSTEM.masses[-1])
     assert limit.dt == pytest.approx(2 / fastest, rel=1e-8)
     with pytest.raises(AssertionError, match="called here"):
-        limits_of_engines(SYSTEM, runs)
+        limits_of_engines(SYSTEM, runs, {})
 
 
 @pytest.mark.rotating(3, in_turn=True)
@@ -67,24 +65,19 @@ def test_no_process_is_asked_about_no_engines(monkeypatch: pytest.MonkeyPatch) -
     assert limits_of_engines_elsewhere(SYSTEM, []) == []
 
 
-def test_limits_on_rods_are_not_found_in_another_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """What is identified as a scheme on rods has none there: it is found here, once for many systems."""
+def test_limits_on_rods_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of systems that differ in stiffness and damping only; what is found is told, and need not be found again."""
+    hanging = find("string").system({"masses": 2})
     pendulum = Identification(ENGINE.name, (Match("pendulum_rk4", 0.0, 0.0, 200),), 1e-9)
     monkeypatch.setattr(Predictions, "identified", lambda *_: {ENGINE.name: pendulum})
-    monkeypatch.setattr(Predictions, "of", fails)
-    assert limits_of_engines(SYSTEM, [(ENGINE, Outcome("done"))]) == [(pendulum, None)]
-
-
-def test_one_thread_at_a_time_finds_a_limit_on_rods(monkeypatch: pytest.MonkeyPatch) -> None:
-    """While it does, others that ask for it wait."""
-
-    def found(*_: object) -> Limit:
-        assert predictions._FINDING_ON_RODS.locked()
-        return Limit(0.25)
-
     monkeypatch.setattr(predictions, "_LIMITS_ON_RODS", {})
-    monkeypatch.setattr(predictions, "stability_limit", found)
-    hanging = find("string").system({"masses": 2})
-    here = Predictions(hanging, spring_equilibrium(hanging))
-    assert here.of(stepper_named("pendulum_rk4")).dt == 0.25
-    assert not predictions._FINDING_ON_RODS.locked()
+    monkeypatch.setattr(predictions, "stability_limit", lambda *_: Limit(0.25))
+    found = limits_of_engines(hanging, [(ENGINE, Outcome("done"))], {})
+    assert [*found.each] == [(pendulum, Limit(0.25))]
+    monkeypatch.setattr(predictions, "_LIMITS_ON_RODS", {})
+    monkeypatch.setattr(predictions, "stability_limit", fails)
+    stiffer = find("string").system({"masses": 2, "stiffness": 500.0, "damping": 0.1})
+    assert [*limits_of_engines(stiffer, [(ENGINE, Outcome("done"))], found.on_rods).each] == [(pendulum, Limit(0.25))]
+    heavier = find("string").system({"masses": 2, "drag": 0.1})
+    with pytest.raises(AssertionError, match="called here"):
+        limits_of_engines(heavier, [(ENGINE, Outcome("done"))], found.on_rods)
