@@ -137,6 +137,7 @@ def setup_options(command: Command) -> Command:
     ) -> Any:
         from engines.process.worker import start_beforehand
 
+        # what engines run in imports what it needs while this process imports what schemes need
         start_beforehand()
         from reference.files.setup import setup_for
 
