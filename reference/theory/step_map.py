@@ -58,9 +58,16 @@ def resisted(values: Complex, unresisted: int, unit: float) -> Complex:
         unresisted: how many there are at most.
         unit: dt over the fastest motion's 1/w.
     """
-    by_distance = np.argsort(np.abs(values - 1), kind="stable")
-    nearest, others = values[by_distance[:unresisted]], values[by_distance[unresisted:]]
-    return np.concatenate([nearest[np.abs(nearest - 1) > TORN_APART * max(1.0, unit)], others])
+    return values[is_resisted(values - 1, unresisted, unit)]
+
+
+def is_resisted(b: Complex, unresisted: int, unit: float) -> npt.NDArray[np.bool_]:
+    """The same of eigenvalues 1 + b, by their b: which of them are kept."""
+    by_distance = np.argsort(np.abs(b), kind="stable")
+    kept = np.ones(len(b), dtype=bool)
+    nearest = by_distance[:unresisted]
+    kept[nearest] = np.abs(b[nearest]) > TORN_APART * max(1.0, unit)
+    return kept
 
 
 def _by_linear_motion(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:

@@ -9,7 +9,7 @@ with dt that tells: as a power of dt, it is there at any dt.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -21,14 +21,27 @@ from reference.theory.equilibria import Equilibrium
 from reference.theory.large_steps import NEARLY, limit_of_large, limit_of_relative, relative_of
 from reference.theory.layout import layout_of
 from reference.theory.rates import Rates
-from reference.theory.step_map import TORN_APART, resisted, step_jacobian
+from reference.theory.step_increments import growth_of, increments_of_modes, is_exact, step_increments
+from reference.theory.step_map import TORN_APART, Complex, is_resisted, step_jacobian
 from reference.theory.windows import looked_to, windows_of
 
 #: Up to this size of the whole state all eigenvalues of steps are taken, dt by dt; and of a few steps up to the second.
 WHOLE_UP_TO, FEW_UP_TO = 260, 700
 
-#: Growth in a step that is no rounding: of a Jacobian that is exact, and of one that is differenced.
-EXACT, DIFFERENCED = 1e-11, 1e-8
+#: Growth in a step of the fastest 1/w that is no rounding: of exact increments, of a Jacobian, of differences.
+EXACT, LINEAR, DIFFERENCED = 1e-12, 1e-11, 1e-8
+
+#: Steps shorter than this part of the fastest 1/w round what is remembered no less than one that is so long.
+REMEMBERED = 0.1
+
+#: Growth and decay larger than this are told from rounding without more ado.
+FINE = 1e-9
+
+#: Where decay is so many times what rounding may do, there is no question where it ends.
+PLAIN = 100.0
+
+#: Between the last decay and the first growth that are no rounding lies one value, if they are as near as this.
+ONE_VALUE = 1e-2
 
 #: Each dt looked at is so many times the one before; the first limit is found to this part of itself.
 RATIO, PRECISION, ROUGH = 1.2, 1e-8, 1e-7
@@ -52,11 +65,18 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     size = layout_of(scheme, rest, unit)[0].size
     # rounding in an iteration tears motion that nothing resists, which is no growth of it
     torn = scheme.iterated and found.unresisted > 0
-    exact = rest.linear is not None and rest.contacts is None and scheme.linear
-    margin, precision = EXACT if exact and not torn else DIFFERENCED, PRECISION if exact else ROUGH
+    linear = rest.linear is not None and rest.contacts is None and scheme.linear
+    exact, precision = is_exact(scheme, rest) and not torn, PRECISION if linear else ROUGH
+    margin = DIFFERENCED if torn or not linear else EXACT if exact else LINEAR
 
     def excess(dt: float) -> float:
         return _excess(scheme, rest, dt, found)
+
+    def rounding(dt: float) -> float:
+        """Of growth in a step of dt [s]: that of increments that are exact falls with dt."""
+        # beyond the fastest mode's 1/w, positions and dt x velocities are of different sizes, and so is rounding
+        least = (0.0 if scheme.one_step else REMEMBERED) if exact else 1.0
+        return margin * max(least, dt / unit)
 
     if size <= FEW_UP_TO and (
         (found.unresisted and _unresisted_motion_grows(scheme, rest, found))
@@ -69,18 +89,19 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         if not scheme.one_step:
             # in shorter ones what it remembers is all but what it has: rounding tears the two apart by eps / (h w)
             slowest = float(np.abs(found.values).min())
-            start = max(start, min(1e-2 * unit, 4 * np.finfo(float).eps / (margin * slowest)))
+            start = max(start, min(1e-2 * unit, 4 * float(np.finfo(float).eps) / (LINEAR * slowest)))
         if scheme.iterated and rest.linear is not None:
             # up to near the limit of what it would come to, it does as that does
             converged = limit_of_relative(scheme, rest.linear, unit)
             start = NEARLY * converged if np.isfinite(converged) else start
-        limit = _scan(excess, start, unit, margin, FARTHEST / float(np.abs(found.values).min()), precision)
+        last = FARTHEST / float(np.abs(found.values).min())
+        limit = _scan(Search(excess, rounding, precision, found.least_decay > 0), start, unit, last)
         if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
             return Limit(None, unsolved)
         phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
         if phantom:
             return _of_unresisted_motion(scheme, rest, found, unit)
-        return _with_windows(scheme, rest, unit, limit, excess, margin)
+        return _with_windows(scheme, rest, unit, limit, lambda dt: excess(dt) > rounding(dt))
     if scheme.needs == "accelerations of one mass" or rest.linear is None:
         reason = f"{size} positions and velocities, which this scheme does not step alike; up to {WHOLE_UP_TO} it is"
         return Limit(None, f"not computed for {reason}")
@@ -104,7 +125,7 @@ def unstable_at_any(rate: float, dt: float) -> str:
 
 
 def _with_windows(
-    scheme: Scheme, rest: Equilibrium, unit: float, limit: Limit, excess: Callable[[float], float], margin: float
+    scheme: Scheme, rest: Equilibrium, unit: float, limit: Limit, unstable: Callable[[float], bool]
 ) -> Limit:
     """With where a scheme that stops its iteration early is stable again: inside windows of what it would come to."""
     if not scheme.iterated or limit.dt is None or rest.linear is None:
@@ -112,10 +133,6 @@ def _with_windows(
     relative = relative_of(scheme, rest.linear, unit)
     if relative is None:
         return limit
-
-    def unstable(dt: float) -> bool:
-        return excess(dt) > margin * max(1.0, dt / unit)
-
     windows = tuple(
         (low, high)
         for low, high in windows_of(relative, limit.dt)
@@ -195,25 +212,71 @@ def _growth_of_mode(scheme: Scheme, rest: Equilibrium, mu: complex, dt: float) -
     return float(np.abs(values[np.argmin(np.abs(values - np.exp(dt * mu)))]) - 1)
 
 
-def _scan(
-    excess: Callable[[float], float], start: float, unit: float, margin: float, last: float, precision: float
-) -> Limit:
+@dataclass(frozen=True)
+class Search:
+    """What is looked at, dt by dt.
+
+    Attributes:
+        excess: by how much of itself the worst perturbation grows in a step of dt [s].
+        rounding: how much of that may be rounding.
+        precision: to this part of itself a limit is found.
+        decays: whether every perturbation decays in steps that are short enough; else some only stay as they are.
+    """
+
+    excess: Callable[[float], float]
+    rounding: Callable[[float], float]
+    precision: float
+    decays: bool
+
+    def is_growth(self, dt: float) -> bool:
+        """Whether perturbations are seen to grow."""
+        return self.excess(dt) > self.rounding(dt)
+
+    def is_no_decay(self, dt: float, times: float = 1.0) -> bool:
+        """Whether they are not seen to decay, by so many times what rounding may do."""
+        return not self.excess(dt) < -times * self.rounding(dt)
+
+    def near(self, low: float, high: float) -> bool:
+        """Whether two dts are one limit."""
+        return high - low <= self.precision * low
+
+
+def _scan(search: Search, start: float, unit: float, last: float) -> Limit:
     """From a short step on, each a little longer, to the first at which perturbations grow, or to the last."""
-
-    def unstable(dt: float) -> bool:
-        # beyond the fastest mode's 1/w, positions and dt x velocities are of different sizes, and so is rounding
-        return excess(dt) > margin * max(1.0, dt / unit)
-
     dt = start
-    while unstable(dt):
+    while search.is_growth(dt):
         dt /= 2 if start > 1e-2 * unit else 10
         if dt < SHORTEST * start:
             return Limit(None, f"no stable step was found, down to {dt:.3g} s")
-    while not unstable(RATIO * dt):
+    while not search.is_growth(RATIO * dt):
         dt *= RATIO
         if dt > last:
             return Limit(None, f"stable at any dt that was looked at, up to {dt:.3g} s")
-    low, high = bisect(unstable, dt, RATIO * dt, lambda low, high: high - low <= precision * low)
+    if search.decays:
+        return _where_decay_ends(search, dt, RATIO * dt)
+    low, high = bisect(search.is_growth, dt, RATIO * dt, search.near)
+    return Limit((low + high) / 2)
+
+
+def _where_decay_ends(search: Search, low: float, high: float) -> Limit:
+    """Where all that decayed begins to grow: one value if rounding allows to tell, else two between which it is.
+
+    Args:
+        low: a dt [s] at which growth is not seen.
+        high: one at which it is.
+    """
+    if search.is_no_decay(low, PLAIN):
+        seen = low
+        while search.is_no_decay(seen):
+            seen /= RATIO
+            if seen < SHORTEST * low:
+                why = f"growth is seen at {high:.3g} s, and in shorter steps damping takes less than rounding"
+                return Limit(None, f"not computed: {why}")
+        low, _ = bisect(search.is_no_decay, seen, high, search.near)
+        _, high = bisect(search.is_growth, low, high, search.near)
+        if high > (1 + ONE_VALUE) * low:
+            return Limit(low, at_most=high, certainty="between")
+    low, high = bisect(lambda dt: search.excess(dt) > 0, low, high, search.near)
     return Limit((low + high) / 2)
 
 
@@ -221,10 +284,16 @@ def _scan(
 def _excess(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -> float:
     """By how much of itself the worst perturbation grows in a step [1], motion that nothing resists left out."""
     try:
-        jacobian = step_jacobian(scheme, rest, dt)
+        increments = step_increments(scheme, rest, dt)
     except SolverError:
         return np.inf
-    if not np.isfinite(jacobian).all():
+    if not np.isfinite(increments).all():
         return np.inf
-    values = resisted(np.linalg.eigvals(jacobian).astype(complex), found.unresisted, dt * found.fastest)
-    return float(np.abs(values).max(initial=0.0) - 1)
+    whole = _worst(np.linalg.eigvals(increments).astype(complex), dt, found)
+    # quotients take longer, and tell more only where growth is next to none
+    return whole if abs(whole) > FINE else _worst(increments_of_modes(increments), dt, found)
+
+
+def _worst(b: Complex, dt: float, found: Rates) -> float:
+    kept = is_resisted(b, found.unresisted, dt * found.fastest)
+    return float(growth_of(b[kept]).max(initial=-1.0))
