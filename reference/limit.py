@@ -9,6 +9,9 @@ from typing import Literal
 #: How sure a limit is: proved up to rounding; from eigenvalues or runs; or known only to lie between two values.
 Certainty = Literal["certified", "computed", "between"]
 
+#: Which dts are stable, as far as that is known or was tried.
+StableSteps = Literal["up to a limit", "any", "none", "unknown"]
+
 
 @dataclass(frozen=True)
 class Limit:
@@ -42,6 +45,19 @@ class Limit:
     def exact(self) -> bool:
         """Whether there is a limit, and it is one value."""
         return self.dt is not None and self.certainty != "between"
+
+    @property
+    def stable_steps(self) -> StableSteps:
+        """Which dts are stable; the reason says up to where one has looked.
+
+        >>> Limit(0.02).stable_steps, Limit(None, "stable at any dt").stable_steps
+        ('up to a limit', 'any')
+        """
+        if self.dt is not None:
+            return "up to a limit"
+        if self.growth is not None or self.reason.startswith(("unstable at any dt", "no stable step")):
+            return "none"
+        return "any" if self.reason.startswith(("stable at any dt", "nothing moves")) else "unknown"
 
     @property
     def remark(self) -> str:

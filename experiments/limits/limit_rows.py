@@ -75,6 +75,8 @@ class Row:
             "reason": "; ".join(told),
             "predicted_certainty": self.predicted.certainty if self.predicted.dt is not None else None,
             "predicted_at_most_s": self.predicted.at_most,
+            "predicted_stable_steps": self.predicted.stable_steps,
+            "measured_stable_steps": self.measured.stable_steps,
             "windows_s": [[low, high] for low, high in self.predicted.windows],
         }
 

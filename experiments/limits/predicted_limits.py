@@ -54,6 +54,4 @@ def _step(limit: Limit) -> float:
     """The largest stable dt [s]: 0 if none is, infinite if all are, NaN if it is not known."""
     if limit.dt is not None:
         return limit.dt
-    if limit.growth is not None or limit.reason.startswith("no stable step"):
-        return 0.0
-    return np.inf if limit.reason.startswith(("stable", "nothing moves")) else np.nan
+    return {"none": 0.0, "any": np.inf}.get(limit.stable_steps, np.nan)

@@ -12,7 +12,7 @@ import click
 
 from reference.printable import printable
 from report.commands.options import json_option, out_option, patient, setup_options, steppers_option, time_limit_option
-from report.commands.terminal import RESULTS, progress, say, show_table
+from report.commands.terminal import RESULTS, exit_if_files_failed, progress, say, show_table
 
 if TYPE_CHECKING:
     from experiments.runs.comparison import Comparison
@@ -67,6 +67,7 @@ def compare_command(
             _draw(comparison, names, slow, part, film)
     if film is not None:
         say(f"written: {film}")
+    exit_if_files_failed((run.stepper.kind, run.outcome.ending) for run in comparison.runs)
 
 
 def _film_path(setup: Setup, animate: str, out: Path | None, slow: float) -> Path:

@@ -18,7 +18,7 @@ from report.commands.options import (
     steppers_option,
     time_limit_option,
 )
-from report.commands.terminal import RESULTS, progress, show_table
+from report.commands.terminal import RESULTS, exit_if_files_failed, progress, show_table
 
 if TYPE_CHECKING:
     from experiments.simulation.simulation import Run, Simulation
@@ -80,6 +80,7 @@ def simulate_command(
         _plot(simulation, what, folder / f"{setup.name}-{what.name}.svg")
     if animate:
         _animate(simulation, folder)
+    exit_if_files_failed((run.stepper.kind, run.outcome.ending) for run in simulation.runs)
 
 
 def _tell_room(setup: Setup, steppers: Sequence[Stepper]) -> None:

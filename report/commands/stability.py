@@ -20,7 +20,7 @@ from report.commands.options import (
     settings_option,
     steppers_option,
 )
-from report.commands.terminal import RESULTS, progress, show_result
+from report.commands.terminal import RESULTS, exit_if_files_failed, progress, show_result
 
 if TYPE_CHECKING:
     from experiments.limits.limit_rows import Row
@@ -57,7 +57,9 @@ def stability_command(
     if axes:
         _write_maps(scene, settings, dt, axes, ranges, names or ("heun",), out)
     else:
-        _write_limits(_limits(scene, settings, names), as_json, out)
+        rows = _limits(scene, settings, names)
+        _write_limits(rows, as_json, out)
+        exit_if_files_failed((row.kind, row.outcome) for row in rows)
 
 
 def _limits(scene: str, settings: Mapping[str, str], names: Sequence[str]) -> list[Row]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -177,6 +177,18 @@ def in_one_line(command: Callable[[], object]) -> int:
         say(": ".join(["springlab", *([str(what)] if what else []), error.strerror or str(error)]))
         return 2
     return 0
+
+
+def exit_if_files_failed(ended: Iterable[tuple[str, str]]) -> None:
+    """Exit code 1 where a stepper in a file of the user's raised, died or took too long.
+
+    An engine that does is a result like any other.
+
+    Args:
+        ended: of each stepper its kind, and how its run ended.
+    """
+    if any(kind == "own" and ending in ("crashed", "timed out") for kind, ending in ended):
+        sys.exit(1)
 
 
 def say(line: str) -> None:

@@ -22,7 +22,8 @@ def test_json_rows_have_the_promised_keys(tmp_path: Path) -> None:
     assert done.code == 0
     (row,) = json.loads(done.out)
     keys = ["stepper", "damping", "drag", "predicted_dt_s", "measured_dt_s", "relative_difference", "outcome", "reason"]
-    assert list(row) == [*keys, "predicted_certainty", "predicted_at_most_s", "windows_s"]
+    keys += ["predicted_certainty", "predicted_at_most_s", "predicted_stable_steps", "measured_stable_steps"]
+    assert list(row) == [*keys, "windows_s"]
     assert (tmp_path / "stability.csv").exists()
 
 
