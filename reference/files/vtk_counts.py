@@ -39,7 +39,7 @@ def check_counts(content: bytes) -> None:
     """Refuse a file of another format that announces more than it can hold. Raises InputError."""
     for found in OTHERS.finditer(content):
         numbers = [int(digits) for group in found.groups() if group for digits in group.split()]
-        if max(numbers, default=0) > len(content):
+        if any(number > len(content) for number in numbers):
             raise InputError(f"it announces {max(numbers):,} numbers: expected at most {len(content):,}, its bytes")
 
 
@@ -47,7 +47,7 @@ def check_vtk_counts(content: bytes) -> None:
     """Refuse a file that announces more than it can hold, or elements of more corners. Raises InputError."""
     for line in ANNOUNCED.finditer(content):
         numbers = [int(digits) for digits in re.findall(rb"\d+", line[2] or line[3] or b"")]
-        if max(numbers, default=0) > len(content):
+        if any(number > len(content) for number in numbers):
             what = (line[1] or b"a field").decode()
             raise InputError(f"{what} announces {max(numbers):,} numbers: expected at most {len(content):,}, its bytes")
     corners = _corners(content)

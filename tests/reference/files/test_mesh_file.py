@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from reference.errors import InputError
+from reference.files import mesh_file
 from reference.files.mesh_file import Mesh, read_mesh
 from reference.files.scene_file import load
 from tests.reference.files.mesh_files import BINARY_BLOCK, BLANKET, BLOCK, BLOCK_EDGES, NEXT_BLOCK, block
@@ -106,6 +107,28 @@ def test_a_ply_file_without_the_end_of_its_header_is_told(tmp_path: Path) -> Non
     check_told(tmp_path, text, "cut.ply", "expected a mesh in the format .ply: its header has no end")
 
 
+def test_what_is_no_face_and_no_edge_of_another_is_a_spring_too(tmp_path: Path) -> None:
+    """A face of two vertices alone; and the sides of a polygon, in its order, the one that closes it last."""
+    assert edges(mesh(tmp_path, "v 0 0\nv 1 0\nv 2 1\nf 1 2\nl 2 3\n")) == [(0, 1), (1, 2)]
+    points = "".join(f"v {x} {y} 0\n" for x, y in ((0, 0), (2, 0), (3, 1), (1, 2), (-1, 1)))
+    assert mesh(tmp_path, points + "f 1 2 3 4 5\n").edges.tolist() == [[0, 1], [1, 2], [2, 3], [3, 4], [0, 4]]
+
+
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+def test_flat_is_told_by_its_shape_and_not_by_its_size(tmp_path: Path, size: float) -> None:
+    """A triangle whose height is 1e-11 of its longest side is one, at 1e-13 it is flat: also where it is a needle."""
+    corners = "v 0 0 0\nv {0} 0 0\nv {1} {2} 0\nf 1 2 3\n"
+    for along in (size, size / 2):
+        assert len(mesh(tmp_path, corners.format(size, along, 1e-11 * size)).edges) == 3
+        check_told(tmp_path, corners.format(size, along, 1e-13 * size), "thin.obj", "element 1 is flat")
+
+
+def test_numbers_of_corners_may_be_written_with_a_point(tmp_path: Path) -> None:
+    """If they are whole, as the next version of VTK's files may have them."""
+    text = NEXT_BLOCK.replace("CONNECTIVITY vtktypeint64", "CONNECTIVITY double")
+    assert edges(mesh(tmp_path, text, "block.vtk")) == BLOCK_EDGES
+
+
 def test_an_element_of_too_few_vertices_is_told(tmp_path: Path) -> None:
     """As a damaged file may have them (found by `tests.fuzz`)."""
     file = tmp_path / "few.mesh"
@@ -114,6 +137,17 @@ def test_an_element_of_too_few_vertices_is_told(tmp_path: Path) -> None:
     )
     with pytest.raises(InputError):
         read_mesh(file)
+
+
+def test_what_a_reader_makes_of_too_few_vertices_is_told() -> None:
+    """With the element, counted from the first kind on, and how many it needs."""
+    pair, four = np.array([[0, 1]]), np.array([[0, 1, 2, 3]])
+    for kind, corners, needed in (("triangle", pair, 3), ("quad", pair, 4), ("tetra", pair, 4), ("pyramid", four, 5)):
+        whole = meshio.CellBlock(kind, np.arange(2 * needed).reshape(2, needed))
+        assert mesh_file._blocks([whole])[0].corners.shape == (2, needed)
+        said = f"element 3: expected {needed} vertices of a {kind}, not {corners.shape[1]}"
+        with pytest.raises(InputError, match=said):
+            mesh_file._blocks([whole, meshio.CellBlock(kind, corners)])
 
 
 def test_single_points_are_passed_over(tmp_path: Path) -> None:
@@ -142,6 +176,18 @@ BAD = {
     "a line of words": (BLANKET + "l 1 a\n", "line '1 a': expected the numbers of its vertices"),
     "a line out of range": (BLANKET + "l 1 9\n", "element 3 names vertex 9: expected one from 1 to 4"),
     "no corners": (BLANKET + "f\n", "element 3: expected the numbers of its vertices"),
+    "two corners twice": (
+        BLANKET.replace("1 2 3", "1 2 2").replace("2/1/1 4", "2/1/1 3"),
+        "element 1 names vertex 2 twice",
+    ),
+    "two in one place": (
+        BLANKET.replace("v 3 4 0", "v 3 0 0") + "v 0 4 0\nf 5 3 1\n",
+        "element 2: vertices 2 and 4 are in one place",
+    ),
+    "two not numbers": (
+        BLANKET.replace("v 3 4 0", "v 3 nan 0").replace("v 3 0 0", "v inf 0 0"),
+        "vertex 2 = [inf, 0.0, 0.0]: expected finite numbers",
+    ),
     "not a number": (BLANKET.replace("v 3 4 0", "v 3 nan 0"), "vertex 4 = [3.0, nan, 0.0]: expected finite numbers"),
     "too large": (BLANKET.replace("v 3 4 0", "v 1e300 4 0"), "expected coordinates whose distances are finite"),
     "on a line": ("v 0\nv 1\nv 2\nf 1 2 3\n", "expected two or three coordinates of every vertex"),
@@ -161,6 +207,7 @@ BAD_BLOCKS = {
     "out of range": (BLOCK.replace("1 2 3 4\n", "1 2 3 5\n"), "element 2 names vertex 5: expected one from 0 to 4"),
     "flat": (BLOCK.replace("1 1 1\n", "-1 1 1\n"), "element 2 is flat: expected a tetra with volume"),
     "points alone": (block(1, 1), "it has no elements: expected at least one"),
+    "a polygon of two": (block(7, 2), "element 1: expected three vertices or more, not 2"),
     "an unknown kind": (BLOCK.replace("\n10\n10", "\n10\n77"), "expected a mesh in the format .vtk: File contains"),
     "a kind that only warns": (
         NEXT_BLOCK.replace("\n10\n10", "\n10\n-1"),
@@ -180,6 +227,20 @@ BAD_BLOCKS = {
     "an element of more corners in binary": (
         BINARY_BLOCK.replace(struct.pack(">i", 4), struct.pack(">i", 2**30), 1),
         "CELLS has the number 1073741824: expected at most",
+    ),
+    "a last corner beyond all in binary": (
+        BINARY_BLOCK.replace(struct.pack(">2i", 3, 4), struct.pack(">2i", 3, 2**30)),
+        "CELLS has the number 1073741824: expected at most",
+    ),
+    "a last corner beyond all in binary of the next version": (
+        BINARY_BLOCK.partition(b"CELLS")[0]
+        + b"CELLS 3 8\nOFFSETS vtktypeint64\n"
+        + struct.pack(">3q", 0, 4, 8)
+        + b"\nCONNECTIVITY vtktypeint64\n"
+        + struct.pack(">8q", 0, 1, 2, 3, 1, 2, 3, 2**40)
+        + b"\nCELL_TYPES 2\n"
+        + struct.pack(">2i", 10, 10),
+        "CELLS has the number 1099511627776: expected at most",
     ),
     "a field beyond all": (
         BLOCK + "POINT_DATA 5\nFIELD more 1\nheat 1000000 5 double\n1 2 3 4 5\n",

@@ -42,7 +42,15 @@ def binary() -> bytes:
     return whole
 
 
-@pytest.mark.parametrize("content", [TEXT.encode(), binary()], ids=["text", "binary"])
+#: The same as text, in the form of version 5.1, and without a line's end behind it.
+NEXT = TEXT.partition("VERTICES")[0].replace("4.2", "5.1") + (
+    "VERTICES 2 1\nOFFSETS vtktypeint64\n0 1\nCONNECTIVITY vtktypeint64\n0\n"
+    "LINES 2 3\nOFFSETS vtktypeint64\n0 3\nCONNECTIVITY vtktypeint64\n2 4 1\n"
+    "POLYGONS 2 4\nOFFSETS vtktypeint64\n0 4\nCONNECTIVITY vtktypeint64\n0 1 2 3"
+)
+
+
+@pytest.mark.parametrize("content", [TEXT.encode(), NEXT.encode(), binary()], ids=["text", "next version", "binary"])
 def test_lines_and_polygons_are_springs(tmp_path: Path, content: bytes) -> None:
     """Each edge once, in the order of the elements, and counted by what it came of."""
     mesh = read(tmp_path, content)
@@ -56,6 +64,24 @@ def test_quadrilaterals_have_diagonals_where_that_is_said(tmp_path: Path) -> Non
     mesh = read(tmp_path, TEXT.encode(), diagonals=True)
     assert [tuple(pair) for pair in mesh.edges.tolist()] == [*EDGES, (0, 2), (1, 3)]
     assert mesh.origins == {"line": 2, "quad": 4, "quad diagonals": 2}
+
+
+def test_polygons_of_one_kind_come_together_where_they_follow_one_another(tmp_path: Path) -> None:
+    """A triangle, two quadrilaterals, a triangle; one without corners joins nothing: edges in that order, each once."""
+    corners = "3 0 1 2  4 0 2 4 3  4 0 1 4 3  0  3 1 2 4"
+    mesh = read(tmp_path, (TEXT.partition("LINES")[0] + f"POLYGONS 5 19\n{corners}\n").encode())
+    sides = [(0, 1), (1, 2), (0, 2), (2, 4), (3, 4), (0, 3), (1, 4)]
+    assert [tuple(pair) for pair in mesh.edges.tolist()] == sides
+    assert mesh.origins == {"triangle": 3, "quad": 4}
+
+
+@pytest.mark.parametrize("offsets", ["0 5", "1 4", "0 3 2 4", "0 4 3", ""])
+def test_offsets_are_checked(tmp_path: Path, offsets: str) -> None:
+    """They rise from 0, and none is beyond the four corners there are."""
+    before, _, polygons = NEXT.partition("POLYGONS 2")
+    count = len(offsets.split())
+    with pytest.raises(InputError, match="OFFSETS: expected numbers that rise from 0 to how many corners there are"):
+        read(tmp_path, (before + f"POLYGONS {count}" + polygons.replace("\n0 4\n", f"\n{offsets}\n")).encode())
 
 
 @pytest.mark.parametrize(
