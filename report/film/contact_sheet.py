@@ -97,7 +97,7 @@ class Grid:
 
 
 def grid(shots: Sequence[Shot], window: Window) -> Grid:
-    """That in which panels are largest."""
+    """That in which panels are largest; of several, as where all have the least size, the one with the fewest rows."""
     ratio = (window[1] - window[0]) / (window[3] - window[2])
     grids = []
     most = max(1, int((WIDE - BAR - BETWEEN) / (TITLE + BETWEEN)))
@@ -111,7 +111,7 @@ def grid(shots: Sequence[Shot], window: Window) -> Grid:
             across = ((WIDE - BAR - BETWEEN) / columns - BETWEEN) / ratio
             high = max(LEAST, min(across, (HIGH - TOP - BETWEEN - sum(titles)) / rows, HIGHEST))
         grids.append(Grid(columns, (high * ratio, high), titles))
-    return max(grids, key=lambda found: found.size[1])
+    return max(grids, key=lambda found: (found.size[1], -len(found.titles)))
 
 
 def contact_sheet(system: MassSpringSystem, shots: Sequence[Shot], look: Look, title: str) -> ContactSheet:

@@ -2,17 +2,35 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from matplotlib.axes import Axes
+from matplotlib.transforms import Bbox
 
 from reference.outcome import Outcome
 from reference.scenes import Setup, find
-from report.film.contact_sheet import ContactSheet, Shot, contact_sheet
+from report.film.contact_sheet import (
+    BAR,
+    BETWEEN,
+    HIGH,
+    HIGHEST,
+    LEAST,
+    TITLE,
+    TOP,
+    WIDE,
+    ContactSheet,
+    Shot,
+    contact_sheet,
+    grid,
+)
 from report.film.drawing import nice
 from report.film.film import Film, look_at
 from tests.experiments.canned.reading import numbers
 from tests.experiments.canned.scenes import DURATION, STRETCHED, stretched
-from tests.report.figures.artists import data, marks
+from tests.report.figures.artists import cut_off, data, laid_out, marks
 
 SYSTEM = find("string").system({"masses": 3})
 SHOTS = (
@@ -76,3 +94,68 @@ def test_the_clock_tells_the_time_of_what_is_shown() -> None:
             drawn = np.array(shown.drawings[0].front.get_segments())
             assert np.sort(drawn, axis=0) == pytest.approx(np.sort(places[SYSTEM.springs], axis=0))
             assert [note.get_visible() for note in shown.notes] == [False, step * DURATION / 4 >= 0.2]
+
+
+@pytest.mark.parametrize(("count", "ratio"), [(1, 1.0), (2, 3.0), (3, 0.5), (5, 1.0), (7, 2.0)])
+def test_panels_stand_in_rows_each_below_its_titles(count: int, ratio: float) -> None:
+    """Of the window's shape, all on the sheet, none over another, in reading order; an even number of pixels."""
+    names = [(f"engine_{i}", "another_engine_of_the_same_motion", "and_a_third") for i in range(count)]
+    shots = [Shot(name, "not identified; nearest kick_drift", Outcome("done", "", stretched(SYSTEM))) for name in names]
+    look = replace(look_at(SYSTEM, [stretched(SYSTEM)]), window=(0.0, ratio, 0.0, 1.0))
+    made = contact_sheet(SYSTEM, shots, look, "string, dt = 0.001 s").figure
+    *panels, bar = laid_out(made).axes
+    boxes = [axes.get_window_extent() for axes in panels]
+    titles = [Bbox.union([text.get_window_extent() for text in axes.texts[:2]]) for axes in panels]
+    for box in boxes:
+        assert box.width / box.height == pytest.approx(ratio, rel=0.01)
+        assert (box.width, box.height) == pytest.approx((boxes[0].width, boxes[0].height))
+    places = [Bbox.union([box, title]) for box, title in zip(boxes, titles, strict=True)]
+    assert all(title.y0 >= box.y1 for box, title in zip(boxes, titles, strict=True))
+    assert not [i for i, one in enumerate(places) if any(one.overlaps(other) for other in places[:i])]
+    assert not any(one.overlaps(bar.get_tightbbox()) for one in places)
+    assert cut_off(made) == []
+    page = made.bbox.padded(1)
+    assert all(page.contains(*box.min) and page.contains(*box.max) for box in [*places, bar.get_window_extent()])
+    assert [axes.texts[1].get_text().split(",")[0] for axes in sorted(panels, key=reading_order)] == [
+        n[0] for n in names
+    ]
+    wide, high = made.canvas.get_width_height()
+    assert (wide % 2, high % 2) == (0, 0)
+    assert max(wide / 1240, high / 860) <= 1.01
+
+
+def reading_order(axes: Axes) -> tuple[float, float]:
+    """From the top row to the bottom, from left to right."""
+    box = axes.get_position()
+    return -round(box.y0, 3), box.x0
+
+
+@pytest.mark.parametrize(
+    ("count", "ratio", "columns"),
+    [
+        pytest.param(1, 1.0, 1, id="one"),
+        pytest.param(4, 4.0, 1, id="flat ones below one another"),
+        pytest.param(3, 1.0, 3, id="square ones in a row"),
+        pytest.param(4, 1.0, 2, id="or in two rows"),
+        pytest.param(12, 0.5, 4, id="narrow ones, no narrower than their titles"),
+    ],
+)
+def test_as_many_columns_as_make_the_panels_largest(count: int, ratio: float, columns: int) -> None:
+    """And no other number of them has room for larger ones."""
+    shots = SHOTS[:1] * count
+    found = grid(shots, (0.0, ratio, 0.0, 1.0))
+    assert found.columns == columns
+    assert len(found.titles) == math.ceil(count / columns)
+    assert found.size[0] == pytest.approx(ratio * found.size[1])
+    across = columns * (max(found.size[0], TITLE) + BETWEEN)
+    down = sum(found.titles) + len(found.titles) * found.size[1]
+    slack = [WIDE - BAR - BETWEEN - across, HIGH - TOP - BETWEEN - down, HIGHEST - found.size[1]]
+    assert min(slack) == pytest.approx(0, abs=1e-9)
+
+
+def test_very_many_panels_are_small_and_in_few_rows() -> None:
+    """Thirty, four in a row, on a sheet that is longer than others."""
+    found = grid(SHOTS[:1] * 30, (0.0, 1.0, 0.0, 1.0))
+    assert (found.columns, len(found.titles)) == (4, 8)
+    assert found.size[1] == LEAST
+    assert HIGH < found.sheet[1] < 1.5 * HIGH

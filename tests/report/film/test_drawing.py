@@ -26,7 +26,7 @@ from report.film.drawing import (
     strain,
 )
 from report.film.obstacle_image import ObstacleImage
-from report.film.view import View
+from report.film.view import View, Window
 
 FLAT = View(np.zeros(2), np.eye(2), np.inf)
 
@@ -230,22 +230,30 @@ def test_what_is_hidden_is_drawn_under_the_obstacle_and_the_rest_over_it() -> No
     assert true.get_linewidths()[0] > made.front.get_linewidths()[0]
 
 
-def test_places_far_beyond_the_window_are_brought_nearer() -> None:
-    """To a thousand times what is seen, beyond each of its sides: what draws them reckons in small numbers."""
+@pytest.mark.parametrize(
+    ("window", "wanted"),
+    [
+        ((1.0, 5.0, -2.0, -1.0), [[4005, 3], [-3999, 3999], [2, -4002]]),
+        ((0, 1, 0, 2), [[2001, 3], [-2000, 2002], [2, -2000]]),
+    ],
+)
+def test_places_far_beyond_the_window_are_brought_nearer(window: Window, wanted: list[list[float]]) -> None:
+    """To a thousand times its longer side, beyond each of its sides: what draws them reckons in small numbers."""
     places = np.array([[0.0, 0.0], [1e9, 3.0], [-1e9, 1e9], [2.0, -1e9]])
-    segments = lines(ROW, places, look(window=(1.0, 5.0, -2.0, -1.0)), colour_map()).segments
-    assert segments[:, 1].tolist() == [[4005, 3], [-3999, 3999], [2, -4002]]
+    assert lines(ROW, places, look(window=window), colour_map()).segments[:, 1].tolist() == wanted
 
 
-def test_a_bar_in_the_lower_left_says_how_long_it_is() -> None:
+@pytest.mark.parametrize(("width", "length"), [(10.0, 1.0), (10.5, 2.0), (6.0, 1.0)])
+def test_a_bar_in_the_lower_left_says_how_long_it_is(width: float, length: float) -> None:
     """Four percent from the corner, and a tenth of what is seen, or the next 1, 2 or 5."""
     axes = Figure().subplots()
-    add_length(axes, (-2.0, 4.0, 10.0, 11.0))
+    add_length(axes, (-2.0, -2.0 + width, 10.0, 10.5))
     (bar,) = axes.lines
-    assert np.asarray(bar.get_data()) == pytest.approx(np.array([[-1.76, -0.76], [10.04, 10.04]]))
+    left = -2.0 + 0.04 * width
+    assert np.asarray(bar.get_data()) == pytest.approx(np.array([[left, left + length], [10.02, 10.02]]))
     (words,) = axes.texts
-    assert words.get_text() == "1 m"
-    assert words.xy == (pytest.approx(-0.76), pytest.approx(10.04))  # type: ignore[attr-defined]
+    assert words.get_text() == f"{length:g} m"
+    assert words.xy == (pytest.approx(left + length), pytest.approx(10.02))  # type: ignore[attr-defined]
 
 
 def test_the_bar_of_colours_goes_both_ways() -> None:

@@ -154,5 +154,7 @@ def test_a_place_is_hidden_by_the_pixel_it_is_in() -> None:
     places = np.column_stack([x.ravel(), y.ravel()])
     assert image.hides(places, depth.ravel() - 0.2, slack=0.1).tolist() == [True] * 5 + [False]
     assert not image.hides(places, depth.ravel() - 0.1, slack=0.1).any()
-    edges = np.array([[10.0, 20.0], [13.0, 20.5], [12.5, 22.0], [9.9, 20.5], [10.5, 19.9], [np.nan, 20.5]])
-    assert image.hides(edges, np.full(6, -9.0), slack=0.0).tolist() == [True] + [False] * 5
+    edges = np.array(
+        [[10.0, 20.0], [13.0, 20.5], [12.5, 22.0], [9.9, 20.5], [10.5, 19.9], [np.nan, 20.5], [10.5, np.nan]]
+    )
+    assert image.hides(edges, np.full(7, -9.0), slack=0.0).tolist() == [True] + [False] * 6

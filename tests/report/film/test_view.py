@@ -37,6 +37,14 @@ def test_the_plane_is_seen_as_it_is() -> None:
     assert view_of(motion).distance == np.inf
 
 
+def test_what_is_as_near_as_the_eye_has_no_place() -> None:
+    """Nor what is behind it; only a little before it still has."""
+    view = View(np.zeros(3), np.eye(3), 4.0)
+    places, _ = view.project(np.array([[0.1, 0.2, 3.99], [0.1, 0.2, 4.0], [0.1, 0.2, 4.01]]))
+    assert places[0] == pytest.approx([40, 80])
+    assert np.isnan(places[1:]).all()
+
+
 def test_a_ray_through_a_place_goes_through_all_that_is_seen_there() -> None:
     """From the eye, at any distance along it; of length 1."""
     view = view_of(CORNERS)
