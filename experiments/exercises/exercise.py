@@ -209,6 +209,10 @@ class Exercise:
                 arguments = [*parts, *question.arguments[len(parts) :]] if question.steps else arguments
         return self.comparable(question, answer)
 
+    def right_at_first(self, question: Question) -> list[Array]:
+        """The parts of the right answer; where there are many steps, of the first."""
+        return self.answer(question, {}, 1)[0]
+
     def comparable(self, question: Question, answer: Answer) -> Answer:
         """An answer in the form in which answers are compared."""
         if self.canonical is None:

@@ -99,7 +99,7 @@ def seen(exercise: Exercise, asked: Sequence[Question], answers: Sequence[Mappin
     from reference.identification.scale import ROUNDING
 
     own = _matrices(asked, [_ends(answer["values"][:1]) for answer in answers])
-    right = _matrices(asked, [_ends([exercise.answer(question, {}, 1)[0]]) for question in asked])
+    right = _matrices(asked, [_ends([exercise.right_at_first(question)]) for question in asked])
     if own is None or right is None:
         return []
     noise = ROUNDINGS * ROUNDING["double"] * max(1.0, float(np.abs(own).max()))

@@ -90,7 +90,7 @@ def _same(given: Any, want: Any, tolerance: float) -> bool:
         return False
     numbers, others = given.astype(float).ravel(), want.astype(float).ravel()
     with np.errstate(all="ignore"):
-        return bool((np.abs(numbers - others) <= tolerance * max(np.abs(others).max(initial=0.0), 1e-300)).all())
+        return bool((np.abs(numbers - others) <= tolerance * np.abs(others).max(initial=0.0)).all())
 
 
 def _lines_in_c(source: str, bad: Sequence[tuple[str, str]], parts: Mapping[str, Sequence[str]]) -> list[int]:

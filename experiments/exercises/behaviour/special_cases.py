@@ -13,16 +13,22 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Answer, Question
+from experiments.exercises.exercise import Question
 from experiments.exercises.verdict.answer_catalogue import AnswerCatalogue
 from experiments.exercises.verdict.findings import Finding
 from reference.state import Array
 
-#: An argument's own part of it that makes a case, of positions, velocities and what is given: the new ones.
+#: The arguments of a case, made of a question's, which stay as they are; None where there is no such case.
 Change = Callable[[list[Any]], list[Any] | None]
+
+#: What was answered to a question, or after the first of its steps.
+Parts = Sequence[Array]
 
 #: Numbers are the same up to this part of the largest.
 SAME = 1e-9
+
+#: Factors are, up to this part of them.
+SAME_FACTOR = 1e-6
 
 #: Factors that are told by name.
 FACTORS = {
@@ -31,7 +37,6 @@ FACTORS = {
     -1.0: "minus",
     4.0: "four times",
     0.25: "a quarter of",
-    1000.0: "1000 times",
     0.001: "a thousandth of",
     2 * np.pi: "2 pi times",
     1 / (2 * np.pi): "1 / (2 pi) times",
@@ -64,7 +69,7 @@ def cases(catalogue: AnswerCatalogue) -> list[Case]:
             continue
         once = replace(question, steps=min(question.steps, 1))
         for where, change in WHERE.items():
-            arguments = change([_copied(a) for a in question.arguments])
+            arguments = change(list(question.arguments))
             if arguments is not None:
                 made.append(Case(i, replace(once, arguments=tuple(arguments)), where=where))
         fields = question.arguments[-1]
@@ -77,12 +82,6 @@ def cases(catalogue: AnswerCatalogue) -> list[Case]:
     return made
 
 
-def _copied(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {name: _copied(v) for name, v in value.items()}
-    return value.copy() if isinstance(value, np.ndarray) else value
-
-
 def seen(catalogue: AnswerCatalogue, made: Sequence[Case], answers: Sequence[Mapping[str, Any]]) -> list[Finding]:
     """What the answers show.
 
@@ -91,66 +90,65 @@ def seen(catalogue: AnswerCatalogue, made: Sequence[Case], answers: Sequence[Map
     """
     exercise, asked = catalogue.exercise, catalogue.questions
     own = [_answer(catalogue, q, a) for q, a in zip(asked, answers, strict=False)]
-    steps = [exercise.answer(q, {}, 1) for q in asked]
+    steps = [exercise.right_at_first(question) for question in asked]
     wrong = [i for i, (a, r) in enumerate(zip(own, steps, strict=True)) if not _same(a, r)]
     found = _constant(own) or _factor(catalogue, own, steps)
     given = [_answer(catalogue, case.question, a) for case, a in zip(made, answers[len(asked) :], strict=True)]
-    right = [exercise.answer(case.question, {}, 1) for case in made]
+    right = [exercise.right_at_first(case.question) for case in made]
     found += _ignored(made, own, given, steps, right)
     found += _right_where(made, wrong, given, right)
     return found
 
 
-def _answer(catalogue: AnswerCatalogue, question: Question, answer: Mapping[str, Any]) -> Answer | None:
-    """The first step of an answer that came through, comparable; None else."""
-    values = answer["values"][:1]
-    if answer.get("error") and not values:
+def _answer(catalogue: AnswerCatalogue, question: Question, answer: Mapping[str, Any]) -> Parts | None:
+    """What was answered at first, comparable; None where nothing, or nothing of that form."""
+    parts: Parts = next(iter(answer["values"]), [])
+    if len(parts) != len(question.parts) or any(part.dtype.kind == "U" for part in parts):
         return None
-    if not values or len(values[0]) != len(question.parts) or any(part.dtype.kind == "U" for part in values[0]):
-        return None
-    return catalogue.exercise.comparable(question, [list(values[0])])
+    (comparable,) = catalogue.exercise.comparable(question, [list(parts)])
+    return comparable
 
 
-def _same(one: Answer | None, other: Answer | None) -> bool:
+def _same(one: Parts | None, other: Parts | None) -> bool:
     """Whether two answers are the same to rounding, each number beside the largest of its part."""
     if one is None or other is None:
         return False
-    for a, b in zip(one[0], other[0], strict=True):
+    for a, b in zip(one, other, strict=True):
         if a.shape != b.shape and not (a.size == b.size == 1):
             return False
         numbers, others = a.astype(float).ravel(), b.astype(float).ravel()
         with np.errstate(all="ignore"):
-            if not (np.abs(numbers - others) <= SAME * max(float(np.abs(others).max(initial=0.0)), 1e-300)).all():
+            if not (np.abs(numbers - others) <= SAME * np.abs(others).max(initial=0.0)).all():
                 return False
     return True
 
 
-def _constant(own: Sequence[Answer | None]) -> list[Finding]:
+def _constant(own: Sequence[Parts | None]) -> list[Finding]:
     """The same answer to every question."""
     answers = [answer for answer in own if answer is not None]
-    shapes = {tuple(part.shape for part in answer[0]) for answer in answers}
-    zero = answers and all(not part.any() for answer in answers for part in answer[0])
+    shapes = {tuple(part.shape for part in answer) for answer in answers}
+    zero = answers and all(not part.any() for answer in answers for part in answer)
     if zero or (len(answers) > 2 and len(shapes) == 1 and all(_same(answer, answers[0]) for answer in answers)):
         words = "Your answer is the same whatever your function is given" + (": nothing but zeros." if zero else ".")
         return [Finding("always_the_same", words, "Which of the given numbers does it depend on?")]
     return []
 
 
-def _factor(catalogue: AnswerCatalogue, own: Sequence[Answer | None], right: Sequence[Answer]) -> list[Finding]:
+def _factor(catalogue: AnswerCatalogue, own: Sequence[Parts | None], right: Sequence[Parts]) -> list[Finding]:
     """A part of the answer that is a constant times the right one, in all questions that have it."""
     ratios: dict[str, list[float]] = {}
     for question, answer, want in zip(catalogue.questions, own, right, strict=True):
         for p, name in enumerate(question.parts):
-            if question.steps or answer is None or answer[0][p].shape != want[0][p].shape:
+            if question.steps or answer is None or answer[p].shape != want[p].shape:
                 ratios.setdefault(name, []).append(np.nan)
             else:
-                ratios.setdefault(name, []).append(_ratio(answer[0][p], want[0][p]))
+                ratios.setdefault(name, []).append(_ratio(answer[p], want[p]))
     found = []
     for name, numbers in ratios.items():
-        if len(numbers) > 1 and np.ptp(numbers) <= 1e-6 * abs(numbers[0]) and abs(numbers[0] - 1) > 1e-6:
-            told = next(
-                (words for q, words in FACTORS.items() if abs(numbers[0] / q - 1) < 1e-6), f"{numbers[0]:.6g} times"
-            )
+        ratio = float(np.mean(numbers))
+        if len(numbers) > 1 and np.ptp(numbers) <= SAME_FACTOR * abs(ratio) and abs(ratio - 1) > SAME_FACTOR:
+            named = (words for factor, words in FACTORS.items() if abs(ratio / factor - 1) <= SAME_FACTOR)
+            told = next(named, f"{ratio:.6g} times")
             words = f"Everywhere {name} is {told} the right one."
             found.append(Finding("constant_factor", words, "From where could such a factor come? A unit, a half?"))
     return found
@@ -161,15 +159,15 @@ def _ratio(given: Array, want: Array) -> float:
     a, b = given.astype(float).ravel(), want.astype(float).ravel()
     with np.errstate(all="ignore"):
         ratio = float(a @ b / (b @ b)) if b.any() else np.nan
-        return ratio if np.isfinite(ratio) and np.abs(a - ratio * b).max() <= 1e-9 * np.abs(b).max() else np.nan
+        return ratio if np.isfinite(ratio) and np.abs(a - ratio * b).max() <= SAME * np.abs(b).max() else np.nan
 
 
 def _ignored(
     made: Sequence[Case],
-    own: Sequence[Answer | None],
-    given: Sequence[Answer | None],
-    steps: Sequence[Answer],
-    right: Sequence[Answer],
+    own: Sequence[Parts | None],
+    given: Sequence[Parts | None],
+    steps: Sequence[Parts],
+    right: Sequence[Parts],
 ) -> list[Finding]:
     """Fields whose change changes nothing in the answers, where it should."""
     matters: dict[tuple[str, str], list[bool]] = {}
@@ -186,7 +184,7 @@ def _ignored(
 
 
 def _right_where(
-    made: Sequence[Case], wrong: Sequence[int], given: Sequence[Answer | None], right: Sequence[Answer]
+    made: Sequence[Case], wrong: Sequence[int], given: Sequence[Parts | None], right: Sequence[Parts]
 ) -> list[Finding]:
     """What has to be so for all answers to be right that are not."""
     holds: dict[str, list[bool]] = {}
@@ -279,5 +277,5 @@ WHERE: Mapping[str, Change] = {
     "rest lengths are 0": _fields(rest_lengths=lambda r: 0 * r),
     "the anchor or the centre is at the origin": _anchor_at_origin,
     "the radius is 1 m": _fields(radius=1.0),
-    "all members are equally stiff": _fields(stiffness=_mean, members=lambda m: m.copy() + 0),
+    "all members are equally stiff": _fields(stiffness=_mean, members=lambda m: m),
 }

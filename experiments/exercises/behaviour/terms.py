@@ -15,12 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from experiments.exercises.exercise import Answer, Exercise, Question
+from experiments.exercises.behaviour.special_cases import Parts
+from experiments.exercises.exercise import Exercise, Question
 from experiments.exercises.verdict.answer_catalogue import AnswerCatalogue
 from experiments.exercises.verdict.findings import Finding, listed
 
 #: A row of an answer is right up to this part of its largest number.
 SAME = 1e-9
+
+#: What is nearer to the right step than this part of it is off by rounding.
+ROUNDING = 1e-13
 
 #: A shorter dt, as a part of the question's; and half of it.
 SHORTER = (1 / 64, 1 / 128)
@@ -126,26 +130,26 @@ def seen(
     """
     exercise = catalogue.exercise
     rows = [
-        (case, _numbers(exercise, case.question, answer), exercise.answer(case.question, {}, 1))
+        (case, _numbers(exercise, case.question, answer), exercise.right_at_first(case.question))
         for case, answer in zip(made, answers, strict=True)
     ]
     of_terms = _of_terms([row for row in rows if row[0].term], source)
     return of_terms if named else [*of_terms, *_of_slopes([row for row in rows if not row[0].term])]
 
 
-def _numbers(exercise: Exercise, question: Question, answer: Mapping[str, Any]) -> Answer | None:
-    """The first step of an answer in the form of the right one; None where it has another form."""
-    right = exercise.answer(question, {}, 1)[0]
-    values = answer["values"][0] if answer["values"] else []
+def _numbers(exercise: Exercise, question: Question, answer: Mapping[str, Any]) -> Parts | None:
+    """What was answered at first, in the form of what is right; None where it has another form."""
+    right = exercise.right_at_first(question)
+    values: Parts = next(iter(answer["values"]), [])
     if len(values) != len(right):
         return None
     if any(v.size != r.size or v.dtype.kind not in "iuf" for v, r in zip(values, right, strict=True)):
         return None
-    return [[v.astype(float).reshape(r.shape) for v, r in zip(values, right, strict=True)]]
+    return [v.astype(float).reshape(r.shape) for v, r in zip(values, right, strict=True)]
 
 
 #: A case, what was answered, and what is right.
-_Row = tuple[TermCase, "Answer | None", Answer]
+_Row = tuple[TermCase, "Parts | None", Parts]
 
 
 def _is_right(row: _Row) -> bool:
@@ -153,10 +157,9 @@ def _is_right(row: _Row) -> bool:
     case, given, right = row
     if given is None:
         return False
-    for a, b in zip(given[0], right[0], strict=True):
+    for a, b in zip(given, right, strict=True):
         chosen = (list(case.rows), slice(None)) if case.rows and b.ndim == 2 else ()
-        largest = max(float(np.abs(b).max(initial=0.0)), 1e-300)
-        if not (np.abs(a - b)[chosen] <= SAME * largest).all():
+        if not (np.abs(a - b)[chosen] <= SAME * np.abs(b).max(initial=0.0)).all():
             return False
     return True
 
@@ -212,6 +215,6 @@ def _error(row: _Row) -> float:
     _, given, right = row
     if given is None:
         return np.inf
-    pairs = list(zip(given[0], right[0], strict=True))
+    pairs = zip(given, right, strict=True)
     far = max(float(np.abs(a - b).max(initial=0.0)) / max(float(np.abs(b).max(initial=0.0)), 1e-300) for a, b in pairs)
-    return far if far > 1e-13 else 0.0
+    return far if far > ROUNDING else 0.0

@@ -24,9 +24,9 @@ EXERCISE = Exercise(
     goals="Turn a force into a step: F = m a, and what dt does. See Euler's step gain energy.",
     solutions={"step": step},
     questions=questions_on_one,
-    mistakes=(
+    mistakes=[
         *on_one_mass((*OF_A_SPRING, *OF_INERTIA, *OF_A_STEP)),
         *OF_EULER,
         *(other for other in OTHERS if other.name not in ("euler", *SAME)),
-    ),
+    ],
 )

@@ -54,9 +54,9 @@ EXERCISE = Exercise(
     aside=where_drag_grows,
     aside_in_c=near_the_largest_number,
     told_aside=[other for other in OTHERS if other.name in SAME],
-    mistakes=(
+    mistakes=[
         *OF_HEUN,
         *on_one_mass((*OF_A_SPRING, *OF_INERTIA, *OF_A_STEP)),
         *(other for other in OTHERS if other.name not in ("heun", *SAME)),
-    ),
+    ],
 )

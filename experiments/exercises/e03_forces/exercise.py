@@ -13,5 +13,5 @@ EXERCISE = Exercise(
     goals="Vectors along springs, action and reaction, the first and the last link.",
     solutions={"forces": forces},
     questions=questions_on_forces,
-    mistakes=(*OF_A_SPRING, *OF_A_STRING, *OF_FORCES),
+    mistakes=[*OF_A_SPRING, *OF_A_STRING, *OF_FORCES],
 )

@@ -23,7 +23,7 @@ EXERCISE = Exercise(
     goals="Why no mass may see another one advanced; copies and names of arrays.",
     solutions={"step": step},
     questions=questions_on_steps,
-    mistakes=(
+    mistakes=[
         *IN_PLACE,
         *OF_HEUN,
         *OF_A_SPRING,
@@ -31,5 +31,5 @@ EXERCISE = Exercise(
         *OF_INERTIA,
         *OF_A_STEP,
         *(other for other in OTHERS if other.name != "heun"),
-    ),
+    ],
 )

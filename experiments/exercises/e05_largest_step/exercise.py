@@ -118,7 +118,7 @@ EXERCISE = Exercise(
     seeded=True,
     tolerance=5e-3,
     files=files,
-    mistakes=(
+    mistakes=[
         *mistakes(
             "root_forgotten",
             "You take k/m for the frequency.",
@@ -226,5 +226,5 @@ EXERCISE = Exercise(
             "How many masses has yours?",
             mode="endless",
         ),
-    ),
+    ],
 )

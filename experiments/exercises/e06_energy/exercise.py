@@ -111,7 +111,7 @@ EXERCISE = Exercise(
     goals="Where energy is in a mesh of springs, and where it goes: the first check of any simulation.",
     solutions={"energy": energy, "power": power},
     questions=questions,
-    mistakes=(
+    mistakes=[
         mistake(
             "kinetic_half_missing", "Your kinetic energy is twice too large.", "Integrate m v dv.", kinetic="m v^2"
         ),
@@ -232,5 +232,5 @@ EXERCISE = Exercise(
             {"half": (1.0, 0.5)},
             {"half": (0.5, 0.5)},
         ),
-    ),
+    ],
 )

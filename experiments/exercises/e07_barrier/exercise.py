@@ -115,7 +115,7 @@ EXERCISE = Exercise(
     goals="Projections: what of a velocity an obstacle takes, and what it leaves.",
     solutions={"push_out": push_out},
     questions=questions,
-    mistakes=(
+    mistakes=[
         mistake(
             "product_of_components",
             "Your velocity is multiplied component by component: that is no projection.",
@@ -246,5 +246,5 @@ EXERCISE = Exercise(
             {"normal": "offset"},
             {"normal": "offset, along"},
         ),
-    ),
+    ],
 )

@@ -85,7 +85,7 @@ def _swapped(a: str, b: str, hint: str) -> Mistake:
 
 
 #: Those that are most alike, and what tells them apart.
-ALIKE = (
+ALIKE = [
     _swapped("kick_drift", "drift_kick", "Look at the very first step: whose velocity moved the masses?"),
     _swapped("heun", "midpoint", "Where is their second slope taken? They part in the third order of dt."),
     _swapped("heun", "heun_link_by_link", "Does the first mass tell them apart, or the second?"),
@@ -96,7 +96,7 @@ ALIKE = (
     _swapped("rk4", "midpoint", "Halve dt in your own program: how far does each move?"),
     _swapped("euler", "kick_drift", "Look at the very first step: has gravity moved the masses yet?"),
     _swapped("euler", "drift_kick", "Their first step is the same; look at the second."),
-)
+]
 
 
 EXERCISE = Exercise(
@@ -111,7 +111,7 @@ EXERCISE = Exercise(
     canonical=as_in_the_text,
     searched=False,
     diagnose=diagnose,
-    mistakes=(
+    mistakes=[
         *ALIKE,
         *(
             _swapped(a, b, "Run both in your own program: how large is what is left after the second step?")
@@ -126,5 +126,5 @@ EXERCISE = Exercise(
             {"shifted": -1},
         ),
         mistake("letters_reversed", "Your names are right, but from E to A.", "Which file is the first?", order=-1),
-    ),
+    ],
 )

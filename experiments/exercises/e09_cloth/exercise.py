@@ -99,7 +99,7 @@ EXERCISE = Exercise(
     solutions={"springs": springs},
     questions=questions,
     canonical=counted,
-    mistakes=(
+    mistakes=[
         mistake(
             "no_shear", "There are no shear springs.", "What keeps a square from becoming a rhombus?", shear="none"
         ),
@@ -232,5 +232,5 @@ EXERCISE = Exercise(
             "Up to which number does your loop over rows run? Has the last row no springs along it?",
             begun="not in the last",
         ),
-    ),
+    ],
 )

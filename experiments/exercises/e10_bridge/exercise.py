@@ -133,7 +133,7 @@ EXERCISE = Exercise(
     goals="The method of joints as a linear system; what stiffness costs: the step.",
     solutions={"heaviest": heaviest, "largest_dt": largest_dt},
     questions=questions,
-    mistakes=(
+    mistakes=[
         mistake(
             "tension_only",
             "You look for the largest tension: compression carries too.",
@@ -258,5 +258,5 @@ EXERCISE = Exercise(
             "Which joints cannot move, and along which axis?",
             held="none",
         ),
-    ),
+    ],
 )

@@ -12,7 +12,7 @@ EXAMPLE_GRAVITY = (
 )
 
 #: In one dimension as in two.
-OF_A_SPRING = (
+OF_A_SPRING = [
     mistake(
         "spring_sign",
         "Your springs push where they should pull.",
@@ -97,10 +97,10 @@ OF_A_SPRING = (
         "What is the unit of the damping that you are given?",
         friction="c v^2",
     ),
-)
+]
 
 #: Only in two.
-OF_A_STRING = (
+OF_A_STRING = [
     mistake(
         "length_without_root",
         "Your lengths of springs are squares of lengths.",
@@ -221,10 +221,10 @@ OF_A_STRING = (
         weight="m 9.81",
     ),
     mistake("weight_along_x", "Your weight pulls along x.", "Which column of an array is y?", weight="along x"),
-)
+]
 
 #: Where forces are asked for, and not a step.
-OF_FORCES = (
+OF_FORCES = [
     mistake(
         "nothing_computed",
         "All your forces are zero: nothing is added to what you return.",
@@ -239,4 +239,4 @@ OF_FORCES = (
         "In which unit is your answer, and in which is a force?",
         divided=True,
     ),
-)
+]

@@ -10,7 +10,7 @@ def _another(name: str, words: str, **parameters: object) -> Mistake:
 
 
 #: Between a force and a step.
-OF_INERTIA = (
+OF_INERTIA = [
     mistake(
         "mass_forgotten",
         "You take the force for the acceleration: the mass is forgotten.",
@@ -23,10 +23,10 @@ OF_INERTIA = (
         "What does a heavier mass do, at the same force?",
         inertia="multiplied",
     ),
-)
+]
 
 #: In any step.
-OF_A_STEP = (
+OF_A_STEP = [
     mistake(
         "dt_twice", "Your step has dt in it twice.", "What is the unit of velocity times dt times dt?", clock="twice"
     ),
@@ -51,10 +51,10 @@ OF_A_STEP = (
         scheme="velocity_replaced",
     ),
     mistake("nothing_moves", "Your step returns the state as it was.", "What do you return?", scheme="nothing"),
-)
+]
 
 #: In Euler's.
-OF_EULER = (
+OF_EULER = [
     mistake(
         "dt_missing_in_velocity",
         "Your velocity takes the whole acceleration: there is no dt with it.",
@@ -73,10 +73,10 @@ OF_EULER = (
         "By which velocity does Euler move the position, and by nothing else?",
         scheme="velocities_by_euler",
     ),
-)
+]
 
 #: Right, but to be named.
-OTHERS = (
+OTHERS = [
     _another("euler", "This is Euler's step: one slope, taken at the beginning.", scheme="euler"),
     _another(
         "kick_drift",
@@ -93,10 +93,10 @@ OTHERS = (
     _another("midpoint", "This is the midpoint rule: the slope half-way, no average.", scheme="midpoint"),
     _another("ralston", "This is Ralston's step: two slopes, the second at two thirds.", scheme="ralston"),
     _another("rk4", "This is the classic Runge-Kutta step: four slopes.", scheme="rk4"),
-)
+]
 
 #: In Heun's step.
-OF_HEUN = (
+OF_HEUN = [
     mistake(
         "half_missing",
         "You add the two slopes and do not halve the sum: every step advances 2 dt, like two steps of Euler.",
@@ -175,10 +175,10 @@ OF_HEUN = (
         "A guess has velocities of its own. Which forces hang on them?",
         scheme="old_velocity_in_force",
     ),
-)
+]
 
 #: What writes into the state it still reads: the catalogue's in-place family.
-IN_PLACE = (
+IN_PLACE = [
     mistake(
         "euler_in_place",
         "You advance each mass before the next has looked at it, by Euler's step.",
@@ -197,4 +197,4 @@ IN_PLACE = (
         "How many states are there in your program while a step is made? Which of your names mean the same array?",
         scheme="heun_aliased",
     ),
-)
+]

@@ -183,7 +183,7 @@ def nothing(motion: Motion, state: State, dt: float) -> State:
 #: By name.
 STEPS: dict[str, Step] = {
     function.__name__: function
-    for function in (
+    for function in [
         midpoint,
         ralston,
         without_half,
@@ -205,5 +205,5 @@ STEPS: dict[str, Step] = {
         still_velocities,
         velocity_replaced,
         nothing,
-    )
+    ]
 }

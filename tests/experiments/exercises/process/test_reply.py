@@ -45,6 +45,16 @@ def test_what_the_child_writes_is_read() -> None:
     assert read(MARK, packed(failed), 2).error == failed["error"]
 
 
+def test_what_is_handed_over_are_arrays_of_its_own() -> None:
+    """Of every kind and shape, beside numbers and words; what receives them may write into them."""
+    sent = {"a": [np.arange(6.0).reshape(2, 3), "b", 3], "c": {"d": np.array([True, False])}, "e": np.array("word")}
+    got = child.unpack(packed(sent))
+    assert (got["a"][0].tolist(), got["a"][1:]) == ([[0.0, 1.0, 2.0], [3.0, 4.0, 5.0]], ["b", 3])
+    assert (got["c"]["d"].tolist(), got["e"].tolist()) == ([True, False], "word")
+    got["a"][0][0, 0] = 7.0
+    assert child.unpack(packed(got))["a"][0][0].tolist() == [7.0, 1.0, 2.0]
+
+
 def answers(**changed: Any) -> dict[str, Any]:
     """The good reply, its first answer changed."""
     first = {**GOOD["answers"][0], **changed}
