@@ -46,7 +46,7 @@ def soft_constraints_warm(
     softness, bias, axes = soft_springs(it, it.x, h)
     _push(it.v, it.ends, it.order, it.inverse, axes, impulses)
     for _ in range(sweeps):
-        _sweep(it.v, it.ends, it.order, it.inverse, axes, bias, softness, 1 / (it.both + softness), impulses)
+        _sweep(it.v, it.ends, it.order, it.inverse, axes, bias, softness, inverse_of(it.both + softness), impulses)
     it.x[:] += h * it.v
     return it.state(state.time + dt).remembering(impulses.astype(np.float64))
 
@@ -86,7 +86,7 @@ def soft_constraints_cold(
         bias = (lengths - it.rest) * (it.stiffness * inverse_of(damped))
         softness = inverse_of(h * h * it.stiffness + h * it.damping)
         impulses, along = np.zeros_like(it.rest), dots(axes, it.both[:, None] * axes)  # 1/m_a + 1/m_b, rounded
-        given = (it.ends, it.order, it.inverse, axes, bias, softness, 1 / (along + softness), impulses)
+        given = (it.ends, it.order, it.inverse, axes, bias, softness, inverse_of(along + softness), impulses)
         for _ in range(sweeps):
             _sweep_totals(it.v, *given)
         it.x[:] += h * it.v
