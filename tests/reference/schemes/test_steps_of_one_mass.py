@@ -13,6 +13,7 @@ from reference.schemes.catalogue import Scheme, constraint_schemes, find
 from reference.schemes.constrained import ROPE_KICK_DRIFT
 from reference.state import Array, State
 from reference.system import MassSpringSystem
+from tests.reference.schemes.test_constraint_solvers import AS_BACKWARD_EULER, backward_euler
 from tests.reference.systems import label, moving_string, random_mesh
 
 #: h [s], k/m [1/s^2], (c + Cd)/m [1/s]; how far from rest the mass begins [m], and how fast [m/s].
@@ -136,6 +137,15 @@ def test_backward_differences_are_solved_for_on_springs_that_turn() -> None:
         for of, slope in (("positions", after.velocities), ("velocities", motion.acceleration(after))):
             one, two, three = (getattr(state, of) for state in (before, here, after))
             assert np.abs(1.5 * three - 2 * two + one / 2 - h * slope).max() < 1e-12
+
+
+@pytest.mark.parametrize("name", AS_BACKWARD_EULER)
+def test_solvers_of_constraints_step_two_kilograms_by_backward_euler(name: str) -> None:
+    """V' = (v - h w^2 x)/(1 + h r + h^2 w^2), x' = x + h v', over two steps: to rounding, with a spring of any mass."""
+    expected = [np.array(BEGIN)]
+    for _ in range(2):
+        expected.append(backward_euler(*expected[-1], H, SQUARE, RATE))
+    np.testing.assert_allclose(steps(name, 2, drag=0.0), expected, rtol=1e-12)
 
 
 # --- Drag alone ---
