@@ -96,7 +96,7 @@ def test_the_clock_tells_the_time_of_what_is_shown() -> None:
             assert [note.get_visible() for note in shown.notes] == [False, step * DURATION / 4 >= 0.2]
 
 
-@pytest.mark.parametrize(("count", "ratio"), [(1, 1.0), (2, 3.0), (3, 0.5), (5, 1.0), (7, 2.0)])
+@pytest.mark.parametrize(("count", "ratio"), [(1, 1.0), (2, 2.2), (3, 0.5), (3, 1.0), (5, 1.0), (7, 2.0)])
 def test_panels_stand_in_rows_each_below_its_titles(count: int, ratio: float) -> None:
     """Of the window's shape, all on the sheet, none over another, in reading order; an even number of pixels."""
     names = [(f"engine_{i}", "another_engine_of_the_same_motion", "and_a_third") for i in range(count)]
@@ -114,6 +114,8 @@ def test_panels_stand_in_rows_each_below_its_titles(count: int, ratio: float) ->
     assert not [i for i, one in enumerate(places) if any(one.overlaps(other) for other in places[:i])]
     assert not any(one.overlaps(bar.get_tightbbox()) for one in places)
     assert cut_off(made) == []
+    assert bar.get_window_extent().height <= 4.0 * made.dpi
+    assert max(len(line) for line in panels[0].texts[1].get_text().splitlines()) > 20
     page = made.bbox.padded(1)
     assert all(page.contains(*box.min) and page.contains(*box.max) for box in [*places, bar.get_window_extent()])
     assert [axes.texts[1].get_text().split(",")[0] for axes in sorted(panels, key=reading_order)] == [

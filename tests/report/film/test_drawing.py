@@ -200,6 +200,7 @@ def test_masses_are_dots_and_those_that_are_held_are_squares() -> None:
     assert (axes.get_xlim(), axes.get_ylim()) == ((-1, 8), (-1, 1))
     assert axes.get_aspect() == 1
     assert not [*axes.get_xticks(), *axes.get_yticks()]
+    assert all(spine.get_visible() for spine in axes.spines.values())
     for masses, seen in ((30, True), (31, False)):
         assert drawn(large(masses), look())[1].masses.get_visible() == seen
     sizes = [drawn(replace(large(6), fixed=np.arange(6) < n), look())[1].held.get_markersize() for n in (4, 5)]

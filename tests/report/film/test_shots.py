@@ -9,13 +9,14 @@ import numpy as np
 import pytest
 
 from experiments.runs.comparison import Comparison, Run
+from reference.changes import Change
 from reference.errors import InputError
 from reference.identification import TOLERANCE, Identification, Match
 from reference.outcome import Outcome
 from reference.scenes import Setup, find
 from reference.state import Trajectory
 from reference.system import MassSpringSystem
-from report.film.contact_sheet import Shot
+from report.film.contact_sheet import ContactSheet, Shot, contact_sheet
 from report.film.film import Film, film, film_of, frame_steps, leaves, look_at, shots
 from report.film.view import View, box_of, view_of
 from tests.experiments.canned.scenes import DURATION, stretched
@@ -56,10 +57,15 @@ def test_by_default_engines_are_seen_beside_heun_and_by_name_whoever_is_named() 
 def test_motions_the_same_to_rounding_are_one_panel() -> None:
     """As near as schemes are identified: a part of the scene's size. Each to the first of its panel."""
     near = TOLERANCE * SYSTEM.size
-    runs = [ran(name, shifted(by * near)) for name, by in (("a", 0), ("b", 3), ("c", 0.5), ("d", 3.5), ("e", -1.5))]
-    found = shots(Comparison(SETUP, None, tuple(runs)))
-    assert [shot.names for shot in found] == [("a", "c"), ("b", "d"), ("e",)]
-    assert [shot.outcome for shot in found] == [runs[i].outcome for i in (0, 1, 4)]
+    places = {"a": 0, "b": 3, "c": 0.8, "d": 3.5, "e": -1.5, "f": 1.6}
+    runs = {
+        name: ran(name, shifted(by * near), Identification(name, (Match(name, 1e-15),), 1e-12))
+        for name, by in places.items()
+    }
+    found = shots(Comparison(SETUP, None, tuple(runs.values())))
+    assert [shot.names for shot in found] == [("a", "c"), ("b", "d"), ("e",), ("f",)]
+    assert [shot.outcome for shot in found] == [runs[name].outcome for name in "abef"]
+    assert [shot.caption for shot in found] == [f"identified as {name}" for name in "abef"]
 
 
 @pytest.mark.parametrize(
@@ -186,3 +192,23 @@ def test_what_has_ended_is_drawn_nowhere() -> None:
     assert made.positions(made.shots[1], 1)[-1].tolist() == [1, 1]
     assert np.isnan(made.positions(made.shots[1], 2)).all()
     assert made.positions(made.shots[1], 2).shape == SYSTEM.positions.shape
+
+
+def test_springs_are_gone_once_they_break_from_panels_and_from_the_true_motion() -> None:
+    """From the step on at which the setup says so, in every frame that follows."""
+    setup = replace(SETUP, changes=(Change(2 * SETUP.dt, "break", (1.0,)),))
+    motion = stretched(SYSTEM)
+    made = replace(film_of(setup, [shot("one", motion)], motion), steps=(0, 1, 2, 4))
+    sheets, drawn = [], []
+
+    def keep(*arguments: object) -> ContactSheet:
+        sheets.append(contact_sheet(*arguments))  # type: ignore[arg-type]
+        return sheets[0]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("report.film.film.contact_sheet", keep)
+        for _ in made.frames(lambda _: None):
+            (drawing,) = sheets[0].drawings
+            drawn.append((len(drawing.front.get_segments()), len(drawing._true.get_segments())))
+    springs = len(SYSTEM.springs)
+    assert drawn == [(springs, springs)] * 3 + [(springs - 1, springs - 1)]
