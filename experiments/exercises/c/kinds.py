@@ -49,7 +49,7 @@ def kind_in(node: ast.AST, kinds: Mapping[str, Kind], fields: Mapping[str, Kind]
     if isinstance(node, ast.Compare | ast.BoolOp):
         return WHOLE
     if isinstance(node, ast.UnaryOp):
-        return kind_in(node.operand, kinds, fields)
+        return WHOLE if isinstance(node.op, ast.Not) else kind_in(node.operand, kinds, fields)
     if isinstance(node, ast.IfExp):
         return kind_in(node.body, kinds, fields)
     if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
@@ -76,7 +76,7 @@ def may_replace(
         is_index: whether it is in one, which is a whole number.
     """
     before, then = kind_in(old, kinds, fields), kind_in(new, kinds, fields)
-    if is_index and not isinstance(new, ast.Tuple) and then not in (WHOLE, UNKNOWN):
+    if is_index and then not in (WHOLE, UNKNOWN):
         return False
     if isinstance(new, ast.Call) and isinstance(old, ast.Call) and not _same_arguments(new, old, kinds, fields):
         return False

@@ -23,7 +23,7 @@ def push_out(
     centre: str = "own",
 ) -> tuple[Array, Array]:
     """Masses inside go straight out to the surface, and lose the velocity that leads inwards."""
-    middle = circle.centre if centre == "own" else 0 * circle.centre
+    middle = circle.centre if centre == "own" else np.zeros(2)
     offset = x - middle
     far = np.linalg.norm(offset, axis=1)
     n = offset if normal != "unit" else offset / far[:, None]

@@ -80,7 +80,7 @@ def forces(
 def _weights(string: Any, weight: str, shape: tuple[int, ...]) -> Array:
     """Downwards, shape (n, d)."""
     one, axes = np.ones_like(string.masses), np.arange(shape[1])
-    mass = {"g": one, "none": 0 * one}.get(weight, string.masses)
+    mass = {"g": one, "none": np.zeros_like(one)}.get(weight, string.masses)
     gravity = 9.81 if weight == "m 9.81" else string.gravity
     along = {"both axes": axes >= 0, "along x": axes == 0}.get(weight, axes == shape[1] - 1)
     return np.asarray(np.outer(mass * gravity, along))
@@ -118,8 +118,8 @@ def _spring_force(
         elongation = np.maximum(elongation, 0.0) if slack else elongation
         return np.asarray(k[:, None] * elongation * np.sign(separation))
     if direction == "degrees":
-        angle = np.degrees(np.arctan2(separation[:, -1], separation[:, 0] if separation.shape[1] > 1 else 0.0))
-        return np.asarray(force[:, None] * np.stack([np.cos(angle), np.sin(angle)][-separation.shape[1] :], axis=1))
+        angle = np.degrees(np.arctan2(separation[:, 1], separation[:, 0]))
+        return np.asarray(force[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1))
     unit = separation / lengths[:, None]
     if direction == "swapped":
         unit = unit[:, ::-1]
