@@ -44,7 +44,7 @@ def velocity_after(drive: Ramp | Sine, dt: float, duration: float) -> float:
     [
         (Ramp("gravity", 0.2, 0.6, 1.0), lambda g: 0.2 * g + 0.4 * (g + 1) / 2 + 0.4 * 1.0),
         (Sine("gravity", 0.0, 3.0, 1.25), lambda g: g + 3.0 * (1 - np.cos(2.5 * np.pi)) / (2.5 * np.pi)),
-        (Sine("gravity", 0.5, 3.0, 1.0), lambda g: g + 3.0 * (1 - np.cos(np.pi)) / (2 * np.pi)),
+        (Sine("gravity", 0.4, 3.0, 1.25), lambda g: g + 3.0 * (1 - np.cos(1.5 * np.pi)) / (2.5 * np.pi)),
     ],
 )
 def test_what_falls_has_gathered_the_integral(drive: Ramp | Sine, fallen: Callable[[float], float]) -> None:

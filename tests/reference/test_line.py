@@ -10,7 +10,15 @@ import pytest
 from reference.changes import Change
 from reference.conserved import energy
 from reference.lecture.listings import listings
-from reference.line import in_plane, on_line, system_in_plane, system_on_line, value_in_plane
+from reference.line import (
+    in_plane,
+    is_vertical,
+    on_line,
+    parameter_in_plane,
+    system_in_plane,
+    system_on_line,
+    value_in_plane,
+)
 from reference.obstacles import Plane
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
@@ -175,6 +183,25 @@ def test_all_of_a_system_is_put_into_the_plane() -> None:
     flat = random_mesh(1, 5, 2)
     assert system_in_plane(flat) is flat
     assert in_plane(flat.positions) is flat.positions
+
+
+HUNG = system_in_plane(replace(find_scene("chain").system({"masses": 2}), pulls=np.array([[0.0], [0.5], [0.0]])))
+
+
+@pytest.mark.parametrize("name", ["positions", "velocities", "pulls"])
+def test_what_leaves_the_vertical_line_in_any_way_is_of_the_plane(name: str) -> None:
+    """The last mass beside it, thrown or pulled to a side; gravity to a side; an obstacle."""
+    assert is_vertical(HUNG)
+    assert is_vertical(replace(HUNG, positions=HUNG.positions + np.array([0.3, 0.0])))
+    assert not is_vertical(replace(HUNG, **{name: getattr(HUNG, name) + np.array([[0, 0], [0, 0], [0.1, 0]])}))
+    assert not is_vertical(replace(HUNG, gravity=np.array([0.1, -9.81])))
+    assert not is_vertical(replace(HUNG, obstacles=(Plane((0.0, -9.0), (0.0, 1.0)),)))
+
+
+def test_a_pull_along_the_line_is_one_upwards() -> None:
+    """Other parameters have the same names there."""
+    names = ["pull.3.x", "stiffness", "mass"]
+    assert [parameter_in_plane(name) for name in names] == ["pull.3.y", "stiffness", "mass"]
 
 
 @pytest.mark.parametrize("value", [3.0, [3.0], (-2.0,)])

@@ -42,7 +42,17 @@ def test_a_run_is_its_steps() -> None:
 
 @pytest.mark.parametrize(
     ("dt", "duration", "steps"),
-    [(1e-3, 0.5, 500), (0.1, 0.3, 3), (0.1, 0.349, 3), (0.1, 0.351, 4), (0.1, 0.06, 1), (1 / 3, 1.0, 3)],
+    [
+        (1e-3, 0.5, 500),
+        (0.1, 0.3, 3),
+        (0.1, 0.349, 3),
+        (0.1, 0.351, 4),
+        (0.1, 0.06, 1),
+        (1 / 3, 1.0, 3),
+        (1e-7, 1.0, 10_000_000),
+        (1e-100, 1e-99, 10),
+        (1e99, 1e100, 10),
+    ],
 )
 def test_the_nearest_whole_number_of_steps_is_taken(dt: float, duration: float, steps: int) -> None:
     """0.3/0.1 is 2.9999999999999996 on a computer."""
@@ -60,6 +70,9 @@ def test_the_nearest_whole_number_of_steps_is_taken(dt: float, duration: float, 
         (1e-3, float("nan"), "duration = nan: expected a finite number > 0 [s]"),
         (1e-3, -2.0, "duration = -2: expected a finite number > 0 [s]"),
         (1.0, 0.4, "duration = 0.4: expected at least one step of dt = 1 s"),
+        (1e-7, 1.0000001, "duration = 1: expected at most 10,000,000 steps of dt = 1e-07 s"),
+        (0.99e-100, 1.0, "dt = 9.9e-101: expected a number from 1e-100 to 1e+100 [s]"),
+        (1.0, 1.01e100, "duration = 1.01e+100: expected a number from 1e-100 to 1e+100 [s]"),
     ],
 )
 def test_steps_that_make_no_sense_are_refused(dt: float, duration: float, message: str) -> None:
@@ -86,6 +99,22 @@ def test_a_run_through_a_spring_of_no_length_ends_and_raises_nothing() -> None:
 
 
 # --- Changes on the fly ---
+
+
+def test_a_change_acts_from_the_first_step_that_begins_then_or_later() -> None:
+    """Within 1e-9 of a step's start it is that start; in order of time; at a time beyond all runs in none of them."""
+    times = {0.0: 0, 0.2: 2, 0.2 + 0.9e-10: 2, 0.2 + 1.1e-10: 3, 0.21: 3, 1e300: 20_000_000}
+    assert {time: Change(time, "drag", 0.0).step(0.1) for time in times} == times
+    late, early, same = Change(0.29, "mass", 1.0), Change(0.1, "drag", 2.0), Change(0.3, "drag", 3.0)
+    assert changes_by_step([same, late, early], 0.1) == {1: [early], 3: [late, same]}
+
+
+@pytest.mark.parametrize("time", [-1e-9, np.inf, np.nan, -np.inf])
+def test_a_change_at_no_time_is_refused(time: float) -> None:
+    """In a line."""
+    with pytest.raises(InputError, match=f"change time = {time:g}: expected a finite number >= 0"):
+        changes_by_step([Change(0.0, "mass", 1.0), Change(time, "drag", 1.0)], 0.1)
+
 
 #: Runs a system with changes: the right way, or wrong ones.
 Runner = Callable[[MassSpringSystem, Scheme, float, float, list[Change]], Trajectory]
