@@ -36,6 +36,7 @@ CORNERS = {
     "plane, in line": [[0.3, 0.0], [0.0, 0.0], [-0.4, 0.0]],
     "space": [[0.3, 0.1, -0.2], [0.0, 0.0, 0.1], [-0.1, 0.4, 0.0]],
     "space, in line": [[0.3, 0.3, 0.3], [0.1, 0.1, 0.1], [-0.2, -0.2, -0.2]],
+    "space, in line between two axes": [[0.3, 0.1, 0.3], [0.0, 0.1, 0.0], [-0.2, 0.1, -0.2]],
 }
 
 
@@ -111,6 +112,25 @@ def test_jacobians_are_the_derivatives_of_the_forces(corner: list[list[float]], 
     matrix = assemble(system, spring_blocks(system, state)[0], sparse=False)
     assert matrix == pytest.approx(np.stack(columns, axis=1), abs=1e-7 * 4e3)
     assert matrix == pytest.approx(matrix.T, abs=1e-11)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_arms_in_line_that_rest_bent_have_a_direction_in_the_plane_only(dimension: int) -> None:
+    """Of four masses in line; forces there are kappa beta/l. Without stiffness there are none, and no derivatives."""
+    x = np.pad(np.array([[0.0], [0.5], [1.0], [2.0]]), ((0, 0), (0, dimension - 1)))
+    rests, kappa = np.array([np.pi - 0.5, np.pi - 0.5]), np.array([0.7, 0.0])
+    forces = forces_on_masses(AngularSprings(np.array([[0, 1, 2], [1, 2, 3]]), kappa, rests), x)
+    if dimension == 3:
+        assert np.isnan(forces[:3]).all()
+        assert not forces[3].any()
+    else:
+        assert forces[:, 1] == pytest.approx(0.7 * 0.5 / 0.5 * np.array([1, -2, 1, 0]) * np.sign(forces[0, 1]))
+        assert forces[:, 0] == pytest.approx(np.zeros(4), abs=1e-15)
+    straight = AngularSprings(np.array([[0, 1, 2], [1, 2, 3]]), kappa, np.full(2, np.pi))
+    slopes = derivatives(straight, x)
+    assert np.isfinite(slopes).all()
+    assert slopes[0].any()
+    assert not slopes[1].any()
 
 
 def bent_pair(**more: Any) -> MassSpringSystem:

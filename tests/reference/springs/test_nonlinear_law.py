@@ -18,9 +18,15 @@ from reference.forces import SpringMotion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
-from reference.springs.breaking import tensions
-from reference.springs.kinds import NonlinearSprings
-from reference.springs.nonlinear_law import damping_at, energy_of_springs, secant_stiffness, tangent_stiffness
+from reference.springs.breaking import tensions, without_force
+from reference.springs.kinds import KINDS, NonlinearSprings
+from reference.springs.nonlinear_law import (
+    damping_at,
+    energy_of_springs,
+    secant_stiffness,
+    tangent_stiffness,
+    tangent_system,
+)
 from reference.state import Array, State
 from reference.stepper import stepper_named
 from reference.system import MassSpringSystem
@@ -253,9 +259,10 @@ def test_what_cannot_step_them_refuses() -> None:
 @pytest.mark.parametrize(
     ("law", "said"),
     [
-        ({"hardening": -1.0}, "hardening = -1: expected a number >= 0"),
-        ({"largest_force": 0.0}, "largest_force = 0: expected a number > 0"),
-        ({"breaking_force": float("nan")}, "breaking_force = nan: expected a number > 0"),
+        ({"hardening": -1.0}, "hardening = -1: expected a number >= 0 [N/m^3]"),
+        ({"largest_force": 0.0}, "largest_force = 0: expected a number > 0 [N]"),
+        ({"breaking_force": float("nan")}, "breaking_force = nan: expected a number > 0 [N]"),
+        ({"breaking_stretch": -1.0}, "breaking_stretch = -1: expected a number > 0 [m]"),
         ({"breaking_stretch": [1.0, 2.0]}, "breaking_stretch has shape"),
         ({"tension_only": 3}, "tension_only = "),
         ({"tension_only": True, "compression_only": True}, "tension_only and compression_only of spring 0"),
@@ -267,6 +274,37 @@ def test_a_wrong_number_is_named(law: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError) as refused:
         on_wall(**law)
     assert str(refused.value).startswith(said)
+
+
+@pytest.mark.parametrize("law", [{"hardening": 3e4}, {"tension_only": True}, {"compression_only": True}], ids=str)
+def test_the_linear_system_at_a_state_has_its_forces_and_their_derivatives(law: dict[str, Any]) -> None:
+    """A spring of length L that pulls with F, of tangent stiffness k, has the rest length L - F/k: to rounding.
+
+    With damping; that of slack springs is none.
+    """
+    system = moving(law)
+    state = State(0.0, system.positions, system.velocities)
+    linear = tangent_system(system, state)
+    assert linear.nonlinear is None
+    for one, other in zip(SpringMotion(linear).jacobians(state), SpringMotion(system).jacobians(state), strict=True):
+        assert one.springs == pytest.approx(other.springs, rel=1e-12, abs=1e-9)
+    found, expected = (SpringMotion(each).acceleration(state) for each in (linear, system))
+    assert found == pytest.approx(expected, rel=1e-11, abs=1e-9)
+
+
+def test_springs_without_force_have_neither_stiffness_nor_damping_nor_hardening() -> None:
+    """Each of the three alone is a force."""
+    string = find_scene("string").system({"masses": 4, "stiffness": "0,5,0,0", "damping": "0,0,1,0"})
+    assert without_force(string).tolist() == [True, False, False, True]
+    harder = replace(string, nonlinear=NonlinearSprings(hardening=np.array([0.0, 0.0, 0.0, 2.0])))
+    assert without_force(harder).tolist() == [True, False, False, False]
+
+
+def test_a_law_is_not_written_to() -> None:
+    """As nothing of a system is: it is shared between them."""
+    law = moving({"tension_only": True}).nonlinear
+    assert law is not None
+    assert not any(getattr(law, name).flags.writeable for name in KINDS)
 
 
 def test_springs_of_the_usual_kind_are_linear() -> None:
