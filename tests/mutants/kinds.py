@@ -48,6 +48,9 @@ PAIRS = [("min", "max"), ("minimum", "maximum"), ("argmin", "argmax"), ("any", "
 PAIRS += [("sin", "cos")]
 OTHER = {a: b for pair in PAIRS for a, b in (pair, pair[::-1])}
 
+#: Functions of two numbers, or vectors, that are the same in either order.
+EITHER_ORDER = {"min", "max", "minimum", "maximum", "hypot", "vdot", "isclose"}
+
 BUILTIN_TYPES = {"int", "float", "str", "bool", "bytes", "list", "tuple", "dict", "set", "frozenset", "type"}
 
 #: Units, and what is mistaken for them: in brackets in a label, or a text of their own.
@@ -92,8 +95,8 @@ def factor(node: ast.AST) -> Iterator[Change]:
 
 
 def swapped_arguments(node: ast.AST) -> Iterator[Change]:
-    """Two arguments of the same kind that follow one another."""
-    if isinstance(node, ast.Call):
+    """Two arguments of the same kind that follow one another, where their order means something."""
+    if isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] not in EITHER_ORDER:
         for args in _swapped(node.args):
             yield node, _with(node, args=args)
 

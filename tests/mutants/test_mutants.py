@@ -153,6 +153,8 @@ def test_list_shows_the_sample_and_runs_nothing(project: Path, capsys: pytest.Ca
         ("factor", "a * 0.5", ["a * 5.0", "a * -0.5"]),
         ("factor", "a = 0.0", ["a = 1.0"]),
         ("swapped arguments", "f(a, b, 1, x.c, x.d, x.d)", ["f(b, a, 1, x.c, x.d, x.d)", "f(a, b, 1, x.d, x.c, x.d)"]),
+        ("swapped arguments", "max(a, b) + np.hypot(a, b)", []),
+        ("whole number", "a.reshape(-1, 2)", ["a.reshape(-1, 3)", "a.reshape(-1, 1)"]),
         ("swapped elements", "(a, b)", ["(b, a)"]),
         ("swapped elements", "a[:, b, c]", []),
         ("and or", "a and b or c", ["((a and b) and c)", "(a or b) or c"]),
