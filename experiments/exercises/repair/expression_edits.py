@@ -81,10 +81,15 @@ def replacements(node: ast.AST, names: Names, holder: ast.AST) -> Iterator[Repla
 NO_VALUES = (ast.Constant, ast.UnaryOp, ast.Slice, ast.Compare)
 
 
-def _of_operation(node: ast.BinOp, names: Names, holder: ast.AST) -> Iterator[Replacement]:
+def _of_operator(node: ast.BinOp | ast.AugAssign) -> Iterator[Replacement]:
+    """Another one, likelier ones first: plus and minus are signs."""
     for i, other in enumerate(OPERATORS.get(type(node.op), ())):
-        family = "sign" if isinstance(node.op, ast.Add | ast.Sub) and other in (ast.Add, ast.Sub) else "operator"
+        family = "sign" if {type(node.op), other} == {ast.Add, ast.Sub} else "operator"
         yield Replacement(family, 1.0 + 0.3 * i, renewed(node, op=other()))
+
+
+def _of_operation(node: ast.BinOp, names: Names, holder: ast.AST) -> Iterator[Replacement]:
+    yield from _of_operator(node)
     yield Replacement("too much", 1.5, node.left)
     yield Replacement("too much", 1.8, node.right)
     if isinstance(node.op, ast.Sub | ast.Div | ast.Pow | ast.MatMult):
@@ -173,8 +178,7 @@ def _of_items(node: ast.Tuple | ast.List, names: Names, holder: ast.AST) -> Iter
 
 def _of_augmented(node: ast.AugAssign, names: Names, holder: ast.AST) -> Iterator[Replacement]:
     """Another operator; only the new value; a = a + b for a += b, which makes a new array."""
-    for i, other in enumerate(OPERATORS.get(type(node.op), ())):
-        yield Replacement("sign" if i == 0 else "operator", 1.0 + 0.3 * i, renewed(node, op=other()))
+    yield from _of_operator(node)
     yield Replacement("operator", 1.6, ast.copy_location(ast.Assign([node.target], node.value), node))
     read: Any = copy.deepcopy(node.target)
     read.ctx = ast.Load()
