@@ -49,7 +49,7 @@ class _Changes:
         for holder in ast.walk(self._function):
             for name in ("body", "orelse"):
                 block = getattr(holder, name, None)
-                if isinstance(block, list) and block and isinstance(block[0], ast.stmt):
+                if isinstance(block, list):
                     yield from self._of_block(holder, name, block)
         yield from self._of_given()
         yield from self._twice_declared(self._function.body, {a.arg for a in self._function.args.args})

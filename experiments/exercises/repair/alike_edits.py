@@ -27,7 +27,7 @@ def of_alike(top: ast.stmt, names: Names) -> Iterator[Edit]:
     for holder in ast.walk(top):
         for name in ("body", "orelse"):
             block = getattr(holder, name, None)
-            if isinstance(block, list) and block and isinstance(block[0], ast.stmt):
+            if isinstance(block, list):
                 yield from _of_rows(holder, name, block, names)
                 for statement in block:
                     if isinstance(statement, ast.Assign | ast.AugAssign | ast.Return | ast.Expr):

@@ -19,15 +19,15 @@ def of_statements(function: ast.FunctionDef) -> Iterator[Edit]:
     """All changes of statements of a function."""
     own = [a.arg for a in function.args.args if a.arg != "self"]
     for name in own:
-        copied = statement(f"{name} = {name}.copy()", function.body[0])
+        copied = statement(f"{name} = {name}.copy()", function)
         yield Edit(function.lineno, "copy", 1.7, (((function, "body", None), [copied, *function.body]),))
     if len(own) > 1:
-        both = [statement(f"{name} = {name}.copy()", function.body[0]) for name in own[:2]]
+        both = [statement(f"{name} = {name}.copy()", function) for name in own[:2]]
         yield Edit(function.lineno, "copy", 1.8, (((function, "body", None), [*both, *function.body]),))
     for holder in ast.walk(function):
         for name in ("body", "orelse"):
             block = getattr(holder, name, None)
-            if isinstance(block, list) and block and isinstance(block[0], ast.stmt):
+            if isinstance(block, list):
                 yield from _of_block(holder, name, block)
     yield from _of_given_values(function, own)
 
@@ -135,7 +135,7 @@ def _of_given_values(function: ast.FunctionDef, own: Sequence[str]) -> Iterator[
     """What is read after it was written over: the value that the function was given, in its place."""
     stored = [n.id for n in ast.walk(function) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)]
     for name in sorted({name for name in stored if name in own}):
-        keep = statement(f"_{name}_given = {name}.copy() if hasattr({name}, 'copy') else {name}", function.body[0])
+        keep = statement(f"_{name}_given = {name}.copy() if hasattr({name}, 'copy') else {name}", function)
         by_line: dict[int, list[Site]] = {}
         for site in sites_in(function):
             if _reads(site, name):

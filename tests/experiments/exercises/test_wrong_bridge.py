@@ -124,14 +124,33 @@ def test_the_largest_step(wrong: dict[str, Any], limit: float) -> None:
 
 
 @pytest.mark.parametrize(
-    ("inertia", "mass"), [("own", 4.0), ("forgotten", 1.0), ("mean", (1 + 4 + 4) / 3)], ids=["own", "forgotten", "mean"]
+    ("inertia", "mass"), [("own", 4.0), ("forgotten", 1.0), ("mean", 9.5 / 3)], ids=["own", "forgotten", "mean"]
 )
 def test_which_masses_swing(inertia: str, mass: float) -> None:
-    """Of 4 kg on both joints that move, and 1 kg on the pin, which does not swing."""
-    bridge = namespace({**vars(SWINGING), "masses": np.array([1.0, 4.0, 4.0])})
+    """Of 4 kg on both joints that move, and 1.5 kg on the pin, which does not swing."""
+    bridge = namespace({**vars(SWINGING), "masses": np.array([1.5, 4.0, 4.0])})
     limit = 2 / sqrt(Q * (2 + sqrt(2)) / mass)
     assert SOLVED["largest_dt"](bridge, inertia=inertia) == pytest.approx(limit, rel=1e-12)
-    assert SOLVED["largest_dt"](bridge, mode="one") == pytest.approx(2 / sqrt(2 * Q / 1))
+    assert SOLVED["largest_dt"](bridge, mode="one") == pytest.approx(2 / sqrt(2 * Q / 1.5))
+    assert SOLVED["largest_dt"](bridge, mode="four") == pytest.approx(1 / sqrt(2 * Q / 1.5))
+
+
+def test_numbers_of_joints_do_not_matter() -> None:
+    """Pin and roller are wherever they are; a bridge that nothing holds moves as a whole, at no frequency."""
+    order = np.array([2, 0, 1])  # joint i gets number order[i]
+    for given, name, wrong in (
+        (LOADED, "heaviest", {}),
+        (LOADED, "heaviest", {"held": "turned"}),
+        *((SWINGING, "largest_dt", {"held": held}) for held in ("all", "pin", "both pinned", "none", "turned")),
+    ):
+        fields = {n: np.empty_like(getattr(given, n)) for n in ("joints", "masses")}
+        for n, array in fields.items():
+            array[order] = getattr(given, n)
+        fields |= {"members": order[given.members], "pinned": 2, "roller": 0}
+        other = namespace({**vars(given), **fields})
+        assert SOLVED[name](other, **wrong) == pytest.approx(SOLVED[name](given, **wrong), rel=1e-12)
+    free = namespace(some_bridge(np.random.default_rng(1), 4, 9.81, 0))
+    assert SOLVED["largest_dt"](free, held="none", mode="lowest") > 100 * SOLVED["largest_dt"](free, mode="lowest")
 
 
 @pytest.mark.parametrize("hidden", [False, True])
