@@ -95,6 +95,18 @@ def beeman(count: int) -> Array:
     return np.array(found)
 
 
+def stormer_verlet(count: int) -> Array:
+    """x1 = x0 + h v0 + h^2 a0/2 and then 2 x0 - x[-1] + h^2 a0; v1 = (x1 - x0)/h + h a1/2, a1 with (x1 - x0)/h."""
+    (x, v), found, before = BEGIN, [BEGIN], None
+    for _ in range(count):
+        here = -SQUARE * x - RATE * v
+        after = x + H * v + H**2 * here / 2 if before is None else 2 * x - before + H**2 * here
+        v = (after - x) / H
+        v, before, x = v + H * (-SQUARE * after - RATE * v) / 2, x, after
+        found.append((x, v))
+    return np.array(found)
+
+
 def adams_bashforth(count: int) -> Array:
     """Heun's step, then 3/2 of the slope here less 1/2 of the one before."""
     matrix = np.array([[0.0, 1.0], [-SQUARE, -RATE]])
@@ -117,7 +129,12 @@ def backward_differences(count: int) -> Array:
 
 @pytest.mark.parametrize(
     ("name", "by_hand"),
-    [("beeman", beeman), ("adams_bashforth_2", adams_bashforth), ("bdf2", backward_differences)],
+    [
+        ("beeman", beeman),
+        ("stormer_verlet", stormer_verlet),
+        ("adams_bashforth_2", adams_bashforth),
+        ("bdf2", backward_differences),
+    ],
     ids=label,
 )
 def test_schemes_that_look_back_step_by_hand(name: str, by_hand: object) -> None:
