@@ -55,20 +55,24 @@ class Spring:
     other: float | None = None
 
     def __post_init__(self) -> None:
-        for name, low in (("stiffness", 0.0), ("damping", -1.0), ("mass", 0.0), ("other", 0.0)):
-            value = getattr(self, name)
-            if value is not None and not (isfinite(value) and (value > low if low >= 0 else value >= 0)):
-                field = "mass-b" if name == "other" else name
-                sign = ">" if low >= 0 else ">="
-                raise NoSpringError(field, f"{field} = {value:g}: expected a finite number {sign} 0")
-        if not 0 < self.stiffness * (1 / self.mass + (1 / self.other if self.other else 0.0)) < LARGEST:
+        for field, value in (("stiffness", self.stiffness), ("mass", self.mass), ("mass-b", self.other)):
+            if value is not None and not (isfinite(value) and value > 0):
+                raise NoSpringError(field, f"{field} = {value:g}: expected a finite number > 0")
+        if not (isfinite(self.damping) and self.damping >= 0):
+            raise NoSpringError("damping", f"damping = {self.damping:g}: expected a finite number >= 0")
+        if not 0 < self.stiffness * self._inverse_mass < LARGEST:
             numbers = f"stiffness = {self.stiffness:g}, mass = {self.mass:g}"
             raise NoSpringError("stiffness", f"{numbers}: expected k/m between 0 and {LARGEST:g} 1/s^2")
 
     @property
+    def _inverse_mass(self) -> float:
+        """1/m_a + 1/m_b [1/kg]."""
+        return 1 / self.mass + (1 / self.other if self.other else 0.0)
+
+    @property
     def effective_mass(self) -> float:
         """1 / (1/m_a + 1/m_b) [kg]: what swings on the spring."""
-        return 1 / (1 / self.mass + (1 / self.other if self.other else 0.0))
+        return 1 / self._inverse_mass
 
     @property
     def omega(self) -> float:
