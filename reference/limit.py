@@ -55,7 +55,7 @@ class Limit:
         """
         if self.dt is not None:
             return "up to a limit"
-        if self.growth is not None or self.reason.startswith(("unstable at any dt", "no stable step")):
+        if self.reason.startswith(("unstable at any dt", "no stable step")):
             return "none"
         return "any" if self.reason.startswith(("stable at any dt", "nothing moves")) else "unknown"
 

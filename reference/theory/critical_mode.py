@@ -13,6 +13,9 @@ from reference.theory.definite import Definiteness, lowest_eigenvector
 from reference.theory.linearisation import Linearisation
 from reference.theory.step_coefficients import is_quadratic
 
+#: So far beyond a limit, as a part of it, what should damp is seen to drive.
+SHORTLY = 1e-6
+
 
 @dataclass(frozen=True, eq=False)
 class CriticalMode:
@@ -42,11 +45,13 @@ class CriticalMode:
 def critical_mode(scheme: Scheme, linear: Linearisation, dt: float) -> CriticalMode:
     """The mode that limits a scheme at its limit dt [s].
 
-    Of a step with symmetric matrices, the direction in which S(dt) vanishes. Of others the fastest swing, which limits
+    Of a step with symmetric matrices, the direction in which S(dt) vanishes, or in which what should damp drives beyond
+    dt. Of others the fastest swing, which limits
     them where damping is weak.
     """
     if is_quadratic(scheme, linear.damped, linear.dragged):
-        matrix = Definiteness(scheme, linear, dt).matrix(dt)
+        definite, beyond = Definiteness(scheme, linear, dt), (1 + SHORTLY) * dt
+        matrix = definite.matrix(dt) if definite.damps(beyond) else definite.driven(beyond)
     else:
         matrix = -linear.scaled_stiffness
     moves = lowest_eigenvector(matrix) / np.sqrt(linear.mass)

@@ -5,13 +5,15 @@ gives a real quadratic, with coefficients q* A q. Its roots lie within the unit 
 
     q*(A2 + A1 + A0) q >= 0,   q*(A2 - A0) q >= 0,   q*(A2 + A0) q >= 0,   q*(A2 - A1 + A0) q >= 0.
 
-The first is h^2 K, the second the damping; the third is half the sum of the first and the last. So where K and the
-damping are not negative, a step is stable if and only if the last is so for all q: if
+The first is h^2 K, the second the damping E; the third is half the sum of the first and the last. So where K and E
+are not negative, a step is stable if and only if the last is so for all q: if
 
     S(h) = A2 - A1 + A0 = 2 (A2 + A0) - h^2 K
 
 has no negative eigenvalue. Its negative pivots are counted (`inertia`) a little below the limit, none, and a little
-above, some: that certifies it.
+above, some: that certifies it. A scheme may make of damping what drives, in long steps: one that multiplies velocities
+by 1 - h c/m turns them round beyond m/c. There A2 is negative in a direction too, in which the quadratic is h^2 K at
+l = 1, and has a root l > 1. So there its limit is, if S has not become negative before.
 """
 
 from __future__ import annotations
@@ -37,6 +39,9 @@ DENSE_UP_TO = 150
 
 #: A limit is certified between these parts of itself.
 BRACKET = 1e-9
+
+#: So many dts are looked at for one in which damping drives.
+LOOKS = 60
 
 #: So often a direction is sought in which S is negative, and a march goes on.
 ROUNDS = 60
@@ -77,9 +82,28 @@ class Definiteness:
     @cached_property
     def decides(self) -> bool:
         """Whether all damping in a step is damping: only then does S alone decide."""
-        made = self._made(self.unit)
+        return self.damps(self.unit) and self._made(self.unit).springs.damping_stiffness >= 0
+
+    def damps(self, dt: float) -> bool:
+        """Whether no entry of E, of a spring or of a mass, is negative in a step of dt [s]."""
+        made = self._made(dt)
         least = min(made.springs.all.min(initial=0.0), made.drag.all.min(initial=0.0))
-        return bool(least >= -1e-12 * self.linear.mass.max() and made.springs.damping_stiffness >= 0)
+        return bool(least >= -1e-12 * self.linear.mass.max())
+
+    def drives_from(self, last: float) -> float:
+        """The first dt [s] above which what should damp drives; infinite if none is up to the last one to look at [s].
+
+        Looked at dt by dt: what drives goes on to do so.
+        """
+        if self.in_proportion:
+            return np.inf
+        before = 1e-3 * self.unit
+        for dt in np.geomspace(min(before, last), last, LOOKS).tolist():
+            if not self.damps(dt):
+                low, high = bisect(lambda at: not self.damps(at), before, dt, _near)
+                return (low + high) / 2
+            before = dt
+        return np.inf
 
     @cached_property
     def never_negative(self) -> bool:
@@ -130,6 +154,11 @@ class Definiteness:
         """S(dt), shape (m, m), an array up to DENSE_UP_TO, else sparse; with the damping's part where that is known."""
         return self._with(self._assembled(part or self.damping_part(dt)), dt)
 
+    def driven(self, dt: float) -> Any:
+        """E(dt), whose lowest eigenvector is what is driven most where it is not damped; as `matrix`."""
+        made = self._made(dt)
+        return self._assembled((made.springs.all, made.drag.all))
+
     def with_system(self, system: MassSpringSystem) -> Definiteness:
         """The same with other parameters about the same state."""
         return Definiteness(self.scheme, Linearisation(system, self.linear.state), self.unit)
@@ -158,11 +187,16 @@ class Definiteness:
         The part is convex in dt, as an exponential is. So where S on the tangent is not negative S is not either, and
         no interval in which it were could be jumped over.
         """
-        dt = 1e-3 * self.unit
+        dt, not_negative = 1e-3 * self.unit, 0.0
         for _ in range(ROUNDS):
             here, before = (self._assembled(self.damping_part(h)) for h in (dt, (1 - 1e-6) * dt))
+            if negative_eigenvalues(self._with(here, dt)):
+                # the slope is a difference of what is rounded, and a tangent that is too steep leads too far
+                low, high = bisect(self._is_negative, not_negative, dt, _near)
+                return (low + high) / 2
             if dt >= last:
                 return np.inf
+            not_negative = dt
             rate = (here - before) / (1e-6 * dt)
             there = first_negative(
                 lambda x, here=here, rate=rate, dt=dt: self._with(here + (x - dt) * rate, x),  # type: ignore[misc]
@@ -174,6 +208,9 @@ class Definiteness:
                 return there
             dt = min(there, 4 * dt, last)
         return dt
+
+    def _is_negative(self, dt: float) -> bool:
+        return negative_eigenvalues(self.matrix(dt)) > 0
 
     def _quadratic(self, dt: float, here: Any, rate: Any) -> Quadratic:
         """The coefficients of q* S(x) q in x, with the damping's part on a line through `here` at dt."""
@@ -208,6 +245,10 @@ class Definiteness:
     @cached_property
     def _made_of_unit(self) -> DampingInStep:
         return damping_in_step(self.scheme, self.linear, self.unit)
+
+
+def _near(low: float, high: float) -> bool:
+    return high - low <= BRACKET * low
 
 
 #: Of a direction q: the constant, linear and square coefficients of q* S(x) q.

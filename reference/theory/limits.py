@@ -43,6 +43,9 @@ SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
 #: Steps that solve for positions are differenced on obstacles up to this size of the whole state only: it takes long.
 IMPLICIT_UP_TO = 12
 
+#: Up to so many times the fastest 1/w a step is looked at for damping that drives.
+FAR = 1e6
+
 #: The Runge-Kutta limit of a large system is one value where it is known so nearly from both sides.
 AS_GOOD_AS_ONE = 1e-8
 
@@ -98,10 +101,14 @@ def _on_obstacles(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
 
 def _by_definiteness(definite: Definiteness) -> Limit:
     """Of a step with symmetric matrices."""
+    last = np.inf if definite.in_proportion else drowned_from(definite)
+    dt = np.inf if definite.never_negative else definite.first_limit(last)
+    # S changes its sign there as well
+    drives = definite.drives_from(min((1 + AS_GOOD_AS_ONE) * dt, last, FAR * definite.unit))
+    if np.isfinite(drives):
+        return Limit(drives, certainty="certified")
     if definite.never_negative:
         return Limit(None, "stable at any dt", certainty="certified")
-    last = np.inf if definite.in_proportion else drowned_from(definite)
-    dt = definite.first_limit(last)
     if np.isfinite(dt):
         windows = windows_of(definite, dt)
         return Limit(dt, certainty="certified", windows=windows, looked_to=looked_to(definite, dt))

@@ -64,15 +64,18 @@ def coefficients(scheme: Scheme, dt: float, masses: Array, damping: Array, drag:
     """
     soft, stiff = (_leading(scheme, dt, masses, damping, drag, part) for part in (1.0, 2.0))
     (a2, a0), (stiffer_a2, stiffer_a0) = soft, stiff
-    kappa = _shared((stiffer_a2 - a2) / masses)
-    epsilon = _shared(((stiffer_a2 - stiffer_a0) - (a2 - a0)) / masses)
+    damped = np.abs(a2 - a0) / masses
+    kappa = _shared((stiffer_a2 - a2) / masses, damped)
+    epsilon = _shared(((stiffer_a2 - stiffer_a0) - (a2 - a0)) / masses, damped)
     return StepCoefficients(a2 - (1 + kappa) * masses, a2 - a0 - epsilon * masses, kappa, epsilon)
 
 
-def _shared(values: Array) -> float:
-    """The one number that all are, but for rounding; where they are not, the quadratic will not fit."""
-    middle = float(np.median(values)) if len(values) else 0.0
-    return round(middle, 12)
+def _shared(values: Array, damped: Array) -> float:
+    """The one number that all are, but for rounding; where they are not, the quadratic will not fit.
+
+    Taken of what is damped least: where damping is an exponential of dt, rounding grows with its square.
+    """
+    return round(float(values[np.argmin(damped)]), 12) if len(values) else 0.0
 
 
 def _leading(scheme: Scheme, dt: float, masses: Array, damping: Array, drag: float, part: float) -> tuple[Array, Array]:

@@ -40,6 +40,7 @@ def windows_of(definite: Definiteness, first: float) -> tuple[tuple[float, float
     last = looked_to(definite, first)
     if last <= first:
         return ()
+    last = min(last, definite.drives_from(last))
     steps = np.geomspace((1 + 1e-6) * first, last, LOOKS)
     with np.errstate(all="ignore"):
         parts = definite.damping_parts(steps)

@@ -19,6 +19,7 @@ from reference.limit import Limit, StableSteps
         (Limit(None, "unstable at any dt that was tried, down to 1e-09 s"), "none"),
         (Limit(None, "no stable step was found, down to 1e-09 s"), "none"),
         (Limit(None, "not computed: neither single oscillators nor a scheme near to it tell where to look"), "unknown"),
+        (Limit(None, "unstable at 0.001 s: grows by 0.005 of itself in a step", 0.005), "unknown"),
         (Limit(None, ""), "unknown"),
     ],
 )

@@ -1,0 +1,63 @@
+"""Light masses amid heavy ones that drag slows within a step: where drag turns velocities round, and where it holds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find
+from reference.theory.critical_mode import critical_mode
+from reference.theory.equilibria import Equilibrium, spring_equilibrium
+from reference.theory.limits import stability_limit
+from reference.theory.step_map import step_jacobian
+
+
+def chain(masses: list[float], drag: float) -> Equilibrium:
+    """Masses [kg] that hang below one another, each with a drag [N s/m]."""
+    return spring_equilibrium(find_scene("chain").system({"masses": len(masses), "mass": masses, "drag": drag}))
+
+
+def growth(name: str, rest: Equilibrium, dt: float) -> float:
+    """The largest |eigenvalue| of all of a step, less 1."""
+    return float(np.abs(np.linalg.eigvals(step_jacobian(find(name), rest, dt))).max() - 1)
+
+
+@pytest.mark.parametrize(
+    ("masses", "drag"), [([0.00366, 14.4, 0.765, 12.3], 0.558), ([2.85, 0.0326, 0.13, 0.00687], 1.04)]
+)
+def test_drag_afterwards_turns_the_velocity_of_the_lightest_mass_round(masses: list[float], drag: float) -> None:
+    """Velocities times 1 - h Cd/m: beyond h = m/Cd they are turned round, and what a spring adds to them with them.
+
+    So a spring pushes the mass away there: a real eigenvalue above 1, whatever the other masses. S is positive still.
+    """
+    rest, limit = chain(masses, drag), min(masses) / drag
+    found = stability_limit(find("kick_drift_drag_afterwards"), rest)
+    assert (found.dt, found.windows) == (pytest.approx(limit, rel=1e-8), ())
+    assert growth("kick_drift_drag_afterwards", rest, (1 - 1e-6) * limit) < 0
+    assert growth("kick_drift_drag_afterwards", rest, (1 + 1e-6) * limit) > 0
+    assert rest.linear is not None
+    moves = critical_mode(find("kick_drift_drag_afterwards"), rest.linear, limit).shape
+    assert np.abs(moves).argmax() == 1 + np.argmin(masses)
+    assert np.sort(np.abs(moves).ravel())[-2] < 1e-3
+
+
+@pytest.mark.parametrize("light", [0.00844, 0.0063, 0.0052])
+def test_a_heavy_mass_beside_one_that_exponential_drag_all_but_holds_has_its_limit(light: float) -> None:
+    """Velocities times e^(-h Cd/m), here e^-11 to e^-17: S(h) = 2 M (1 + e^(h Cd/M)) - h^2 K, with all its digits.
+
+    The light mass is at the end of a spring and moves but little: what is left of its coupling is in the formula. Of
+    S whose damping is rounded as e^(2 h Cd/M) there were 2.6e-4 of the limit wrong, and it was called certified.
+    """
+    masses, drag, k = np.array([1.10, light]), 0.848, 200.0
+    rest = chain(masses.tolist(), drag)
+
+    def lowest(h: float) -> float:
+        s = np.diag(2 * masses * (1 + np.exp(h * drag / masses))) - h**2 * k * np.array([[2.0, -1.0], [-1.0, 1.0]])
+        return float(np.linalg.det(s))
+
+    found = stability_limit(find("kick_drift_exponential_drag"), rest).dt
+    assert found is not None
+    assert lowest(found * (1 - 1e-7)) > 0 > lowest(found * (1 + 1e-7))
+    assert growth("kick_drift_exponential_drag", rest, (1 - 1e-5) * found) < 0
+    assert growth("kick_drift_exponential_drag", rest, (1 + 1e-5) * found) > 0
