@@ -39,12 +39,13 @@ def _of_block(holder: ast.AST, name: str, block: Sequence[ast.stmt]) -> Iterator
         before, after = block[:i], block[i + 1 :]
         yield from _moved_down(place, before, one, after)
         if isinstance(one, ast.If):
-            for kept in (one.body, one.orelse):
+            for kept in [one.body, one.orelse]:
                 always = kept or [ast.copy_location(ast.Pass(), one)]
                 yield Edit(one.lineno, "condition", 2.1, ((place, [*before, *always, *after]),))
-        if isinstance(one, ast.If) and len(one.orelse) == 1 and isinstance(one.orelse[0], ast.If):
-            both = renewed(one, orelse=[]), one.orelse[0]
-            yield Edit(one.orelse[0].lineno, "condition", 1.7, ((place, [*before, *both, *after]),))
+            match one.orelse:
+                case [ast.If() as other]:
+                    both = renewed(one, orelse=[]), other
+                    yield Edit(other.lineno, "condition", 1.7, ((place, [*before, *both, *after]),))
         if isinstance(one, ast.For | ast.While | ast.If | ast.With) and len(one.body) > 1:
             last, rest = one.body[-1], renewed(one, body=one.body[:-1])
             yield Edit(last.lineno, "order", 1.6, ((place, [*before, rest, last, *after]),))
