@@ -66,7 +66,7 @@ def forces(
     if sides != "above":
         total[:-1] += under if sides == "same" else -under
     if last in ("wraps", "ring") and len(x) > 1:
-        closing = force_of(x[-1:], x[:1], k[:1], rest_lengths[:1])[0]
+        (closing,) = force_of(x[-1:], x[:1], k[:1], rest_lengths[:1])
         total[-1] += closing
         total[0] -= closing * (last == "ring")
     if last == "rolls":
@@ -147,7 +147,7 @@ class LinkMotion:
         return Slope(1.0, state.velocities, self.acceleration(state))
 
 
-def random_string(random: np.random.Generator, count: int, dimension: int = 2) -> tuple[Array, Array, dict[str, Any]]:
+def random_string(random: np.random.Generator, count: int) -> tuple[Array, Array, dict[str, Any]]:
     """A string in motion: positions, velocities, and what it is made of. No two numbers of it are alike.
 
     Springs are some tenths longer or shorter than at rest, and everything moves, so that no term of a force vanishes.
@@ -159,13 +159,12 @@ def random_string(random: np.random.Generator, count: int, dimension: int = 2) -
         "rest_lengths": rest_lengths,
         "drag": float(random.uniform(0.02, 0.05)),
         "gravity": 9.81,
-        "anchor": random.uniform(0.1, 0.3, dimension),
+        "anchor": random.uniform(0.1, 0.3, 2),
     }
     lengths = rest_lengths * random.uniform(1.1, 1.4, count) * random.choice([1.0, 0.7], count)
     angles = random.uniform(-2.6, -0.5, count)
-    downwards = np.stack([np.cos(angles), np.sin(angles)], axis=1) if dimension == 2 else -1.0
-    steps = lengths[:, None] * downwards
-    return string["anchor"] + np.cumsum(steps, axis=0), random.uniform(-1.0, 1.0, (count, dimension)), string
+    steps = lengths[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    return string["anchor"] + np.cumsum(steps, axis=0), random.uniform(-1.0, 1.0, (count, 2)), string
 
 
 def namespace(fields: dict[str, Any]) -> SimpleNamespace:
