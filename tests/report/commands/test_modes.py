@@ -1,0 +1,102 @@
+"""`springlab modes`: what it prints, what it writes, and each of its options."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.report.commands.terminal import springlab
+from tests.report.commands.test_simulate import table
+
+
+def modes(masses: int, *words: str, scene: str = "chain") -> str:
+    """What is printed of a chain of masses."""
+    said = springlab("modes", scene, "--set", f"masses={masses}", *words)
+    assert said.code == 0
+    return said.out
+
+
+def hanging(masses: int, stiffness: float, mass: float) -> np.ndarray:
+    """Frequencies of a chain that is held at one end: 2 sqrt(k/m) sin((2 i - 1) pi / (4 n + 2)) / (2 pi) [Hz]."""
+    i = np.arange(1, masses + 1)
+    return np.sqrt(stiffness / mass) * np.sin((2 * i - 1) * np.pi / (4 * masses + 2)) / np.pi
+
+
+def test_frequencies_are_those_of_a_chain() -> None:
+    """In Hz, with angular frequency and period, the slowest first."""
+    heading, *rows = table(
+        modes(3, "--set", "stiffness=100", "--set", "mass=0.5"), "chain: natural modes about its rest"
+    )
+    assert " ".join(heading) == "mode frequency [Hz] angular [rad/s] period [s] damping ratio"
+    numbers = np.array(rows, dtype=float)
+    found = hanging(3, 100.0, 0.5)
+    assert numbers[:, 1] == pytest.approx(found, rel=5e-3)
+    assert numbers[:, 2] == pytest.approx(2 * np.pi * found, rel=5e-3)
+    assert numbers[:, 3] == pytest.approx(1 / found, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("masses", "words", "wanted"),
+    [
+        (20, (), []),
+        (21, (), ["20 of 21 modes are shown; --json has 21.", "20 of 21 springs are shown; --json has all."]),
+        (4, ("--lowest", "3"), ["3 of 4 modes are shown; --json has 3."]),
+        (22, ("--lowest", "21"), ["20 of 22 modes are shown; --json has 21."]),
+    ],
+)
+def test_twenty_are_shown_and_how_many_there_are_is_told(
+    masses: int, words: tuple[str, ...], wanted: list[str]
+) -> None:
+    """Of modes and of springs; nothing is said where all are."""
+    said = modes(masses, *words)
+    assert [line for line in said.splitlines() if "shown" in line][: len(wanted)] == wanted
+    assert bool(wanted) == ("shown" in said)
+    assert len(table(said, "chain: natural modes about its rest")) == 1 + min(20, int(words[1]) if words else masses)
+    assert len(table(said, "Springs at rest")) == 1 + min(20, masses)
+
+
+def test_what_a_stepper_makes_of_the_modes_stands_beside_them() -> None:
+    """Explicit Euler: undamped it drives each mode by its own step; predicted and measured, at the dt of the scene."""
+    out = modes(2, "--stepper", "euler", "--set", "stiffness=100", "--set", "mass=0.5", "--dt", "0.01")
+    heading, *rows = table(out, "What steppers make of the modes at dt = 0.01 s")
+    assert " ".join(heading).startswith(
+        "stepper mode natural [Hz] predicted [Hz] measured [Hz] predicted damping ratio"
+    )
+    natural = hanging(2, 100.0, 0.5)
+    rates = np.log(1 + 2j * np.pi * natural * 0.01) / 0.01
+    assert [row[:2] for row in rows] == [["euler", "1"], ["euler", "2"]]
+    numbers = np.array([row[2:7] for row in rows], dtype=float)
+    assert numbers[:, 0] == pytest.approx(natural, rel=5e-3)
+    for column, wanted in ((1, rates.imag / (2 * np.pi)), (3, -rates.real / np.abs(rates))):
+        assert numbers[:, column] == pytest.approx(wanted, rel=1e-2)
+        assert numbers[:, column + 1] == pytest.approx(wanted, rel=1e-2)
+
+
+def test_json_has_each_stepper_and_each_mode() -> None:
+    """Only where a stepper is named."""
+    assert "steppers" not in json.loads(modes(2, "--json"))
+    told = json.loads(modes(2, "--json", "--stepper", "euler", "--stepper", "rk4"))["steppers"]
+    assert [(one["stepper"], one["mode"]) for one in told] == [("euler", 0), ("euler", 1), ("rk4", 0), ("rk4", 1)]
+    for one in told:
+        assert {"predicted", "measured", "identified_as", "reason"} <= one.keys()
+        assert one["measured"]["frequency_hz"] == pytest.approx(one["predicted"]["frequency_hz"], rel=1e-3)
+
+
+def test_a_picture_and_a_table_are_written(tmp_path: Path) -> None:
+    """Into a folder that is made; the table has what is printed, with all its figures."""
+    out = tmp_path / "new"
+    said = springlab("modes", "chain", "--set", "masses=3", "--set", "drag=0.1", "--out", str(out))
+    assert said.err.splitlines() == [f"written: {out / name}" for name in ("chain-modes.svg", "chain-modes.csv")]
+    assert (out / "chain-modes.svg").read_text().startswith("<svg")
+    with (out / "chain-modes.csv").open() as file:
+        heading, *rows = csv.reader(file)
+    assert heading == ["mode", "frequency [Hz]", "damping ratio"]
+    document = json.loads(springlab("modes", "chain", "--set", "masses=3", "--set", "drag=0.1", "--json").out)
+    assert [int(row[0]) for row in rows] == [1, 2, 3]
+    assert [float(row[1]) for row in rows] == document["frequencies_hz"]
+    assert [float(row[2]) for row in rows] == document["damping_ratios"]
+    assert all(float(row[2]) > 0 for row in rows)
