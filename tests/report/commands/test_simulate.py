@@ -68,7 +68,7 @@ def test_files_are_written_where_they_are_asked_for(tmp_path: Path) -> None:
     ]
     assert all(file.parent == out and file.stat().st_size > 0 for file in written)
     assert json.loads((out / "simulate.json").read_text()) == json.loads(said.out)
-    times = {line.split(",")[1] for line in (out / "heun-masses.csv").read_text().splitlines()[1:]}
+    times = {line.split(",")[0] for line in (out / "heun-masses.csv").read_text().splitlines()[1:]}
     assert sorted(map(float, times)) == pytest.approx([0.0, 0.008, 0.016, 0.02])
 
 
