@@ -142,7 +142,8 @@ def _forces(simulation: Simulation, runs: Sequence[Run]) -> Picture:
         panel.set_title(run.stepper.name, fontsize=10)
         _over_time(panel, "spring force [N], tension positive" if panel is panels[0][0] else "", None)
         label_ends(panel, [end for end in ends if np.isfinite(end.y)], 0.05)
-    some = f", {len(chosen)} of {len(simulation.setup.system.springs)}" if len(chosen) == FEW else ""
+    count = len(simulation.setup.system.springs)
+    some = f", {len(chosen)} of {count}" if len(chosen) < count else ""
     figure.suptitle(f"{simulation.setup.name}: forces of springs, by their number{some}", fontsize=11)
     return Picture(figure, f"Forces of springs over time under {_names(known)}.")
 
