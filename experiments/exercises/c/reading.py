@@ -189,8 +189,6 @@ class _Reader(Expressions):
         text = re.sub(rf"\b{node.name}\b(?!.*\b{node.name}\b)", "springlab_value", self.written.visit(node))
         if hasattr(inner, "quals"):
             inner.quals = kept
-        quals, node.quals = node.quals, []
-        node.quals = quals
         return text.removeprefix("const ") if isinstance(inner, c_ast.TypeDecl) else text
 
     def _assignment(self, node: c_ast.Assignment) -> ast.stmt:
