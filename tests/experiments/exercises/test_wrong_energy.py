@@ -118,9 +118,13 @@ def test_strings_are_on_earth_and_on_the_moon_and_damped(hidden: bool) -> None:
     for question, count in zip(asked, counts, strict=True):
         x, v, string = question.arguments
         assert x.shape == v.shape == (count, 2)
+        ratios = np.linalg.norm(np.diff(x, axis=0, prepend=string["anchor"][None]), axis=1) / string["rest_lengths"]
+        assert ((ratios > 0.2) & (ratios < 5)).all()
         assert string["damping"].shape == (count,)
-        assert (string["damping"] >= 0.01).all()
-        assert (string["damping"] <= 0.1).all()
+        assert ((string["damping"] >= 0.01) & (string["damping"] <= 0.1)).all()
+    for some in (asked[:few], asked[few:]):
+        dampings = np.concatenate([q.arguments[2]["damping"] for q in some])
+        assert (dampings.min() < 0.04, dampings.max() > 0.06) == (True, True)
     slow = np.abs(asked[-1].arguments[1])
     assert ((slow >= 0.3) & (slow <= 1.0)).all()
     assert {tuple(way) for way in np.sign(asked[-1].arguments[1]).tolist()} == {

@@ -134,6 +134,47 @@ def test_letters_that_are_none_are_refused() -> None:
     assert read(MARK, packed(answers(again=[bad, bad])), 2).ended == "crashed"
 
 
+@pytest.mark.parametrize(
+    "reply",
+    [
+        answers(again=None, error={"type": "E" * 2000, "words": "w", "line": 2**31}),
+        answers(error={"type": "E", "words": "w", "line": 0}),
+        answers(modified=True, overwritten=True),
+        {**GOOD, "names": ["x" * 2000] * 100},
+        {**GOOD, "names": ["x"] * 10_000},
+        {**GOOD, "search": []},
+        {**GOOD, "search": [{**FOUND, "repairs": [[0]] * 64}] * 8},
+        answers(again=[np.array(["\ud7ff\ue000\U0010ffff"])]),
+        {"error": {"type": "E", "words": "w", "line": 1}, "search": [FOUND]},
+    ],
+)
+def test_what_is_within_bounds_is_read(reply: Any) -> None:
+    """The most there may be of each."""
+    assert read(MARK, packed(reply), 2).ended == "done"
+
+
+@pytest.mark.parametrize(
+    "reply",
+    [
+        answers(error={"type": "E" * 2001, "words": "w", "line": 1}),
+        answers(error={"type": "E", "words": "w", "line": 2**31 + 1}),
+        {**GOOD, "names": ["x"] * 10_001},
+        {**GOOD, "search": [FOUND] * 9},
+        {**GOOD, "search": [{**FOUND, "repairs": [[0]] * 65}]},
+        {**GOOD, "search": [{**FOUND, "repairs": [[]]}]},
+        {**GOOD, "search": [{**FOUND, "tried": True}]},
+        {**GOOD, "search": [{**FOUND, "pairs_done": 1}]},
+        answers(overwritten=0),
+        {**GOOD, "answers": [*GOOD["answers"][:1], {"values": []}]},
+        {"error": {"type": "E", "words": "w", "line": 1}, "names": []},
+        {"names": ["step"]},
+    ],
+)
+def test_what_is_a_little_beyond_them_is_refused(reply: Any) -> None:
+    """One more of anything, or another kind of number."""
+    assert read(MARK, packed(reply), 2).ended == "crashed"
+
+
 def test_an_answer_is_bounded() -> None:
     """By its bytes."""
     assert "MiB" in read(MARK, b"x" * (LONGEST + 1), 2).reason
