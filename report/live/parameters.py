@@ -57,8 +57,8 @@ class Slider:
 
 
 def sliders(system: MassSpringSystem) -> list[Slider]:
-    """One for each of PARAMETERS that the system has."""
-    return [_slider(system, name) for name in PARAMETERS if name != "rest_length" or len(system.springs)]
+    """One for each of PARAMETERS that the system has: without springs, none of theirs."""
+    return [_slider(system, name) for name in PARAMETERS if _values(system, name).size]
 
 
 def _slider(system: MassSpringSystem, name: str) -> Slider:

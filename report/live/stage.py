@@ -239,8 +239,9 @@ def _strains_to_show(system: MassSpringSystem) -> float:
     """The strain at the ends of the colours: what the weight below a typical spring makes of it, rounded."""
     weight = float(system.masses[~system.fixed].sum() * np.linalg.norm(system.gravity))
     stretch = weight / (system.stiffness * np.maximum(system.rest_lengths, system.shortest)).clip(1e-12)
+    typical = float(np.median(stretch)) if len(stretch) else 0.0
     share = max(1.0, len(system.springs) / 10)
-    return float(np.clip(nice(max(float(np.median(stretch)) / share, 1e-6)), 1e-5, 1.0))
+    return float(np.clip(nice(max(typical / share, 1e-6)), 1e-5, 1.0))
 
 
 def _ball_colours(system: MassSpringSystem, i: int) -> Any:

@@ -364,3 +364,17 @@ def test_colours_are_for_the_strain_that_the_weight_makes(masses: int, stiffness
     assert made.strain_shown == pytest.approx(wanted)
     made.show(timeline(replace(system, rest_lengths=np.where(np.arange(masses - 1) < 1, 1.0, 0.0))))
     assert made.strain_shown == pytest.approx(wanted)
+
+
+def test_masses_without_springs_are_shown() -> None:
+    """Each with its ball, and no line."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [1.0, 0.5]]),
+        springs=np.zeros((0, 2), dtype=np.int64),
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(1.0),
+    )
+    drawn = nodes(timeline(system))
+    assert drawn["/lane0/springs"].points.shape == (0, 2, 3)
+    assert drawn["/lane0/masses"].batched_positions.tolist() == [[0, 0, 0], [1, 0.5, 0]]
