@@ -1,0 +1,86 @@
+"""Rates of modes against closed forms: one mass along a line, a free chain, and what nothing resists."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from reference.scenes import find as find_scene
+from reference.system import MassSpringSystem
+from reference.theory import rates as module
+from reference.theory.equilibria import Equilibrium, pendulum_equilibrium, spring_equilibrium
+from reference.theory.rates import fastest_rate, rates
+
+
+def free_chain(**more: Any) -> MassSpringSystem:
+    """Three masses of 0.5 kg on two springs of 80 N/m along a line, held nowhere: w^2 = 0, k/m and 3 k/m."""
+    fields: dict[str, Any] = {
+        "positions": np.array([[0.0], [1.0], [2.0]]),
+        "springs": np.array([[0, 1], [1, 2]]),
+        "masses": np.array(0.5),
+        "rest_lengths": np.array(1.0),
+        "stiffness": np.array(80.0),
+        "gravity": np.zeros(1),
+        **more,
+    }
+    return MassSpringSystem(**fields)
+
+
+def rest(system: MassSpringSystem) -> Equilibrium:
+    """Where it is."""
+    return spring_equilibrium(system)
+
+
+def test_undamped_modes_swing() -> None:
+    """+- i w, and the two zeros of what goes on as it is begun."""
+    found = rates(rest(free_chain()))
+    w = np.sqrt([160.0, 480.0])
+    assert np.sort(found.values.imag) == pytest.approx(np.sort([*w, *-w]), rel=1e-12)
+    assert not found.values.real.any()
+    assert (found.unresisted, found.all, found.least_decay) == (2, True, 0.0)
+    assert found.fastest == fastest_rate(rest(free_chain())) == pytest.approx(np.sqrt(480), rel=1e-12)
+
+
+@pytest.mark.parametrize(("c", "drag"), [(0.6, 0.0), (0.0, 0.4), (0.6, 0.4), (30.0, 0.0), (30.0, 0.4)])
+def test_damped_modes_are_roots_of_their_quadratics(c: float, drag: float) -> None:
+    """mu^2 + (c n + Cd)/m mu + k n/m = 0 with n = 1 and 3; with n = 0 the zeros, and the rate -Cd/m."""
+    found = rates(rest(free_chain(damping=np.array(c), drag=drag)))
+    expected = [root for n in (1, 3) for root in np.roots([1, (n * c + drag) / 0.5, n * 160.0])]
+    expected += [-drag / 0.5] if drag else []
+    assert np.sort_complex(found.values) == pytest.approx(np.sort_complex(np.array(expected)), rel=1e-9)
+    assert found.unresisted == (1 if drag else 2)
+    assert found.least_decay == pytest.approx(-max(np.real(expected)), rel=1e-9)
+    assert found.fastest == pytest.approx(np.abs(expected).max(), rel=1e-9)
+
+
+@pytest.mark.parametrize("more", [{}, {"damping": np.array(0.6), "drag": 0.4}, {"damping": np.array(30.0)}], ids=str)
+def test_of_large_systems_the_outermost_are_the_same(monkeypatch: pytest.MonkeyPatch, more: dict[str, Any]) -> None:
+    """By iteration, of a chain of thirty masses: the fastest, and where decay matters the largest of real parts."""
+    n = 30
+    chain = free_chain(
+        positions=np.arange(n)[:, None] * 1.0,
+        springs=np.stack([np.arange(n - 1), np.arange(1, n)], axis=1),
+        masses=np.linspace(0.3, 0.9, n),
+        **more,
+    )
+    every = rates(rest(chain))
+    monkeypatch.setattr(module, "ALL_UP_TO", 10)
+    monkeypatch.setattr(module, "QUICK_UP_TO", 10)
+    outermost = rates(rest(chain))
+    assert (every.all, outermost.all, outermost.unresisted) == (True, False, 0)
+    assert outermost.fastest == pytest.approx(every.fastest, rel=1e-6)
+    assert fastest_rate(rest(chain)) == pytest.approx(every.fastest, rel=1e-6)
+    if more:
+        assert outermost.values.real.min() == pytest.approx(every.values.real.min(), rel=1e-6)
+        assert np.abs(outermost.values.imag).max() == pytest.approx(np.abs(every.values.imag).max(), rel=1e-6)
+
+
+def test_of_other_equations_by_eulers_step() -> None:
+    """A pendulum of one rod: w^2 = g/l about hanging; its mass's drag decays at Cd/2m."""
+    system = find_scene("string").system({"masses": 1, "mass": 0.2, "drag": 0.3, "angle": 90.0, "rest_length": 0.5})
+    found = rates(pendulum_equilibrium(system))
+    assert found.values.real == pytest.approx(np.full(2, -0.75), rel=1e-5)
+    assert np.sort(found.values.imag) == pytest.approx(np.sqrt(9.81 / 0.5 - 0.75**2) * np.array([-1, 1]), rel=1e-5)
+    assert (found.unresisted, found.all) == (0, True)
