@@ -69,10 +69,12 @@ class _Changes:
         name, given = node.func.id, node.args
         if name == "abs_c_":
             yield Edit(line, "whole", 1.1, ((site, renewed(node, func=ast.Name("abs", ast.Load()))),))
-        if name == "=" and len(given) == 2:
-            yield Edit(line, "condition", 1.0, ((site, _at(node, ast.Compare(given[0], [ast.Eq()], [given[1]]))),))
+        if name == "=":
+            left, right = given
+            yield Edit(line, "condition", 1.0, ((site, _at(node, ast.Compare(left, [ast.Eq()], [right]))),))
         if name in ("(int)", "(long)"):
-            yield Edit(line, "whole", 1.2, ((site, given[0]),))
+            (inner,) = given
+            yield Edit(line, "whole", 1.2, ((site, inner),))
         others = {"p++": ["p--"], "p--": ["p++"], "++": ["--"], "--": ["++"]}
         for other in others.get(name, ()):
             yield Edit(line, "operator", 1.3, ((site, renewed(node, func=ast.Name(other, ast.Load()))),))
@@ -80,14 +82,16 @@ class _Changes:
 
     def _of_size(self, site: Site, node: ast.expr) -> Iterator[Edit]:
         """Bytes of all masses, for those of one, or of a pointer."""
-        inner = node.args[0] if isinstance(node, ast.Call) and node.args else None
-        is_call = isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "sizeof"
-        if not is_call and not (isinstance(node, Word) and node.text.startswith("sizeof")):
-            return
         sizes: list[ast.expr] = [node]
-        if inner is not None and self._kind(inner).depth > 0:
-            first = ast.Subscript(inner, ast.Constant(0), ast.Load())
-            sizes.append(renewed(node, args=[_at(node, first)]))
+        match node:
+            case ast.Call(ast.Name("sizeof"), [inner]):
+                if self._kind(inner).depth > 0:
+                    first = ast.Subscript(inner, ast.Constant(0), ast.Load())
+                    sizes.append(renewed(node, args=[_at(node, first)]))
+            case Word(text=text) if text.startswith("sizeof"):
+                pass
+            case _:
+                return
         for size in sizes:
             for by in (self._count, f"2 * {self._count}", "2"):
                 yield Edit(node.lineno, "factor", 1.6, ((site, binary(size, ast.Mult(), _word(by, node))),))
@@ -140,8 +144,9 @@ class _Changes:
             yield line, "condition", 1.4, [_at(one, ast.Continue())]
         if isinstance(one, ast.Break | ast.Continue | ast.Return):
             yield line, "too much", 2.2, [_at(one, ast.Pass())]
-        if isinstance(one, ast.Expr) and isinstance(one.value, ast.Compare) and isinstance(one.value.ops[0], ast.Eq):
-            yield line, "operator", 1.0, [_at(one, ast.Assign([one.value.left], one.value.comparators[0]))]
+        match one:
+            case ast.Expr(ast.Compare(left, [ast.Eq()], [right])):
+                yield line, "operator", 1.0, [_at(one, ast.Assign([left], right))]
         whole = isinstance(one, ast.Assign) and str(getattr(one, "declared", "")).startswith(WHOLE_TYPES)
         if isinstance(one, ast.Assign) and whole and self._kind(one.value) == NUMBER:
             yield line, "whole", 1.2, [_declared_as_number(one)]
@@ -152,16 +157,17 @@ class _Changes:
         """Declarations: of another type, with a value, cleared, not kept between calls."""
         if one.text.startswith("static "):
             yield one.lineno, "too much", 1.3, [_copied(one, one.text.removeprefix("static "))]
-        if len(one.names) != 1 or "=" in one.text:
+        if "=" in one.text or len(one.names) != 1:
             return
-        kind = self._kinds.get(one.names[0], WHOLE)
+        (name,) = one.names
+        kind = self._kinds.get(name, WHOLE)
         if kind == WHOLE and one.text.startswith("int "):
             yield one.lineno, "whole", 1.2, [_copied(one, f"double {one.text.removeprefix('int ')}")]
-        if kind in (NUMBER, WHOLE):
+        if kind in {NUMBER, WHOLE}:
             yield one.lineno, "left out", 1.4, [_copied(one, one.text.replace(";", " = 0;"))]
         elif kind.depth > 0 and "*" not in one.text and "[" in one.text:
-            name = c_name(one.names[0])
-            yield one.lineno, "left out", 1.5, [one, _copied(one, f"memset({name}, 0, sizeof {name});")]
+            own = c_name(name)
+            yield one.lineno, "left out", 1.5, [one, _copied(one, f"memset({own}, 0, sizeof {own});")]
 
     def _taken_in(self, place: Site, before: Sequence[ast.stmt], one: Any, after: Sequence[ast.stmt]) -> Iterator[Edit]:
         """What follows a loop or a condition, taken into it: there were no braces, or a semicolon too much."""
@@ -176,9 +182,9 @@ class _Changes:
         start: Site = (self._function, "body", None)
         body = self._function.body
         for name in self._written_into():
-            clear = _copied(body[0], f"memset({c_name(name)}, 0, sizeof *{c_name(name)} * ({self._count}));")
+            clear = _copied(self._function, f"memset({c_name(name)}, 0, sizeof *{c_name(name)} * ({self._count}));")
             yield Edit(self._first_added(name) or body[0].lineno, "left out", 1.6, ((start, [clear, *body]),))
-            keep = statement(f"_{name}_given = {name}.copy()", body[0])
+            keep = statement(f"_{name}_given = {name}.copy()", self._function)
             by_line: dict[int, list[Site]] = {}
             for site in self._reads(name):
                 by_line.setdefault(what_stands_at(site).lineno, []).append(site)
@@ -194,7 +200,8 @@ class _Changes:
 
     def _written_into(self) -> list[str]:
         """Of the arrays and pointers that the function is given, those that it writes into."""
-        targets = [node.targets[0] for node in ast.walk(self._function) if isinstance(node, ast.Assign)]
+        assigned = [node for node in ast.walk(self._function) if isinstance(node, ast.Assign)]
+        targets = [target for node in assigned for target in node.targets]
         targets += [node.target for node in ast.walk(self._function) if isinstance(node, ast.AugAssign)]
         bases = {_base(target) for target in targets if not isinstance(target, ast.Name)}
         return [a.arg for a in self._function.args.args if a.arg in bases and self._kinds[a.arg].base == "number"]

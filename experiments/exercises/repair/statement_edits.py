@@ -95,11 +95,12 @@ def _left_out_after(one: ast.stmt) -> Iterator[ast.stmt]:
     """What may be missing after a statement: the other end of a force, the end of an array that was turned round."""
     if isinstance(one, ast.AugAssign) and isinstance(one.target, ast.Subscript):
         yield from _reactions(one, one.target)
-    if isinstance(one, ast.Assign) and isinstance(one.targets[0], ast.Name):
-        called = {function_name(node) for node in ast.walk(one.value) if isinstance(node, ast.Call)}
-        if called & {"roll", "empty", "empty_like"}:
-            for index in ("0", "-1"):
-                yield statement(f"{one.targets[0].id}[{index}] = 0.0", one)
+    match one:
+        case ast.Assign([ast.Name(name), *_], value):
+            called = {function_name(node) for node in ast.walk(value) if isinstance(node, ast.Call)}
+            if called & {"roll", "empty", "empty_like"}:
+                for index in ("0", "-1"):
+                    yield statement(f"{name}[{index}] = 0.0", one)
 
 
 def _reactions(one: ast.AugAssign, target: ast.Subscript) -> Iterator[ast.stmt]:

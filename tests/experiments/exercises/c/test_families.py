@@ -107,7 +107,17 @@ def test_a_change_is_of_its_kind(family: str, wrong: str, meant: str) -> None:
             "double a = 0;\nif (n > 0) { b = dt; *y = b; }\n*y = a;",
         ),
         ("x[0][2] = dt;", "x[0][2] = dt;\nx[0][-1] = dt;"),
-        ("*p = s->mass;", "memset(s, 0, sizeof *s * (n));\n*p = s->mass;"),
+        ("s->drag = dt;", "memset(s, 0, sizeof *s * (n));\ns->drag = dt;"),
+        ("*p = dt;", "memset(x, 0, sizeof *x * (n));\n*p = dt;"),
+        ("int *q;\n*y = 1;", "double *q;\n*y = 1;"),
+        ("double *q;\n*y = 1;", "double *q;\nmemset(q, 0, sizeof q);\n*y = 1;"),
+        ("double *q[3];\n*y = 1;", "double *q[3];\nmemset(q, 0, sizeof q);\n*y = 1;"),
+        ("double q = x[0][0];\n*y = q;", "double q = x[0][0];\ndouble q = x[0][1];\n*y = q;"),
+        ("hypot(x[0][0], 1);", "hypot(x[0][0], 1);\nhypot(x[0][1], 1);"),
+        (
+            "if (n > 0) *y = 1;\n*p = 2;\n*p = 3;\n*p = 4;\n*p = 5;",
+            "if (n > 0) { *y = 1; *p = 2; *p = 3; *p = 4; *p = 5; }",
+        ),
     ],
 )
 def test_what_is_right_in_c_is_not_tried(wrong: str, never: str) -> None:
@@ -126,6 +136,14 @@ def test_what_is_right_in_c_is_not_tried(wrong: str, never: str) -> None:
         ("*p = 1;\nx[0][0] += dt;", "memset(x, 0, sizeof *x * (n));\n*p = 1;\nx[0][0] += dt;", 2),
         ("*p = 1;\nx[0][0] = dt;", "memset(x, 0, sizeof *x * (n));\n*p = 1;\nx[0][0] = dt;", 1),
         ("*y = 1;\nx[0][0] = v[0][0];", "*y = 1;\nx[0][0] = v[0][0];\nx[0][1] = v[0][1];", 2),
+        (
+            "*p = 1;\nx[0][0] += dt;\nx[0][1] += dt;",
+            "memset(x, 0, sizeof *x * (n));\n*p = 1;\nx[0][0] += dt;\nx[0][1] += dt;",
+            2,
+        ),
+        ("*p = 1;\nx[0][0] = v[0][0] = 0;", "memset(v, 0, sizeof *v * (n));\n*p = 1;\nx[0][0] = v[0][0] = 0;", 1),
+        ("if (n > 0)\n*y = 1;\n*p = 2;\n*y = 3;", "if (n > 0) { *y = 1; *p = 2; *y = 3; }", 5),
+        ("*y = 1;\nwhile (n > 0);\n*p = 2;", "*y = 1;\nwhile (n > 0) { *p = 2; }", 2),
     ],
 )
 def test_the_line_is_that_of_what_is_changed(wrong: str, meant: str, line: int) -> None:
@@ -133,4 +151,4 @@ def test_the_line_is_that_of_what_is_changed(wrong: str, meant: str, line: int) 
     text, wrong = function(meant), function(wrong)
     first = wrong.splitlines().index("{") + 1 if "{" in wrong.splitlines() else 1
     lines = {at - first for at, _, _, made in changed(wrong) if made == text}
-    assert line in lines
+    assert lines == {line}

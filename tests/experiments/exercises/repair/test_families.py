@@ -224,6 +224,11 @@ def lines_of(wrong: str, meant: str) -> set[int]:
         ("if d:\n    f(x)\nelif v:\n    g(v)", "if d:\n    f(x)\nif v:\n    g(v)", {3}),
         ("f(x)\nreturn d", "x = x.copy()\nf(x)\nreturn d", {0}),
         ("v = 1\nreturn a1 - x", "v = 1\nreturn a1 + x", {2}),
+        (
+            "for i in r:\n    x[i] = f(x)\n    v[i] = f(v)",
+            "_v_before = v.copy()\n_x_before = x.copy()\nfor i in r:\n    x[i] = f(_x_before)\n    v[i] = f(_v_before)",
+            {3},
+        ),
     ],
     ids=lambda value: str(value).replace("\n", " | "),
 )
