@@ -129,6 +129,25 @@ def test_what_is_right_in_c_is_not_tried(wrong: str, never: str) -> None:
     assert text not in [made for *_, made in changed(function(wrong))]
 
 
+def test_what_was_there_before_is_read_in_its_place() -> None:
+    """After an array was written into: at each place of a line, and at all; not where it is written into."""
+    program = read(function("*y = dt;\n*p = *y - 2 * *y;"))
+    found = {}
+    for edit in c_edits_of(program):
+        with edit.applied():
+            text = text_of(program, told=True)
+        if "_given" in text:
+            found[text.split("{\n")[1].split("\n}")[0].replace("    ", "").replace("\n", " ")] = edit.line, edit.family
+    kept = "_y_given = a copy of y; *y = dt;"
+    line = [i for i, text in enumerate(text_of(program).splitlines(), 1) if "2 *" in text]
+    assert {text for text in found if "_y_given" in text} == {
+        f"{kept} *p = *_y_given - 2 * *_y_given;",
+        f"{kept} *p = *_y_given - 2 * *y;",
+        f"{kept} *p = *y - 2 * *_y_given;",
+    }
+    assert set(found.values()) == {(*line, "order")}
+
+
 @pytest.mark.parametrize(
     ("wrong", "meant", "line"),
     [
