@@ -21,12 +21,13 @@ def draw(found: Identification) -> Picture:
     shown = found.ranking[:MOST]
     errors = [match.error for match in shown]
     largest = max((e for e in errors if e < float("inf")), default=1.0)
+    beyond = 10 * largest or 1.0  # where what is infinitely far is drawn
     figure, axes = new_figure(figsize=(8, 1.2 + 0.28 * len(shown)))
     axes.set_xscale("log")
     for y, error in enumerate(errors):
         same = error <= found.tolerance
         look = IDENTIFIED if same else MEASURED
-        axes.plot(min(max(error, FLOOR), 10 * largest or 1.0), y, color=COLOURS[2 if same else 1], markersize=8, **look)
+        axes.plot(min(max(error, FLOOR), beyond), y, color=COLOURS[2 if same else 1], markersize=8, **look)
     axes.axvline(max(found.tolerance, FLOOR), color="#777777", linestyle="--", linewidth=1)
     axes.annotate(
         "named up to here ", (max(found.tolerance, FLOOR), -0.75), fontsize=8, color="#555555", ha="right", va="center"
@@ -34,7 +35,7 @@ def draw(found: Identification) -> Picture:
     from_nothing(axes.xaxis, FLOOR, powers(*range(-16, 2, 2)))
     axes.set_yticks(range(len(shown)), [match.scheme for match in shown])
     axes.set_ylim(len(shown) - 0.5, -1.2)
-    axes.set_xlim(FLOOR / 3, max(30 * largest, 10 * found.tolerance, 1e-2))
+    axes.set_xlim(FLOOR / 3, max(3 * beyond, 10 * found.tolerance, 1e-2))
     axes.set_xlabel("largest distance in a step [m]" if found.by_single_steps else "largest distance [m]")
     axes.set_title(f"{found.stepper}: its distance from schemes of the catalogue", fontsize=11, loc="left")
     each = (f"{match.scheme}: {match.error:.1e} m" for match in shown)

@@ -62,3 +62,19 @@ def test_each_label_is_joined_to_its_end() -> None:
         ("low\ntoo", "#777777"),
         ("high", COLOURS[0]),
     ]
+
+
+def test_ends_in_one_label_are_joined_at_the_first() -> None:
+    """In its colour where all have that; beside the axes, too, where the end is not in them."""
+    _, axes = new_figure((4, 4))
+    ends = [
+        End(0.9, 0.101, "first", COLOURS[1]),
+        End(1.0, 0.1, "second", COLOURS[1]),
+        End(1.0, 0.8, "high", COLOURS[0]),
+    ]
+    label_ends(axes, ends, line=0.05, together=0.01)
+    one, _ = axes.texts
+    assert (one.get_text(), one.xy, one.arrowprops["color"]) == ("first\nsecond", (0.9, 0.101), COLOURS[1])
+    assert one.get_annotation_clip() is False
+    label_ends(axes, [], line=0.05)
+    assert len(axes.texts) == 2

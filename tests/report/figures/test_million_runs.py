@@ -36,6 +36,8 @@ def test_axes_have_units_and_words_say_why_it_is_flat() -> None:
     lowest = min(min(data(line)[1]) for line in axes.lines)
     assert axes.get_ylim()[0] < text(axes, "flat: ").xy[1] < lowest
     assert np.isfinite(lowest)
+    last = max(max(data(line)[0]) for line in axes.lines)
+    assert text(axes, "flat: ").xy[0] == last == pytest.approx(10 * max(CORES))
 
 
 def test_the_words_for_it_have_the_times_of_the_slowest() -> None:
