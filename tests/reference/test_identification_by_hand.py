@@ -1,0 +1,181 @@
+"""What identification ranks and how it pushes, on runs that are made by hand: two masses, a few frames."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from reference.identification.pushes import PART, lacking, pushes
+from reference.identification.ranking import (
+    comparable_frames,
+    identify_beginning,
+    identify_first_steps,
+    identify_run,
+    match,
+    ranked,
+)
+from reference.identification.result import Identification, Match
+from reference.identification.scale import fastest_rate_bound
+from reference.lengths import lengths_and_rates
+from reference.obstacles import Plane
+from reference.outcome import Outcome
+from reference.scenes import find as find_scene
+from reference.state import Array, Trajectory
+from reference.system import MassSpringSystem
+
+DT = 0.5
+
+PAIR = MassSpringSystem(
+    positions=np.array([[0.0, 0.0], [2.0, 0.0]]),
+    springs=np.array([[0, 1]]),
+    masses=np.array([1.0, 3.0]),
+    rest_lengths=np.array(2.0),
+    stiffness=np.array(4.0),
+    gravity=np.zeros(2),
+)
+
+
+def run(off: Array, slower: Array) -> Trajectory:
+    """The second mass so far off along y [m], and so much slower along x [m/s], frame by frame."""
+    positions = np.repeat(PAIR.positions[None], len(off), axis=0)
+    positions[:, 1, 1] += off
+    velocities = np.zeros_like(positions)
+    velocities[:, 1, 0] -= slower
+    return Trajectory(DT * np.arange(len(off)), positions, velocities)
+
+
+ZERO = np.zeros(5)
+STILL = run(ZERO, ZERO)
+
+
+def test_a_match_is_the_largest_distance_of_positions_and_of_velocities_times_the_step() -> None:
+    """In the frames that are asked for; of a run that tells no velocities, of positions only."""
+    off, slower = np.array([0.0, 1e-3, 3e-3, 2e-3, 9e-3]), np.array([0.0, 0.02, 0.01, 0.04, 0.9])
+    other = run(off, slower)
+    found = match("a", STILL, other, 4)
+    assert (found.scheme, found.steps) == ("a", 3)
+    assert (found.positions, found.velocities) == pytest.approx((3e-3, DT * 0.04), rel=1e-12)
+    assert found.error == pytest.approx(0.02, rel=1e-12)
+    silent = Trajectory(STILL.times, STILL.positions, np.full_like(STILL.velocities, np.nan))
+    assert match("a", silent, other, 4) == Match("a", found.positions, 0.0, 3)
+
+
+def test_of_several_that_are_as_good_as_the_best_the_first_is_named() -> None:
+    """Within the noise, or ten times the best, but no more than the limit; the others by their errors."""
+    errors = {"a": 5e-3, "b": 3e-9, "c": 2.9e-8, "d": 1e-9, "e": 1e-8, "f": 1e-3}
+    listed = [Match(name, error) for name, error in errors.items()]
+    assert [m.scheme for m in ranked(listed, 1e-6, 1e-12)] == ["b", "d", "e", "c", "f", "a"]
+    assert [m.scheme for m in ranked(listed, 1e-6, 1e-7)] == ["b", "c", "d", "e", "f", "a"]
+    assert [m.scheme for m in ranked(listed, 2e-9, 1e-7)] == ["d", "b", "e", "c", "f", "a"]
+    assert ranked([], 1.0, 1.0) == ()
+
+
+def test_what_is_compared_ends_where_a_run_blew_up() -> None:
+    """Where a spring is three times its length, or a velocity is no number; all of a run that is done."""
+    far = run(np.array([0.0, 5.0, 6.0, 7.0, 8.0]), ZERO)
+    assert comparable_frames(Outcome("done", "", far), PAIR) == 5
+    # sqrt(2^2 + 5^2) = 5.4 m, sqrt(2^2 + 6^2) = 6.3 m of 2 m
+    assert comparable_frames(Outcome("diverged", "", far), PAIR) == 2
+    lost = run(ZERO, np.array([0.0, 0.0, 0.0, np.nan, np.nan]))
+    assert comparable_frames(Outcome("diverged", "", lost), PAIR) == 3
+    silent = run(ZERO, np.array([0.0, *[np.nan] * 4]))
+    silent.velocities[1:] = np.nan
+    assert comparable_frames(Outcome("diverged", "", silent), PAIR) == 5
+
+
+def test_the_nearest_is_named_within_a_part_of_the_scale_and_told_of_beyond() -> None:
+    """1e-12 of 2 m; by its velocities alone, or by both; or that nothing is known, or it blew up at once."""
+    done = Outcome("done", "", STILL)
+    near, far = run(np.full(5, 1.9e-12), ZERO), run(np.full(5, 2.3e-12), ZERO)
+    assert identify_run("mine", done, PAIR, {"far": far, "near": near}).identified_as == "near"
+    assert identify_run("mine", done, PAIR, {"far": far}).identified_as is None
+    assert identify_run("mine", done, PAIR, {"far": far}, 2e-12).identified_as == "far"
+    assert "nearest far at 2.3e-12 m" in identify_run("mine", done, PAIR, {"far": far}).reason
+    slow = run(np.full(5, 1e-13), np.full(5, 0.25))
+    words = "nearest slow at 0.12 m, by its velocities times the step; its positions are the same to 1e-13 m"
+    assert words in identify_run("mine", done, PAIR, {"slow": slow}).reason
+    assert "no scheme of the catalogue can step this system" in identify_run("mine", done, PAIR, {}).reason
+    blown = run(np.array([0.0, 9.0, 9.0, 9.0, 9.0]), ZERO)
+    assert "it blew up in its first step" in identify_run("mine", Outcome("diverged", "", blown), PAIR, {}).reason
+    assert identify_run("mine", Outcome("crashed", "gone"), PAIR, {"near": near}).reason == "gone"
+
+
+def test_a_run_may_be_named_by_its_beginning() -> None:
+    """By as many steps as each is known for; or by as much as is known of the longest."""
+    later = run(np.array([0.0, 0.0, 0.0, 0.5, 0.5]), ZERO)
+    begun = Trajectory(STILL.times[:3], STILL.positions[:3], STILL.velocities[:3])
+    done = Outcome("done", "", later)
+    assert identify_run("mine", done, PAIR, {"still": STILL}).identified_as is None
+    assert identify_first_steps("mine", done, PAIR, {"still": (2, begun)}).identified_as == "still"
+    found = identify_beginning("mine", done, PAIR, {"still": begun})
+    assert (found.identified_as, found.ranking[0].steps) == ("still", 2)
+
+
+def test_what_is_found_is_said() -> None:
+    """Who is named, to what, how; whom it cannot be told from, and without what; last those that nothing tells apart."""
+    ranking = tuple(
+        Match(name, error) for name, error in (("heun", 1e-15), ("b", 2e-15), ("mine", 2e-15), ("c", 3e-15))
+    )
+    found = Identification("mine", (*ranking, Match("d", 4e-15), Match("far", 0.5)), 1e-12)
+    assert (found.identified_as, found.ties, found.error) == ("heun", ("b", "c", "d"), 1e-15)
+    assert str(found) == "mine is heun, to 1e-15 m"
+    told = replace(found, same_without={"b": "drag", "d": "drag"}, told_apart_by="a push", compared="single steps")
+    assert told.remark == "On this scene it cannot be told from b, d (the same without drag); c."
+    assert str(told) == "mine is heun, to 1e-15 m a step (by single steps), told apart by a push"
+    none = found.without_name("it is random")
+    assert (none.identified_as, none.ties, none.remark) == (None, ("heun", "b", "mine", "c", "d"), "")
+    assert str(none) == "mine: not identified; it is random"
+    assert Identification("mine", (), 1.0).error == np.inf
+
+
+# --- Pushes ---
+
+
+def test_a_push_moves_every_free_mass_by_a_part_of_the_shortest_spring() -> None:
+    """And as far in a step; the second leaves them where they are, the third turns springs and stretches none."""
+    string = find_scene("string").system({"masses": 5, "rest_length": "0.2,0.1,0.3,0.2,0.2"})
+    dt = 1 / fastest_rate_bound(string)
+    for given, step in ((1e-4, dt), (3 * dt, 3 * dt)):
+        stretched, in_motion, turning = pushes(string, given)
+        assert [push.dt for push in (stretched, in_motion, turning)] == pytest.approx([step] * 3, rel=1e-12)
+        aside = stretched.system.positions - string.positions
+        assert 0.5 * PART * 0.1 < np.abs(aside).max() <= PART * 0.1
+        assert 0.5 * PART * 0.1 < step * np.abs(stretched.system.velocities).max() <= PART * 0.1
+        assert not aside[0].any()
+        assert not stretched.system.velocities[0].any()
+        assert np.array_equal(in_motion.system.positions, string.positions)
+        assert np.array_equal(in_motion.system.velocities, stretched.system.velocities)
+        system = turning.system
+        _, rates = lengths_and_rates(system.positions, system.velocities, string.springs, np.ones(5, dtype=bool))
+        assert np.abs(rates).max() < 1e-15
+        assert np.abs(np.diff(system.velocities, axis=0)).max(axis=1).min() > 0
+        words = f"a push of its masses, with dt = {step:.3g} s" if given < step else "a push of its masses"
+        assert stretched.words == in_motion.words == turning.words == words
+
+
+def test_a_push_leads_away_from_obstacles_and_says_so() -> None:
+    """What is no string has no third; springs count as they are, where they are shorter than at rest."""
+    floor = replace(PAIR, obstacles=(Plane((0.0, -1.0), (0.0, 1.0)),), positions=0.25 * PAIR.positions)
+    stretched, in_motion = pushes(floor, 2.0)
+    assert (stretched.system.obstacles, in_motion.system.obstacles) == ((), ())
+    assert stretched.words == "a push of its masses, away from obstacles, with dt = 2 s"
+    assert 0.5 * PART * 0.5 < np.abs(stretched.system.positions - floor.positions).max() <= PART * 0.5
+    loose = replace(
+        PAIR, springs=np.zeros((0, 2), dtype=int), rest_lengths=np.zeros(0), stiffness=np.zeros(0), damping=np.zeros(0)
+    )
+    stretched, _ = pushes(loose, 2.0)
+    assert (stretched.dt, stretched.words) == (2.0, "a push of its masses")
+    assert 0.5 * PART * 2 < np.abs(stretched.system.positions - loose.positions).max() <= PART * 2
+
+
+def test_what_a_system_lacks_is_given_to_it() -> None:
+    """A tenth of the least mass over the step, as damping of every spring or as drag; what it has, it keeps."""
+    push = next(iter(pushes(PAIR, 2.0)))
+    (one, damped), (other, dragged) = lacking(push)
+    assert (one, other) == ("damping", "drag")
+    assert (damped.system.damping.tolist(), damped.system.drag) == ([0.05], 0.0)
+    assert (dragged.system.damping.tolist(), dragged.system.drag) == ([0.0], 0.05)
+    assert [word for word, _ in lacking(replace(push, system=damped.system))] == ["drag"]
+    assert [word for word, _ in lacking(replace(push, system=dragged.system))] == ["damping"]
