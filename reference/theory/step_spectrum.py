@@ -43,8 +43,12 @@ PLAIN = 100.0
 #: Between the last decay and the first growth that are no rounding lies one value, if they are as near as this.
 ONE_VALUE = 1e-2
 
-#: Each dt looked at is so many times the one before; the first limit is found to this part of itself.
-RATIO, PRECISION, ROUGH = 1.2, 1e-8, 1e-7
+#: Each dt looked at is so many times the one before: in short steps, and in longer ones than a part of the fastest 1/w,
+#: where a step may let a mode grow in a narrow range and be stable again.
+RATIO, CLOSE, SHORT_STEP = 1.2, 1.03, 0.3
+
+#: The first limit is found to this part of itself: of exact Jacobians, and of differenced ones.
+PRECISION, ROUGH = 1e-8, 1e-7
 
 #: Where nothing grows at so many times the slowest mode's 1/w, the search ends.
 FARTHEST = 30.0
@@ -248,13 +252,13 @@ def _scan(search: Search, start: float, unit: float, last: float) -> Limit:
         dt /= 2 if start > 1e-2 * unit else 10
         if dt < SHORTEST * start:
             return Limit(None, f"no stable step was found, down to {dt:.3g} s")
-    while not search.is_growth(RATIO * dt):
-        dt *= RATIO
+    while not search.is_growth(longer := dt * (RATIO if dt < SHORT_STEP * unit else CLOSE)):
+        dt = longer
         if dt > last:
             return Limit(None, f"stable at any dt that was looked at, up to {dt:.3g} s")
     if search.decays:
-        return _where_decay_ends(search, dt, RATIO * dt)
-    low, high = bisect(search.is_growth, dt, RATIO * dt, search.near)
+        return _where_decay_ends(search, dt, longer)
+    low, high = bisect(search.is_growth, dt, longer, search.near)
     return Limit((low + high) / 2)
 
 

@@ -28,7 +28,7 @@ from reference.theory.runge_kutta import stability_polynomial
 from reference.theory.step_coefficients import solves_for_positions
 from report.browser.javascript import Translation, definitions, of_expression, plain_function
 from report.browser.spring_laws import ASKED, law_functions
-from report.browser.step_functions import damps_in_proportion, step_refusal, steps_script
+from report.browser.step_functions import damps_in_proportion, drags_in_proportion, step_refusal, steps_script
 from report.site.linear_form import NotLinear
 from report.site.mathml import of_equations
 from report.site.solved_form import equations_of
@@ -167,6 +167,7 @@ def page_scheme(scheme: Scheme) -> PageScheme:
         "solves": json.dumps(solves_for_positions(scheme)),
         "solved": json.dumps(SOLVED.get(scheme.name, scheme.name)),
         "proportional": json.dumps(damps_in_proportion(scheme)),
+        "drags": json.dumps(drags_in_proportion(scheme)),
         **own,
     }
     return PageScheme(scheme, "{\n" + ",\n".join(f"{key}: {value}" for key, value in entries.items()) + "\n}")

@@ -19,7 +19,7 @@ from reference.assembly import Blocks, damping_blocks, spring_blocks
 from reference.errors import InputError, SolverError, Unsupported
 from reference.schemes.catalogue import Scheme
 from reference.springs.angular_law import derivatives, energy_of_bends, forces_on_masses
-from reference.state import Slope, State
+from reference.state import Array, Slope, State
 from reference.theory.step_coefficients import coefficients
 from report.browser.array_functions import ArrayFunctions
 from report.browser.recorded import Recorded, Recorder
@@ -49,7 +49,22 @@ def damps_in_proportion(scheme: Scheme) -> bool:
         made = coefficients(scheme, 0.5, masses, damping)
     except (SolverError, Unsupported, InputError):
         return False
-    parts = np.stack([made.implicit, made.all]) / damping
+    return _all_alike(np.stack([made.implicit, made.all]) / damping)
+
+
+@cache
+def drags_in_proportion(scheme: Scheme) -> bool:
+    """The same of drag: told by masses on springs without damping."""
+    masses, drags = np.array([1.0, 2.0]), (0.1, 0.3)
+    try:
+        made = [coefficients(scheme, 0.5, masses, np.zeros(2), drag) for drag in drags]
+    except (SolverError, Unsupported, InputError):
+        return False
+    parts = [np.stack([one.implicit, one.all]) / drag for one, drag in zip(made, drags, strict=True)]
+    return _all_alike(np.concatenate(parts, axis=1))
+
+
+def _all_alike(parts: Array) -> bool:
     return bool(np.isfinite(parts).all() and np.ptp(parts, axis=1).max() < 1e-9)
 
 

@@ -47,14 +47,19 @@ function growthOfWholeMode(scheme, w2, g, drag) {
   };
 }
 
+// More of a growth factor is no rounding; what is less by that decays.
+const SEEN = 1e-11;
+
 // The first h beyond which a number that is at most 1 below is more, on a scale of 1 / fastest.
 function firstBeyond(grows, fastest, from = 1e-6) {
   let low = 0;
   for (let h = from / fastest; h < 60 / fastest; h *= h * fastest < 0.5 ? 1.3 : 1.01) {
-    if (grows(h) > 1 + 1e-11) {
+    if (grows(h) > 1 + SEEN) {
       let high = h;
       if (low === 0) return 0;
-      for (let k = 0; k < 60; k++) { const middle = (low + high) / 2; if (grows(middle) > 1 + 1e-11) high = middle; else low = middle; }
+      // of what decays below, where it is neither
+      const most = grows(low) < 1 - SEEN ? 1 : 1 + SEEN;
+      for (let k = 0; k < 60; k++) { const middle = (low + high) / 2; if (grows(middle) > most) high = middle; else low = middle; }
       return low;
     }
     low = h;
@@ -110,9 +115,7 @@ function limitOf(name, linear, known = {}, system = null) {
   told.about = told.about || curved;
   if (scheme.kind === "in_place") {
     if (2 * moving > STEP_UP_TO) return {...told, limit: null, reason: "too large"};
-    const grows = h => growthOfStep(linear, h, stepInPlace(scheme, linear, h)), first = firstBeyond(grows, fastest);
-    // where nothing decays in shorter steps either, growth there is only too slow to be seen
-    return {...told, limit: first > 0 && grows(first / 2) < 1 - 1e-9 ? first : 0};
+    return {...told, ...firstOrSlow(h => growthOfStep(linear, h, stepInPlace(scheme, linear, h)), linear, fastest, known, 1e-6, true)};
   }
   if (!linear.damped && !linear.drag) {
     if (scheme.polynomial) return {...told, limit: stableAlong(scheme.polynomial, [0, 1]) / fastest};
@@ -123,17 +126,27 @@ function limitOf(name, linear, known = {}, system = null) {
     return {...told, limit: Math.min(...known.rates.map(rate => stableAlong(scheme.polynomial, rate) / Math.hypot(...rate)))};
   }
   const whole = 2 * moving <= STEP_UP_TO && (scheme.linear || !linear.contacts.length);
-  if (!scheme.proportional && !scheme.linear && !scheme.implicit && !whole) return {...told, limit: null, reason: "too large"};
+  const proportional = scheme.proportional && (scheme.drags || !linear.drag);
+  if (!proportional && !scheme.linear && !scheme.implicit && !whole) return {...told, limit: null, reason: "too large"};
   if (scheme.memory && !scheme.implicit) {
-    const first = firstBeyond(growthOfRemembering(scheme, linear, fastest), fastest, shortestOf(scheme));
-    return {...told, limit: first};
+    return {...told, ...firstOrSlow(growthOfRemembering(scheme, linear, fastest), linear, fastest, known, shortestOf(scheme), false)};
   }
   const shortest = shortestLimit(scheme, linear, known);
-  if (!scheme.polynomial && !scheme.solves && !scheme.memory && whole && (scheme.linear || !scheme.proportional)) {
+  if (!scheme.polynomial && !scheme.solves && !scheme.memory && whole && (scheme.linear || !proportional)) {
     const step = scheme.linear ? stepLinear : stepWholeLinear;
     return {...told, limit: nearby(h => growthOfStep(linear, h, step(scheme, linear, h)), shortest, fastest)};
   }
   return {...told, limit: shortest, about: Boolean(scheme.polynomial) || told.about};
+}
+
+// The first limit of a step looked at as a whole. Where all motion decays there is one; if what damping takes in a step
+// there is less than rounding, it is not told. `never` is true of a step that lets all motion grow that nothing damps.
+function firstOrSlow(grows, linear, fastest, known, from, never) {
+  known.rates = known.rates || ratesOf(linear);
+  const decays = known.rates.every(([re]) => re < 0);
+  if (!decays && never) return {limit: 0};
+  const limit = firstBeyond(grows, fastest, from);
+  return decays && !(limit > 0 && grows(limit / 2) < 1 - 1e-2 * SEEN) ? {limit: null, reason: "slow"} : {limit};
 }
 
 // As `springlab stability` has it: about a rest on obstacles, where a scheme's steps have one there that can be looked at,

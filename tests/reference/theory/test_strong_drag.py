@@ -61,3 +61,16 @@ def test_a_heavy_mass_beside_one_that_exponential_drag_all_but_holds_has_its_lim
     assert lowest(found * (1 - 1e-7)) > 0 > lowest(found * (1 + 1e-7))
     assert growth("kick_drift_exponential_drag", rest, (1 - 1e-5) * found) < 0
     assert growth("kick_drift_exponential_drag", rest, (1 + 1e-5) * found) > 0
+
+
+def test_a_narrow_range_of_growth_is_not_stepped_over() -> None:
+    """Yoshida's composition with drag lets the light mass grow between 4.21 and 4.7 ms, and no more up to 5.35 ms.
+
+    The first limit is the first dt at which the largest eigenvalue passes 1, looked at here every thousandth.
+    """
+    rest = chain([0.00366, 14.4, 0.765, 12.3], 0.558)
+    steps = np.linspace(1e-3, 6e-3, 5001)
+    grows = [growth("yoshida_4", rest, float(dt)) > 1e-9 for dt in steps]
+    first = steps[grows.index(True)]
+    assert first < 0.0043 < steps[grows.index(False, grows.index(True))] < 0.005
+    assert stability_limit(find("yoshida_4"), rest).dt == pytest.approx(first, abs=1e-6)
