@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from copy import deepcopy
+from typing import Any
 
+import numpy as np
 import pytest
 
-from experiments.exercises.exercise import Answer, find
+from experiments.exercises.exercise import Answer, Question, find
 from experiments.exercises.verdict.answer_catalogue import AnswerCatalogue, catalogue_of
-from experiments.exercises.verdict.first_difference import first_difference
+from experiments.exercises.verdict.first_difference import FirstDifference, Lines, _lines, first_difference
 
 TOLERANCE = 1e-9
 
@@ -88,3 +90,61 @@ def test_where_everybody_has_numbers_of_their_own_the_right_one_is_not_told() ->
     assert lines is None
     assert f"{found.given:.9g}" in str(found)
     assert f"{found.right:.9g}" not in str(found)
+
+
+@pytest.mark.parametrize(
+    ("found", "words"),
+    [
+        (
+            ("string of 3", 5, "v", "mass", (2, 1), 1.5, 2.25),
+            "string of 3, step 5, mass 2: v[2, 1] is 2.25, expected 1.5",
+        ),
+        (("spring 1", 1, "y", "mass", (), 0.1, 1 / 3), "spring 1, step 1: y is 0.333333333, expected 0.1"),
+        (("a string", 0, "f", "mass", (4,), 1, 2), "a string, mass 4: f[4] is 2, expected 1"),
+        (("Euler", 0, "dt", "", (), 0.1, 0.2, False), "Euler: dt is 0.2, which is not right"),
+        (("letters", 0, "names", "trajectory", (1,), "a", "b"), "letters, trajectory 1: names[1] is 'b', expected 'a'"),
+        (("cloth", 0, "s", "between mass", (1, 2), 2, 1), "cloth, between mass 1 and mass 2: 1 spring, expected 2"),
+        (("cloth", 0, "s", "between mass", (0, 9), 0, 2), "cloth, between mass 0 and mass 9: 2 springs, expected 0"),
+    ],
+)
+def test_it_is_told_in_words(found: tuple[Any, ...], words: str) -> None:
+    """Where it is, what is given, what is expected."""
+    assert str(FirstDifference(*found)) == words
+
+
+@pytest.mark.parametrize(
+    ("item", "steps", "units", "index", "what"),
+    [
+        ("mass", 2, ("m", "m/s"), (1, 0), "v[1, 0] [m/s]"),
+        ("mass", 2, (), (1, 0), "v[1, 0]"),
+        ("mass", 0, ("m", "m/s"), (1, 0), "v[:, 0] [m/s]"),
+        ("joint", 0, (), (1, 1), "v[:, 1]"),
+        ("between mass", 0, (), (1, 1), None),
+    ],
+)
+def test_what_is_drawn(item: str, steps: int, units: tuple[str, ...], index: tuple[int, ...], what: str | None) -> None:
+    """A number over steps, or a column over masses, with its unit; of two answers the right one first."""
+    question = Question("f", (), ("x", "v"), "", steps=steps, item=item, units=units)
+    first, second = np.array([[1.0, 2.0], [3.0, 4.0]]), np.array([[5.0, 6.0], [7.0, 8.0]])
+    right = [[0 * first, first], [0 * first, second]][: max(1, steps)]
+    given = [[x, v + 0.5] for x, v in right]
+    lines = _lines(question, given, right, 1, index)
+    if what is None:
+        assert lines is None
+        return
+    assert isinstance(lines, Lines)
+    assert (lines.over, lines.what) == ("step" if steps else item, what)
+    wanted = [first[index], second[index]] if steps else first[:, index[1]].tolist()
+    assert lines.right.tolist() == wanted
+    assert (lines.given - lines.right).tolist() == [0.5, 0.5]
+
+
+def test_of_one_number_and_of_words_nothing_is_drawn() -> None:
+    """One number over steps is."""
+    one = [[np.array(1.5)], [np.array(2.5)]]
+    assert _lines(Question("f", (), ("x",), ""), one[:1], one[:1], 0, ()) is None
+    words = [[np.array(["a", "b"])]]
+    assert _lines(Question("f", (), ("x",), ""), words, words, 0, (1,)) is None
+    lines = _lines(Question("f", (), ("x",), "", steps=2), one, one, 0, ())
+    assert lines is not None
+    assert (lines.what, lines.right.tolist()) == ("x", [1.5, 2.5])

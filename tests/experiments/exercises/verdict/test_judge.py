@@ -104,6 +104,33 @@ def test_a_question_passes_to_single_precision(monkeypatch: pytest.MonkeyPatch) 
     assert Grade(verdict, None, 0.0).score == 75.0
 
 
+def test_a_number_may_be_an_array_of_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In place of a number; not in place of an array of another shape."""
+
+    def change(given: list[Answer]) -> None:
+        given[0][0][0] = given[0][0][0].reshape(1)
+        given[0][0][1] = given[0][0][1].reshape(1, 1)
+
+    assert judged(monkeypatch, "6", change).right
+
+    def flat(given: list[Answer]) -> None:
+        given[3][0][0] = given[3][0][0].reshape(-1)
+
+    assert judged(monkeypatch, "3", flat).name == "wrong_shape"
+
+
+def test_what_begins_with_no_number_is_not_compared_further(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its first step counts: later ones are made of it. What is right besides is not said to be wrong."""
+
+    def change(given: list[Answer]) -> None:
+        given[0][0][0] = np.array(np.nan)
+
+    verdict = judged(monkeypatch, "1", change)
+    assert verdict.name == "not_a_number"
+    assert "either" not in verdict.findings[0].words
+    assert verdict.passed == (False, *[True] * (len(verdict.passed) - 1))
+
+
 def test_what_is_right_to_single_precision_is_said_to_be(here: None) -> None:
     """A Heun in float32 is 1e-7 off or more, and beyond the 1e-9 that names are given to: it passes, and is told."""
     folder = Path(__file__).parents[1] / "students" / "e04_whole_state"
