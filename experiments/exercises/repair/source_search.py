@@ -81,13 +81,17 @@ class Search:
         self._least = 0.0
         self._mattering: list[int] = []
 
-    def _share(self, names: Mapping[str, Any], question: Question, steps: int) -> float:
-        """The share of right numbers in an answer; 1 where all are, and nothing was changed beside."""
+    def _share(self, names: Mapping[str, Any], question: Question, whole: bool = False) -> float:
+        """The share of right numbers in an answer; 1 where all are, and nothing was changed beside.
+
+        Args:
+            whole: whether all steps are asked for; else the first.
+        """
         self._program.begin_call()
         arguments = first = question["arguments"]
         try:
             function = names[question["function"]]
-            for step in range(max(1, min(steps, question["steps"]))):
+            for step in range(question["steps"] or 1 if whole else 1):
                 given = [self._fresh(a) for a in arguments]
                 values = parts_of(function(*given), question["parts"])
                 share = _right_share(values, question, step)
@@ -106,30 +110,31 @@ class Search:
         """How near first steps are; None if the first answer is farther off than that of the text as it is."""
         shares: list[float] = []
         for question in asked:
-            shares.append(self._share(names, question, 1))
-            if shares[0] < least:
+            share = self._share(names, question)
+            if not shares and share < least:
                 return None
+            shares.append(share)
         return sum(share >= 1.0 for share in shares), sum(shares)
 
     def _is_right(self, names: Mapping[str, Any] | None) -> bool:
         """Whether all questions are answered rightly, all steps, twice over in a fresh module."""
         if names is None:
             return False
-        return all(self._share(names, q, 10**6) >= 1.0 for q in self._questions) and all(
-            self._share(names, q, 1) >= 1.0 for q in self._questions[:2]
-        )
+        asked = [(question, True) for question in self._questions]
+        again = [(question, False) for question in self._questions[:2]]
+        return all(self._share(names, question, whole) >= 1.0 for question, whole in [*asked, *again])
 
     def run(self, seconds: float, pair_seconds: float) -> dict[str, Any]:
         """Search until the time is used up; what was found, by numbers of edits, and whether all was tried."""
         names = self._program.anew()
         begin = time.process_time()
         with self._program.reached() as reached:
-            wrong = [q for q in self._questions if names is None or self._share(names, q, 10**6) < 1.0]
+            wrong = [q for q in self._questions if names is None or self._share(names, q, True) < 1.0]
         if not wrong:
             return {"repairs": [], "tried": 0, "singles_done": True, "pairs_done": True}
         asked = _few_of(wrong)
         base = self.nearness(names, asked) if names is not None else None
-        self._least = self._share(names, asked[0], 1) - 1e-12 if names is not None else 0.0
+        self._least = self._share(names, asked[0]) - 1e-12 if names is not None else 0.0
         self._mattering = [i for i, e in enumerate(self.edits) if names is None or self._program.can_matter(e, reached)]
         singles: list[list[int]] = []
         stems: list[tuple[Nearness, int]] = []

@@ -36,6 +36,7 @@ class Adding:
 
     readable: float | None = None
     anew_by: float = 0.0
+    lasts: int | None = None
     calls: list[str] = field(default_factory=list)
 
     def _names(self, more: float) -> Mapping[str, Any] | None:
@@ -65,7 +66,12 @@ class Adding:
     @contextmanager
     def changed_anew(self, edits: Sequence[Add]) -> Iterator[Mapping[str, Any] | None]:
         """The same, and what only shows then."""
-        yield self._names(sum(edit.more for edit in edits) + self.anew_by)
+        names = self._names(sum(edit.more for edit in edits) + self.anew_by)
+        if names is None or self.lasts is None:
+            yield names
+            return
+        left, add = iter(range(self.lasts)), names["add"]
+        yield {"add": lambda x: add(x) + (next(left, None) is None)}
 
 
 def question(x: float, wanted: float = 5.0, steps: int = 0) -> dict[str, Any]:
@@ -170,6 +176,50 @@ def test_it_has_to_hold_in_all_questions_all_steps_and_anew() -> None:
     wrong_later["right"][2] = [np.array(0.0)]
     assert found([Add(5.0)], questions=[wrong_later])["repairs"] == []
     assert found([Add(5.0)], Adding(anew_by=1.0))["repairs"] == []
+
+
+@pytest.mark.parametrize(("lasts", "held"), [(2, False), (3, False), (4, False), (5, True)])
+def test_what_remembers_its_calls_does_not_hold(lasts: int, held: bool) -> None:
+    """Three questions are asked in a module of its own, and two of them once more: five calls have to be right."""
+    three = [question(float(i)) for i in range(3)]
+    assert found([Add(5.0)], Adding(lasts=lasts), three)["repairs"] == [[0]] * held
+
+
+def test_what_cannot_be_made_anew_does_not_hold() -> None:
+    """It was changed in place, and cannot be read as a whole."""
+    program = Adding()
+    program.changed_anew = Adding(readable=-1.0).changed  # type: ignore[method-assign]
+    assert found([Add(5.0)], program)["repairs"] == []
+
+
+@pytest.mark.parametrize(("changes", "right"), [("", 1.0), ("x", 0.5), ("v", 0.5)])
+def test_steps_are_fed_with_arrays_and_numbers(changes: str, right: float) -> None:
+    """A number stays one; who changes one of several arrays has half."""
+
+    def step(x: Any, y: Any, v: Any) -> Any:
+        assert type(y) is float
+        moved = x + v, y + 1.0
+        if changes:
+            {"x": x, "v": v}[changes][0] += 1.0
+        return moved
+
+    x, v = np.array([1.0, 2.0]), np.array([0.5, 1.0])
+    asked = {
+        "function": "step",
+        "arguments": [x, 3.0, v],
+        "parts": ["x", "y"],
+        "steps": 3,
+        "right": [[x + i * v, np.array(3.0 + i)] for i in (1, 2, 3)],
+        "scales": [1.0, 1.0],
+        "tolerance": 1e-9,
+        "pairs": False,
+    }
+
+    def fresh(value: Any) -> Any:
+        return value.copy() if isinstance(value, np.ndarray) else value
+
+    search = Search([], Adding(), [asked], fresh, lambda a, b: not np.array_equal(a, b))
+    assert search._share({"step": step}, asked, True) == right
 
 
 def share(value: Any, want: Any, **other: Any) -> float:
