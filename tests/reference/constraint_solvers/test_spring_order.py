@@ -9,6 +9,7 @@ import pytest
 
 from reference.constraint_solvers.spring_order import ORDERS, in_order
 from reference.scenes import find as find_scene
+from reference.system import MassSpringSystem
 
 #: Of a string of five springs: the anchor's is number 0.
 BY_HAND = {
@@ -34,6 +35,50 @@ def test_the_springs_nearest_to_a_fixed_mass_come_first_however_they_are_numbere
     string = find_scene("string").system({"masses": 4})
     held = replace(string, springs=string.springs[[1, 2, 0, 3]], fixed=np.array([True, False, False, False, True]))
     assert in_order(held, "from_fixed").tolist() == [2, 3, 0, 1]
+
+
+def branched() -> MassSpringSystem:
+    """A fixed mass 0, masses 2, 1 and 3 at 1, 2 and 3 m from it along a line, 4 and 5 off to the side of 2."""
+    return MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [3.0, 0.0], [1.0, 1.5], [1.0, 4.0]]),
+        springs=np.array([[4, 5], [1, 3], [2, 1], [0, 2], [0, 1], [2, 4]]),
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(1.0),
+        fixed=np.arange(6) == 0,
+    )
+
+
+#: Distances of the nearer ends: 2.5, 2, 1 (of mass 1 and 2), 0, 0 and 1 m (of 2 and 4). Walked from mass 5 on.
+OF_BRANCHES = {
+    "from_fixed": [3, 4, 2, 5, 1, 0],
+    "colours": [0, 1, 3, 2, 4, 5],
+    "apart": [0, 1, 3, 2, 4, 5],
+    "island": [0, 5, 3, 2, 4, 1],
+}
+
+
+@pytest.mark.parametrize("order", OF_BRANCHES)
+def test_branches_by_hand(order: str) -> None:
+    """Where springs meet the newest is walked first, and the one that was put aside last."""
+    assert in_order(branched(), order).tolist() == OF_BRANCHES[order]
+
+
+def test_springs_of_one_fixed_mass_may_have_one_colour_if_it_is_not_apart() -> None:
+    """Two springs from the fixed mass to two others, then one between these."""
+    springs = np.array([[0, 1], [0, 2], [1, 2]])
+    three = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]),
+        springs=springs,
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(1.0),
+        fixed=np.arange(3) == 0,
+    )
+    reverse = replace(three, springs=springs[[0, 2, 1]])
+    assert in_order(three, "colours").tolist() == [0, 1, 2]
+    assert in_order(reverse, "colours").tolist() == [0, 2, 1]
+    assert in_order(reverse, "apart").tolist() == [0, 1, 2]
 
 
 def test_of_springs_between_a_mass_and_several_fixed_ones_the_first_is_the_very_last() -> None:

@@ -71,8 +71,8 @@ def test_a_barrier_stands_where_it_is_put() -> None:
     assert {**barrier.to_dict(), "obstacles": None} == {**string, "obstacles": None}
 
 
-#: Of 4 rows and 3 columns at 0.5 m; threads, diagonals and springs over one mass by their stiffness.
-LEVEL = {"rows": 4, "columns": 3, "rest_length": 0.5, "mass": 0.25, "stiffness": 9.0, "shear": 5.0, "bend": 2.0,
+#: Of 4 rows and 3 columns at 0.6 m; threads, diagonals and springs over one mass by their stiffness.
+LEVEL = {"rows": 4, "columns": 3, "rest_length": 0.6, "mass": 0.25, "stiffness": 9.0, "shear": 5.0, "bend": 2.0,
          "damping": 0.7, "drag": 0.3, "gravity": 4.0}  # fmt: skip
 
 
@@ -80,14 +80,14 @@ LEVEL = {"rows": 4, "columns": 3, "rest_length": 0.5, "mass": 0.25, "stiffness":
 def test_cloths_that_fall_lie_level_and_nothing_holds_them(name: str) -> None:
     """17 threads, 12 diagonals and 10 springs over one mass: of their lengths, and each as stiff as it says."""
     cloth = find(name).system(LEVEL)
-    lengths = cloth.rest_lengths / 0.5
+    lengths = cloth.rest_lengths / 0.6
     assert sorted(zip(cloth.stiffness.tolist(), lengths.round(9).tolist(), strict=True)) == sorted(
         [(9.0, 1.0)] * 17 + [(5.0, round(np.sqrt(2), 9))] * 12 + [(2.0, 2.0)] * 10
     )
     assert (set(cloth.damping.tolist()), cloth.drag, set(cloth.masses.tolist())) == ({0.7}, 0.3, {0.25})
     assert cloth.gravity.tolist() == [0.0, -4.0, 0.0]
     assert not cloth.fixed.any()
-    assert np.ptp(cloth.positions, axis=0) == pytest.approx([1.0, 0.0, 1.5])
+    assert np.ptp(cloth.positions, axis=0) == pytest.approx([1.2, 0.0, 1.8])
     for wrong in ("shear", "bend"):
         with pytest.raises(InputError, match=f"{wrong} = -1"):
             find(name).system({**LEVEL, wrong: -1.0})
@@ -105,11 +105,27 @@ def test_what_cloths_fall_onto() -> None:
     (table,) = lying.obstacles
     assert isinstance(table, Box)
     low, high = np.array(table.centre) - table.half_sizes, np.array(table.centre) + table.half_sizes
-    # 1 m by 1.5 m of cloth at the height 0, the first corner at 0; the table three times as wide each way
-    assert high[0] == pytest.approx(0.75)
+    # 1.2 m by 1.8 m of cloth at the height 0, the first corner at 0; the table three times as wide each way
+    assert high[0] == pytest.approx(0.9)
     assert (high[1], low[1]) == pytest.approx((lying.positions[0, 1], lying.positions[0, 1] - 0.2), abs=1e-15)
-    assert high - low == pytest.approx([3.0, 0.2, 4.5])
+    assert high - low == pytest.approx([3.6, 0.2, 5.4])
     assert (low[2] + high[2]) / 2 == pytest.approx(lying.positions[:, 2].mean())
+
+
+def test_a_bridge_is_as_heavy_as_its_members_its_deck_and_its_truck() -> None:
+    """7 kg/m of every member, 3 kg/m of deck over 6 m; and a truck of 40 kg, with its centre where it stands."""
+    settings = {"panels": 2, "panel": 3.0, "height": 2.0, "mass_per_length": 7.0, "deck": 3.0}
+    empty, laden = (
+        find("bridge").system({**settings, "truck": truck, "truck_position": at})
+        for truck, at in ((0.0, 0.0), (40.0, 5.0))
+    )
+    # the last spring and the last mass are of the rocker
+    assert empty.masses[:-1].sum() == pytest.approx(7 * empty.rest_lengths[:-1].sum() + 3 * 6, rel=1e-12)
+    more, along = (laden.masses - empty.masses)[:-1], empty.positions[:-1, 0]
+    assert more.sum() == pytest.approx(40.0)
+    assert (more * along).sum() == pytest.approx(40 * 5, rel=1e-12)
+    at_the_end = find("bridge").system({**settings, "truck": 40.0, "truck_position": 6.0}).masses - empty.masses
+    assert (at_the_end[:-1] * along).sum() == pytest.approx(40 * 6, rel=1e-12)
 
 
 def test_a_bridge_before_a_truck_comes() -> None:
@@ -164,6 +180,7 @@ def test_what_every_scene_takes_besides() -> None:
     assert ropes is not None
     assert ropes.tension_only.all()
     assert not ropes.hardening.any()
+    assert find("string").system({"masses": 3, "tension_only": True}).angular_springs is None
     with pytest.raises(InputError, match="restitution"):
         find("string").system({"masses": 3, "radii": 0.01, "restitution": "0.1,0.2"})
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -9,10 +10,12 @@ import pytest
 
 from reference.distance_constraints import RopeMotion
 from reference.forces import SpringMotion
+from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, constraint_schemes, find
 from reference.schemes.constrained import ROPE_KICK_DRIFT
 from reference.state import Array, State
 from reference.system import MassSpringSystem
+from reference.theory.equilibrium import hanging_string
 from tests.reference.schemes.test_constraint_solvers import AS_BACKWARD_EULER, backward_euler
 from tests.reference.systems import label, moving_string, random_mesh
 
@@ -163,6 +166,44 @@ def test_solvers_of_constraints_step_two_kilograms_by_backward_euler(name: str) 
     for _ in range(2):
         expected.append(backward_euler(*expected[-1], H, SQUARE, RATE))
     np.testing.assert_allclose(steps(name, 2, drag=0.0), expected, rtol=1e-12)
+
+
+def test_a_damped_mass_of_box2d_3() -> None:
+    """U = (v - h w^2 x)/(1 + h r + h^2 w^2), x' = x + h u, v' = (v - h w^2 x')/(1 + h r + h^2 w^2), from no impulse."""
+    (x, v), part = BEGIN, 1 / (1 + H * RATE + H**2 * SQUARE)
+    after = x + H * (v - H * SQUARE * x) * part
+    expected = [BEGIN, (after, (v - H * SQUARE * after) * part)]
+    np.testing.assert_allclose(steps("soft_constraints_relaxed(substeps=1)", 1, drag=0.0), expected, rtol=1e-12)
+
+
+def test_damping_that_is_a_stiffness_too_by_hand() -> None:
+    """Of 2 kg in two sub-steps: of what C has gained since the start h c/(1 + h^2 (k + c)/m) is taken, too."""
+    (x, v), h, (k, c) = BEGIN, H / 2, (2 * SQUARE, 2 * RATE)
+    damped = h * (c + h * k)
+    start, gained = x, h * k / (1 + damped / 2) + h * c / (1 + h * h * (k + c) / 2)
+    for _ in range(2):
+        v -= (damped * v + h * k * start) / (1 + damped / 2) / 2 + gained * (x - start) / 2
+        x += h * v
+    name = "temporal_gauss_seidel(damping_as_stiffness=True, substeps=2, sweeps_after=0)"
+    np.testing.assert_allclose(steps(name, 1, drag=0.0), [BEGIN, (x, v)], rtol=1e-12)
+
+
+def test_a_warm_start_holds_what_hangs() -> None:
+    """A string at rest, one sweep a step: begun from the impulses of the step before it sags half as far.
+
+    Each step's impulses are nearly those of the last; from nothing one sweep does not carry the weight of all masses.
+    """
+    string = find_scene("string").system({"masses": 5, "angle": 90.0, "stiffness": 2e3})
+    motion = SpringMotion(replace(string, positions=hanging_string(string).positions))
+    advance = find("soft_constraints_warm(sweeps=1)").on(motion)
+    sagged = []
+    for forgets in (False, True):
+        state = motion.start
+        for _ in range(40):
+            state = advance(state, 5e-3)
+            state = State(state.time, state.positions, state.velocities) if forgets else state
+        sagged.append(np.abs(state.positions - motion.start.positions).max())
+    assert sagged[0] < 0.6 * sagged[1]
 
 
 # --- Drag alone ---
