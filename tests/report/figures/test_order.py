@@ -10,7 +10,7 @@ from experiments.order import DTS, DURATION
 from report.figures.order import SLOPES
 from tests.experiments.canned.order import rows
 from tests.experiments.canned.reading import numbers, records
-from tests.report.figures.artists import data, marks, words
+from tests.report.figures.artists import data, laid_out, marks, tick_labels, words
 from tests.report.figures.shown import result, shown
 
 
@@ -83,3 +83,21 @@ def test_the_words_for_it_have_the_slopes() -> None:
         if row.slope is not None:
             assert f"{row.stepper.name} {row.slope:.2f}" in shown("order").alt
     assert "stranger" not in shown("order").alt
+
+
+def test_panels_share_their_axes_and_leave_room_beside_the_ends() -> None:
+    """From the smallest dt to the largest, a little further; labels stand outside, once each."""
+    axes = np.array(laid_out(shown("order").figure).axes).reshape(2, 2)
+    for panel in axes.flat:
+        left, right = panel.get_xlim()
+        assert left < DTS.min() < DTS.max() < right
+        assert right / left < 2 * DTS.max() / DTS.min()
+    assert len({(panel.get_xlim(), panel.get_ylim()) for panel in axes.flat}) == 1
+    shown_labels = [(bool(tick_labels(p.xaxis)), bool(tick_labels(p.yaxis))) for p in axes.flat]
+    assert shown_labels == [(False, True), (False, False), (True, True), (True, False)]
+
+
+def test_an_engine_that_is_no_scheme_has_its_label_at_its_own_end() -> None:
+    """At the largest dt, in black."""
+    (label,) = [text for text in panels()[2].texts if "stranger" in text.get_text()]
+    assert label.xy == (DTS[0], errors("stranger")[0])
