@@ -19,10 +19,10 @@ import pytest
 from experiments.exercises import grading
 from experiments.exercises.grading import Grade, grade_class
 from experiments.exercises.handed_in import collected, notebook
-from experiments.exercises.handed_in.collected import collect, files_in
+from experiments.exercises.handed_in.collected import HandedIn, collect, files_in
 from experiments.exercises.handed_in.submission import Submission, read
 from experiments.exercises.teaching import class_book
-from experiments.exercises.teaching.class_book import COLUMNS, book, students_in, write_book
+from experiments.exercises.teaching.class_book import COLUMNS, _seeds, book, odd_marks, students_in, write_book
 from experiments.exercises.teaching.feedback import write_feedback
 from experiments.exercises.teaching.platforms import PLATFORMS, table
 from experiments.exercises.teaching.table_file import read_table
@@ -310,3 +310,32 @@ def test_who_handed_in_no_submission_is_told_so(tmp_path: Path) -> None:
 def test_the_worked_examples_are_true(module: Any) -> None:
     """What the docstrings show is what comes out."""
     assert doctest.testmod(module).failed == 0
+
+
+def test_a_seed_is_anothers_where_another_has_it_too() -> None:
+    """In the same exercise; by the class list in any; and of who has none nothing is said."""
+    file = HandedIn(Path("a.py"), "a.py", "ada", datetime(2026, 11, 3))
+    seeds = {("ada", "5"): "x", ("bob", "5"): "x", ("eve", "8"): "x", ("max", "5"): "", ("zoe", "5"): "y"}
+    newest = {who: (file, {"seed": seed} if seed else {}) for who, seed in seeds.items()}
+    alone: dict[tuple[str, str], list[str]] = {who: [] for who in seeds}
+    assert _seeds(newest, {}) == {**alone, ("ada", "5"): ["bob"], ("bob", "5"): ["ada"]}
+    listed = {"ada": "x", "max": "", "kim": "y"}
+    assert _seeds(newest, listed) == {
+        **alone,
+        ("ada", "5"): ["bob"],
+        ("bob", "5"): ["ada"],
+        ("eve", "8"): ["ada"],
+        ("zoe", "5"): ["kim"],
+    }
+
+
+@pytest.mark.parametrize(
+    ("mark", "odd"),
+    [("", False), ("0", False), ("100", False), ("87,5", False), ("-0.1", True), ("100,1", True), ("good", True)],
+)
+def test_marks_by_hand_are_numbers_from_0_to_100(mark: str, odd: bool) -> None:
+    """Others count too, and are told; with their exercise, where they have one."""
+    for exercise, place in (("1", "eve, exercise 1: "), ("", "eve: ")):
+        told = odd_marks([{"student": "eve", "exercise": exercise, "by_hand": mark}])
+        assert len(told) == odd
+        assert all(line.startswith(f"by_hand of {place}{mark!r}: ") for line in told)
