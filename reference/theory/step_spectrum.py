@@ -18,7 +18,7 @@ from reference.errors import SolverError
 from reference.limit import Limit
 from reference.schemes.catalogue import Scheme
 from reference.theory.equilibria import Equilibrium
-from reference.theory.large_steps import NEARLY, limit_of_large, limit_of_relative, relative_of
+from reference.theory.large_steps import limit_of_large, relative_of
 from reference.theory.layout import layout_of
 from reference.theory.rates import Rates
 from reference.theory.step_increments import growth_of, increments_of_modes, is_exact, step_increments
@@ -45,7 +45,7 @@ ONE_VALUE = 1e-2
 
 #: Each dt looked at is so many times the one before: in short steps, and in longer ones than a part of the fastest 1/w,
 #: where a step may let a mode grow in a narrow range and be stable again.
-RATIO, CLOSE, SHORT_STEP = 1.2, 1.03, 0.3
+RATIO, CLOSE, SHORT_STEP = 1.2, 1.04, 0.3
 
 #: The first limit is found to this part of itself: of exact Jacobians, and of differenced ones.
 PRECISION, ROUGH = 1e-8, 1e-7
@@ -94,10 +94,6 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             # in shorter ones what it remembers is all but what it has: rounding tears the two apart by eps / (h w)
             slowest = float(np.abs(found.values).min())
             start = max(start, min(1e-2 * unit, 4 * float(np.finfo(float).eps) / (LINEAR * slowest)))
-        if scheme.iterated and rest.linear is not None:
-            # up to near the limit of what it would come to, it does as that does
-            converged = limit_of_relative(scheme, rest.linear, unit)
-            start = NEARLY * converged if np.isfinite(converged) else start
         last = FARTHEST / float(np.abs(found.values).min())
         limit = _scan(Search(excess, rounding, precision, found.least_decay > 0), start, unit, last)
         if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
@@ -294,8 +290,10 @@ def _excess(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -> float
     if not np.isfinite(increments).all():
         return np.inf
     whole = _worst(np.linalg.eigvals(increments).astype(complex), dt, found)
-    # quotients take longer, and tell more only where growth is next to none
-    return whole if abs(whole) > FINE else _worst(increments_of_modes(increments), dt, found)
+    # quotients take longer, and tell more only where growth is next to none, of increments that are exact
+    if abs(whole) > FINE or not is_exact(scheme, rest):
+        return whole
+    return _worst(increments_of_modes(increments), dt, found)
 
 
 def _worst(b: Complex, dt: float, found: Rates) -> float:

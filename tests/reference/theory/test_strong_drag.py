@@ -1,4 +1,4 @@
-"""Light masses amid heavy ones that drag slows within a step: where drag turns velocities round, and where it holds."""
+"""Steps in which drag or damping is strong for light masses amid heavy ones: limits far from those of gentle steps."""
 
 from __future__ import annotations
 
@@ -61,6 +61,21 @@ def test_a_heavy_mass_beside_one_that_exponential_drag_all_but_holds_has_its_lim
     assert lowest(found * (1 - 1e-7)) > 0 > lowest(found * (1 + 1e-7))
     assert growth("kick_drift_exponential_drag", rest, (1 - 1e-5) * found) < 0
     assert growth("kick_drift_exponential_drag", rest, (1 + 1e-5) * found) > 0
+
+
+def test_a_scheme_that_stops_iterating_early_may_be_unstable_far_below_what_it_would_come_to() -> None:
+    """Springs damped one after another, strongly: 75 ms, where the damping of all at once has 245 ms.
+
+    Dense eigenvalues of whole steps on either side; and they grow on from there.
+    """
+    system = find_scene("chain").system({"masses": 3, "mass": [0.0716, 6.93, 3.63], "damping": 3.57})
+    rest, name = spring_equilibrium(system), "drift_kick_sequential_damping"
+    found = stability_limit(find(name), rest).dt
+    assert found == pytest.approx(0.075, rel=0.01)
+    assert found < stability_limit(find("drift_kick_exponential_damping"), rest).dt / 3  # type: ignore[operator]
+    steps = np.linspace(0.01, 0.999, 60) * found  # type: ignore[operator]
+    assert max(growth(name, rest, float(dt)) for dt in steps) < 0
+    assert min(growth(name, rest, part * found) for part in (1.001, 1.05, 1.2)) > 0  # type: ignore[operator]
 
 
 def test_a_narrow_range_of_growth_is_not_stepped_over() -> None:
