@@ -7,7 +7,7 @@ import pytest
 
 from engines.engine import find, version
 from engines.process.isolation import isolated
-from reference.obstacles import Plane
+from reference.obstacles import Box, Circle, Obstacle, Plane
 from reference.scenes import find as find_scene
 
 DT = 1e-3
@@ -74,3 +74,27 @@ def test_a_plane_reaches_beyond_every_mass_however_far_its_point_is() -> None:
         farthest = float(np.abs(system.positions - np.array(point)).max())
         assert (strip.b - strip.a).length / 2 >= LONG * farthest
         assert strip.radius >= LONG * farthest
+
+
+@pytest.mark.parametrize(
+    "obstacle",
+    [
+        Circle((0.5, -0.25), 0.3),
+        Box((0.5, -0.25), (0.4, 0.2)),
+        Plane((0.5, -0.25), (0.6, 0.8)),
+        Plane((0.5, -0.25), (-0.8, -0.6)),
+    ],
+    ids=lambda obstacle: obstacle.kind,
+)
+def test_shapes_are_as_far_away_as_their_obstacles(obstacle: Obstacle) -> None:
+    """At a hundred places about it, on either side: the signed distance, to the rounding of a plane's far away bar."""
+    import pymunk
+
+    from engines.pymunk.obstacles import _shape
+
+    system = find_scene("string").system({"masses": 3})
+    shape = _shape(pymunk, pymunk.Space().static_body, obstacle, system)
+    shape.cache_bb()
+    places = np.array([0.5, -0.25]) + np.random.default_rng(2).uniform(-1, 1, (100, 2))
+    found = [shape.point_query(tuple(place)).distance for place in places.tolist()]
+    assert found == pytest.approx(obstacle.signed_distances(places)[0].ravel(), abs=1e-9)
