@@ -97,6 +97,32 @@ def test_an_acceleration_is_asked_with_x_and_perhaps_v(call: str) -> None:
         assert np.abs(run.positions - euler.positions).max() < 1e-14
 
 
+@pytest.mark.parametrize(
+    ("returned", "said"),
+    [
+        ("x", "returns an array of float64 of shape (4, 2): expected positions and velocities"),
+        ("x[:2]", "returns positions of shape (2,): expected (4, 2)"),
+        ("(x, v, v)", "returns 3 things: expected positions and velocities"),
+        ("(x, v[:2])", "returns velocities of shape (2, 2): expected (4, 2)"),
+        ("(x, 1j * v)", "returns an array of complex128 of shape (4, 2) for velocities: expected real numbers"),
+        ("5", "returns a int: expected positions and velocities"),
+        ("None", "returns nothing: a return is missing"),
+    ],
+)
+def test_a_step_returns_positions_and_velocities(returned: str, said: str) -> None:
+    """As a tuple, a list or an array of both; else it is told what it returned."""
+    names: dict[str, Any] = {}
+    exec(f"def step(a, x, v, dt):\n    return {returned}\n", names)
+    outcome = stepper_of(names["step"]).run(STRING, 1e-3, 2)
+    assert outcome.ending == "crashed"
+    assert said in outcome.reason
+    for right in ("(x, v)", "[x, v]", "np.array([x, v])"):
+        exec(f"import numpy as np\ndef step(a, x, v, dt):\n    return {right}\n", names)
+        still = stepper_of(names["step"]).run(STRING, 1e-3, 2).trajectory
+        assert still is not None
+        assert np.array_equal(still.positions[-1], STRING.positions)
+
+
 def test_the_numbers_of_one_hanging_mass_are_its_own() -> None:
     """Not the fixed one's."""
     system = find_scene("oscillator").system(
