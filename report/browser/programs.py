@@ -164,6 +164,7 @@ def page_scheme(scheme: Scheme) -> PageScheme:
         "step": "null" if refusal else f"steps.{scheme.step.__name__}",
         "memory": json.dumps(not scheme.one_step),
         "implicit": json.dumps(scheme.implicit),
+        "iterated": json.dumps(scheme.iterated),
         "solves": json.dumps(solves_for_positions(scheme)),
         "solved": json.dumps(SOLVED.get(scheme.name, scheme.name)),
         "proportional": json.dumps(damps_in_proportion(scheme)),

@@ -51,9 +51,9 @@ function growthOfWholeMode(scheme, w2, g, drag) {
 const SEEN = 1e-11;
 
 // The first h beyond which a number that is at most 1 below is more, on a scale of 1 / fastest.
-function firstBeyond(grows, fastest, from = 1e-6) {
+function firstBeyond(grows, fastest, from = 1e-6, ratio = 1.01) {
   let low = 0;
-  for (let h = from / fastest; h < 60 / fastest; h *= h * fastest < 0.5 ? 1.3 : 1.01) {
+  for (let h = from / fastest; h < 60 / fastest; h *= h * fastest < 0.5 ? 1.3 : ratio) {
     if (grows(h) > 1 + SEEN) {
       let high = h;
       if (low === 0) return 0;
@@ -134,7 +134,9 @@ function limitOf(name, linear, known = {}, system = null) {
   const shortest = shortestLimit(scheme, linear, known);
   if (!scheme.polynomial && !scheme.solves && !scheme.memory && whole && (scheme.linear || !proportional)) {
     const step = scheme.linear ? stepLinear : stepWholeLinear;
-    return {...told, limit: nearby(h => growthOfStep(linear, h, step(scheme, linear, h)), shortest, fastest)};
+    const grows = h => growthOfStep(linear, h, step(scheme, linear, h));
+    // one that stops iterating early may let motion grow far below
+    return {...told, limit: scheme.iterated ? firstBeyond(grows, fastest, 1e-2, 1.04) : nearby(grows, shortest, fastest)};
   }
   return {...told, limit: shortest, about: Boolean(scheme.polynomial) || told.about};
 }

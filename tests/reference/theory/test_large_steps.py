@@ -77,3 +77,18 @@ def test_limits_along_many_angles_are_those_along_each(name: str) -> None:
     angles = np.concatenate([[np.pi / 2, np.pi], np.linspace(np.pi / 2, np.pi, 200)[1:-1]])
     expected = [stable_along(polynomial, float(angle))[0][1] for angle in angles]
     assert first_limits_along(polynomial, angles) == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize(("damping", "told"), [(3.57, False), (0.1, True)])
+def test_a_limit_below_which_perturbations_grow_is_not_told(damping: float, told: bool) -> None:
+    """Springs damped one after another, strongly, are unstable from 75 ms on: 0.24 s, near their relative's, is none.
+
+    On a chain of three, where all eigenvalues can be had (`test_strong_drag`); gently damped they are stable up to it.
+    """
+    system = find_scene("chain").system({"masses": 3, "mass": [0.0716, 6.93, 3.63], "damping": damping})
+    rest, scheme = spring_equilibrium(system), find("drift_kick_sequential_damping")
+    near = 0.2428 if damping > 1 else stability_limit(scheme, rest).dt
+    assert near is not None
+    limit = large_steps._unless_it_grows_before(scheme, rest, near)
+    assert (limit.dt == near) == told
+    assert limit.reason.startswith("not computed: perturbations grow in steps of") != told

@@ -37,6 +37,11 @@ CASES: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
         {"masses": 2, "mass": [1.1, 0.0063], "drag": 0.848},
         ("kick_drift_exponential_drag", "kick_drift", "rk4"),
     ),
+    (
+        "chain",
+        {"masses": 3, "mass": [0.0716, 6.93, 3.63], "damping": 3.57},
+        ("drift_kick_sequential_damping", "kick_drift"),
+    ),
     ("chain", {"masses": 4, "mass": [0.00366, 14.4, 0.765, 12.3], "drag": 0.558}, tuple(page_schemes())),
     ("slinky", {"masses": 8, "damping": 0.5}, ("kick_drift", "rk4", "backward_euler")),
     ("string", {"tension_only": 1, "damping": 0.05, "masses": 4}, ("heun", "kick_drift", "rk4")),
