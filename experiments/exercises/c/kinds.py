@@ -76,7 +76,7 @@ def may_replace(
         is_index: whether it is in one, which is a whole number.
     """
     before, then = kind_in(old, kinds, fields), kind_in(new, kinds, fields)
-    if is_index and then not in (WHOLE, UNKNOWN):
+    if is_index and then not in {WHOLE, UNKNOWN}:
         return False
     if isinstance(new, ast.Call) and isinstance(old, ast.Call) and not _same_arguments(new, old, kinds, fields):
         return False
@@ -112,7 +112,7 @@ def _makes_sense(node: ast.AST, kinds: Mapping[str, Kind], fields: Mapping[str, 
         of = kind_in(node.value, kinds, fields)
         parts = node.slice.elts if isinstance(node.slice, ast.Tuple) else [node.slice]
         fits = of.depth < 0 or of.depth >= len(parts)
-        return fits and all(kind_in(part, kinds, fields) in (WHOLE, UNKNOWN) for part in parts)
+        return fits and all(kind_in(part, kinds, fields) in {WHOLE, UNKNOWN} for part in parts)
     return True
 
 

@@ -187,6 +187,7 @@ def test_the_same_answer_to_everything_is_told() -> None:
     assert "always_the_same" not in told(lambda *_: (np.ones(2), 3.0), *THREE[:2])
     assert told(lambda *_: (np.zeros(2), 0.0), *THREE[:1])["always_the_same"] == f"{same}: nothing but zeros."
     assert "always_the_same" not in told(lambda *_: (np.zeros(2), 1.0), *THREE[:2])
+    assert "always_the_same" not in told(lambda *_: (np.array([0.0, 1.0]), 0.0), *THREE[:2])
     assert "always_the_same" not in told(lambda x, v, s: (s.masses, 3.0), *THREE)
 
     def of_two_shapes(x: Any, v: Any, s: Any) -> tuple[Any, Any]:
@@ -302,6 +303,12 @@ def test_where_answers_are_right_is_told() -> None:
     both = question(), question(gravity=9.81, damping=np.array([0.0, 0.0]))
     assert told(without_drag_elsewhere, *both)["right_where"].endswith(" where gravity is 9.81 m/s^2.")
 
+    def by_turns(x: Any, v: Any, s: Any) -> tuple[Any, Any]:
+        return force(x, v, s)[0] + (bool(s.drag) == (s.gravity != 9.81)), force(x, v, s)[1]
+
+    # only the first is wrong, and there without drag it is right: what becomes of the second says nothing
+    assert "nothing is dragged" in told(by_turns, question(), question(gravity=9.81))["right_where"]
+
     def of_one_kilogram(x: Any, v: Any, s: Any) -> tuple[Any, Any]:
         return s.gravity * np.ones(len(x)), force(x, v, s)[1]
 
@@ -341,7 +348,7 @@ def test_same_is_to_a_billionth_of_the_largest_number_of_a_part(size: float, off
 
 @pytest.mark.parametrize(
     "values",
-    [[], [[]], [[np.ones(2)]], [[np.ones(2), np.array("1")]], [[np.ones(3), np.array(1.0)]]],
+    [[], [[]], [[np.ones(2)]], [[np.ones(2), np.array("one")]], [[np.ones(3), np.array(1.0)]]],
     ids=["nothing", "no parts", "one part", "words", "three masses"],
 )
 def test_an_answer_of_another_form_is_wrong(values: list[Any]) -> None:
