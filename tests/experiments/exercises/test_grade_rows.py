@@ -30,12 +30,15 @@ class Stage:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch, public: Any, hidden: Any = RIGHT) -> None:
         self.asked: list[str | None] = []
+        self.given: list[tuple[Any, ...]] = []
         self.looked: list[Any] = []
         self._says = {"public": public, "hidden": hidden}
         monkeypatch.setattr(grading, "judge", self._judge)
         monkeypatch.setattr(grading, "look_closer", self._look)
 
-    def _judge(self, exercise: Any, source: str, seed: str, key: str | None, *_: Any) -> Verdict:
+    def _judge(self, *given: Any) -> Verdict:
+        self.given.append(given)
+        key = given[3]
         self.asked.append(key)
         says = self._says["public" if key is None else "hidden"]
         found = says.pop(0) if isinstance(says, list) else says
@@ -150,6 +153,28 @@ def test_each_column_of_a_row_has_its_own() -> None:
     assert long["words"] == "x" * 200 + " ..."
 
 
+def test_a_check_is_given_all_that_it_depends_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Exercise, text, seed, key, limits, language, in this order; also where it is tried again."""
+    limits = Limits(seconds=3)
+    stage = Stage(monkeypatch, [NotGradedError("busy"), WRONG], WRONG)
+    submission = own(language="c")
+    grade(submission, "k", limits)
+    one = (submission.exercise, "a = 1\n", "")
+    assert stage.given == [(*one, None, limits, "c"), (*one, None, limits, "c"), (*one, "k", limits, "c")]
+    ((exercise, source, seed, verdict, *rest),) = stage.looked
+    assert (exercise, source, seed, verdict) == (*one, WRONG)
+    assert rest == [limits, grading.EFFORT, "c"]
+
+
+def test_in_a_class_less_is_searched() -> None:
+    """Of everything, as many wait; of a mistake with a name the least."""
+    alone, many = grading.EFFORT, grading.EFFORT_IN_CLASS
+    for name in ("singles", "pairs", "named", "compiled"):
+        assert 0 < getattr(many, name) < getattr(alone, name)
+    assert alone.named <= 1.0
+    assert alone.singles + alone.pairs < 3.0
+
+
 @pytest.mark.parametrize("limits", [None, Limits(seconds=3)])
 def test_a_class_is_graded_in_a_table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, limits: Limits | None) -> None:
     """By names; what is there already is not done again, nor are columns lost that somebody has added.
@@ -170,8 +195,17 @@ def test_a_class_is_graded_in_a_table(tmp_path: Path, monkeypatch: pytest.Monkey
     table.write_text("\n".join(text) + "\n", encoding="utf-8")
     (tmp_path / "bob.py").write_text("EXERCISE = 1\n# bob again\n", encoding="utf-8")
     del stage.asked[:], told[:]
-    grade_class(files[1:], table, tell=told.append)
+    so_far: list[list[list[str]]] = []
+
+    def tell(words: str) -> None:
+        told.append(words)
+        so_far.append([line.split(",") for line in table.read_text(encoding="utf-8").splitlines()])
+
+    grade_class(files[1:], table, tell=tell, workers=1)
     assert (stage.asked, told) == ([None], ["1 of 2", "2 of 2"])
+    # what is done is in the table already, once; what is new behind it, in as many columns
+    assert [[row[0] for row in rows[1:]] for rows in so_far][-1] == ["ada.py", "bob.py", "eve.py", "bob.py"]
+    assert {len(row) for row in so_far[-1]} == {len(grading.COLUMNS) + 1}
     found = {row["file"]: row for row in read_table(table)}
     assert list(found) == ["ada.py", "bob.py", "eve.py"]
     assert [row["mine"] for row in found.values()] == ["note 0", "", "note 2"]

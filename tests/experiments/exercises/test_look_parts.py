@@ -179,6 +179,21 @@ def test_of_right_answers_to_all_that_is_asked_nothing_is_told(name: str) -> Non
     assert failed.seen([], source, "c") == []
 
 
+def test_what_is_seen_and_what_is_found_are_two_things(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Behaviour is told as findings, changes as repairs; a whole division by its line."""
+    exercise = find("forces")
+    catalogue = catalogue_of(exercise, "", None)
+    looks = _Looks(exercise, catalogue, verdict())
+    asked = [*catalogue.questions, *(c.question for c in [*looks._cases, *looks._terms]), *looks._swinging]
+    half = [{"values": [[0.5 * part for part in exercise.answer(question, {})[0]]]} for question in asked]
+    search = [found(repairs=True)]
+    monkeypatch.setattr(sandbox, "run", lambda *_: Reply("done", answers=half, search=search))
+    monkeypatch.setattr(closer_look, "_repairs", lambda source, group, one: [repair(group[0].function, 7)])
+    closer = look_closer(exercise, "a = 1", "", verdict())
+    assert "constant_factor" in [finding.name for finding in closer.findings]
+    assert (closer.repairs, closer.tried, closer.complete) == ((repair("forces", 7),), 5, True)
+
+
 def test_without_a_word_of_it_the_search_takes_its_usual_time(monkeypatch: pytest.MonkeyPatch) -> None:
     """As `Effort` has it."""
     tasks: list[Any] = []
@@ -227,6 +242,7 @@ def test_a_program_in_c_is_run_without_its_changes_where_these_end_it(
     monkeypatch.setattr(sandbox, "run", run)
     closer = look_closer(exercise, "x = 1 / 2;", "", verdict(), None, Effort(2.0, 1.0), "c")
     assert [finding.name for finding in closer.findings] == ["compiler_warns", "whole_division"]
+    assert [finding.lines for finding in closer.findings] == [(3,), (1,)]
     with_changes = readable and first.ended == "done" and not first.error
     assert len(runs) == (1 if with_changes or not readable else 2)
     assert [r.places for r in closer.repairs] == ([((7, "sign"),)] if with_changes else [])
