@@ -13,13 +13,14 @@ from reference.lecture.listings import listings
 from reference.line import (
     in_plane,
     is_vertical,
+    obstacle_in_plane,
     on_line,
     parameter_in_plane,
     system_in_plane,
     system_on_line,
     value_in_plane,
 )
-from reference.obstacles import Plane
+from reference.obstacles import Circle, Plane
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
@@ -183,6 +184,8 @@ def test_all_of_a_system_is_put_into_the_plane() -> None:
     flat = random_mesh(1, 5, 2)
     assert system_in_plane(flat) is flat
     assert in_plane(flat.positions) is flat.positions
+    for there in (Plane((0.0, -9.0), (0.0, 1.0)), Circle((0.0, 1.0), 0.5)):
+        assert obstacle_in_plane(there) is there
 
 
 HUNG = system_in_plane(replace(find_scene("chain").system({"masses": 2}), pulls=np.array([[0.0], [0.5], [0.0]])))

@@ -155,7 +155,22 @@ def test_single_points_are_passed_over(tmp_path: Path) -> None:
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
     file = tmp_path / "marked.vtu"
     meshio.write(file, meshio.Mesh(points, [("vertex", np.array([[0]])), ("triangle", np.array([[0, 1, 2]]))]))
-    assert edges(read_mesh(file)) == [(0, 1), (0, 2), (1, 2)]
+    found = read_mesh(file)
+    assert (edges(found), found.passed_over) == ([(0, 1), (0, 2), (1, 2)], 1)
+    assert found.told == "3 masses, 3 springs: 3 of triangle; 1 single points passed over"
+
+
+@pytest.mark.parametrize(
+    ("ending", "first"), [(".obj", 1), (".vtk", 0), (".vtu", 0), (".msh", 1), (".mesh", 1), (".ply", 0)]
+)
+def test_vertices_are_counted_as_in_the_file(tmp_path: Path, ending: str, first: int) -> None:
+    """From 0 or from 1: the fourth of them is in no triangle."""
+    file = tmp_path / f"four{ending}"
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]], dtype=float)
+    with redirect_stdout(io.StringIO()):
+        meshio.write(file, meshio.Mesh(points, [("triangle", np.array([[0, 1, 2]]))]))
+    with pytest.raises(InputError, match=f"vertex {3 + first} is in no element"):
+        read_mesh(file)
 
 
 # --- Bad ones ---
