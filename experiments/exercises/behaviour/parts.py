@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from experiments.exercises.behaviour.special_cases import Parts
 from experiments.exercises.c.text import lines_that_write
 from experiments.exercises.handed_in.parsing import parsed
 from experiments.exercises.handed_in.submission import Language
@@ -76,9 +77,9 @@ def _right_parts(catalogue: AnswerCatalogue, answers: Sequence[Mapping[str, Any]
     right: dict[tuple[str, str], bool] = {}
     tolerance = max(SAME, catalogue.exercise.tolerance)
     for question, answer, expected in zip(catalogue.questions, answers, catalogue.right, strict=False):
-        values = answer["values"][:1]
-        readable = values and len(values[0]) == len(question.parts) and all(v.dtype.kind in "iufb" for v in values[0])
-        given = catalogue.exercise.comparable(question, [list(values[0])])[0] if readable else None
+        values: Parts = next(iter(answer["values"]), [])
+        readable = len(values) == len(question.parts) and all(v.dtype.kind in "iufb" for v in values)
+        given = catalogue.exercise.comparable(question, [list(values)])[0] if readable else None
         for p, name in enumerate(question.parts):
             same = given is not None and _same(given[p], expected[0][p], tolerance)
             right[question.function, name] = right.get((question.function, name), True) and same

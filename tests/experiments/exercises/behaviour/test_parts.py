@@ -114,7 +114,7 @@ def test_where_what_is_returned_gets_its_value(body: str, place: int, count: int
     """Assigned, also in part, also with others; where it is returned if not; where another function has it from."""
     text = f"def step(x):\n    {body}\n"
     if "other" in body:
-        text += "def other(x):\n    return x, 1\n"
+        text += "def other(x):\n    v = 1\n    return x, v\n"
     assert sorted(set(lines_of_part(ast.parse(text), "step", place, count))) == lines
     assert list(lines_of_part(ast.parse(text), "energy", place, count)) == []
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -207,6 +208,7 @@ def test_whole_numbers_are_told_where_all_are() -> None:
     assert of_form([[[1.0, 2.5], [3.0]]], halves)[0] == ""
     assert of_form([[[0.0, 0.0], [0.0]]], halves)[0] == ""
     assert of_form([[[0, 0], [0]]], halves)[0] == "whole_numbers"
+    assert of_form([[[0.0, 2.0], [0.0]]], halves)[0] == "whole_numbers"
     # what may be whole says nothing, nor what is to be whole
     assert of_form([[[1.0, 2.0], [2.5]]], [[[1.0, 2.0], [2.5]]])[0] == ""
     assert of_form([[[1, 2], [3]]], [[[1, 2], [3]]])[0] == ""
@@ -237,6 +239,19 @@ def test_results_in_another_order() -> None:
     assert told((1, 0, 2), by=1 + 1e-8) is None
     assert told((1, 0, 2), by=1 + 1e-10) is not None
     assert told((1, 0, 2), single=4.6) is None
+
+
+def test_what_the_exercise_itself_says() -> None:
+    """Of the first answer that it has something to say of; most exercises say nothing."""
+    known = catalogue()
+    given = [[[np.array(1.0)] * 3], [[np.array(4.5)]]]
+    assert findings.of_the_exercise(known, given) is None
+
+    def diagnose(question: Question, part: Any) -> tuple[str, str, str] | None:
+        return ("odd", f"{part}.", "Why?") if part > 1 else None
+
+    told = findings.of_the_exercise(AnswerCatalogue(replace(known.exercise, diagnose=diagnose), known.questions), given)
+    assert told == Finding("odd", "4.5.", "Why?")
 
 
 def test_words_in_place_of_numbers() -> None:
