@@ -42,6 +42,8 @@ def test_the_scenes_own_dt_is_a_line_with_its_number() -> None:
     said = text(axes, "the scene's dt")
     assert said.get_text().strip() == "the scene's dt, 0.001 s"
     assert said.get_position()[0] == SETUP.dt
+    (line,) = [line for line in axes.lines if line.get_linestyle() == "--"]
+    assert line.get_color() == said.get_color() == COLOURS[0]
     assert axes.get_xscale() == "log"
 
 
