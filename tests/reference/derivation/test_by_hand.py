@@ -186,6 +186,7 @@ def half_drifted(motion: Motion, state: State, dt: float) -> State:
     return State(kicked.time + dt, state.positions + dt / 2 * (state.velocities + kicked.velocities), kicked.velocities)
 
 
+@pytest.mark.rotating(3)
 def test_the_nearest_is_told_with_what_differs() -> None:
     """By formulas, each coefficient where it stands; by step matrices, each entry; and who is begun otherwise."""
     assert nearest_known(None, updates_of_scheme(Scheme(lopsided_verlet, 2)), None) == (
