@@ -189,10 +189,13 @@ def lines_with(source: str, field: str) -> list[int]:
     """
     text = re.sub(r"//.*|#.*", "", source).split("\n")
     read = [i for i, line in enumerate(text, 1) if re.search(rf"(\.|->)\s*{field}\b", line)]
-    named = [re.search(rf"\b(\w+)\s*=\s*\w+(\.|->){field}\s*[;,]?\s*$", text[i - 1]) for i in read]
-    if len(read) != 1 or named[0] is None:
+    if len(read) != 1:
         return read
-    own = named[0][1]
+    (only,) = read
+    named = re.search(rf"\b(\w+)\s*=\s*\w+(\.|->){field}\s*[;,]?\s*$", text[only - 1])
+    if named is None:
+        return read
+    own = named[1]
     return [i for i, line in enumerate(text, 1) if i not in read and re.search(rf"(?<![\w.]){own}\b", line)]
 
 

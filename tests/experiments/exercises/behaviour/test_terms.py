@@ -189,7 +189,7 @@ def test_by_what_an_error_shrinks_with_half_the_dt_tells_the_slope(shrinks: floa
     def told_of(*by: float, named: bool = False) -> list[str]:
         errors = iter(error for one in by for error in (1e-3, 1e-3 / one))
         answers = [{"values": [[X, X + (0.0 if case.term else next(errors)) * 7]]} for case in made]
-        return [finding.name for finding in seen(catalogue, made, answers, named=named)]
+        return [finding.name for finding in seen(catalogue, made, answers, **({"named": True} if named else {}))]
 
     assert told_of(shrinks, shrinks) == [name] * (name is not None)
     assert told_of(shrinks, 3.0) == []
@@ -221,3 +221,24 @@ def test_lines_are_told_where_they_are_few() -> None:
     assert told_with("s.gravity\n\ns.gravity\ns.gravity") == (f"{read}s 1, 3 and 4.", (1, 3, 4))
     assert told_with("s.gravity\n" * 4) == ("", ())
     assert told_with("") == ("", ())
+
+
+def test_a_term_is_wrong_where_one_number_is_and_right_to_rounding() -> None:
+    """Of one mass; and where terms are wrong that stand on no line of their own no lines are told."""
+
+    def told_of(**by: float) -> tuple[str, tuple[int, ...]]:
+        answers = []
+        for case in CASES:
+            (force,) = [part.copy() for part in right(case)[0]]
+            force[-1, -1] += by.get(case.term.replace(" ", "_"), 0.0) * np.abs(force).max()
+            answers.append({"values": [[force]]})
+        found = seen(CATALOGUE, CASES, answers, "s.gravity")
+        return (found[0].words, found[0].lines) if found else ("", ())
+
+    assert told_of(the_weight=1e-12) == ("", ())
+    words, lines = told_of(the_weight=1e-6, the_drag=1e-12)
+    assert " and the weight wrong." in words
+    assert lines == (1,)
+    words, lines = told_of(the_weight=1e-6, the_spring_above=1e-6)
+    assert words.endswith(" right, and the weight and the spring above wrong.")
+    assert lines == ()
