@@ -51,7 +51,7 @@ def critical_mode(scheme: Scheme, linear: Linearisation, dt: float) -> CriticalM
     """
     if is_quadratic(scheme, linear.damped, linear.dragged):
         definite, beyond = Definiteness(scheme, linear, dt), (1 + SHORTLY) * dt
-        matrix = definite.matrix(dt) if definite.damps(beyond) else definite.driven(beyond)
+        matrix = definite.driven(beyond) if definite.drives(beyond) else definite.matrix(dt)
     else:
         matrix = -linear.scaled_stiffness
     moves = lowest_eigenvector(matrix) / np.sqrt(linear.mass)

@@ -40,6 +40,9 @@ DENSE_UP_TO = 150
 #: A limit is certified between these parts of itself.
 BRACKET = 1e-9
 
+#: What drives is more than this part of a mass; less is rounding.
+DRIVEN = 1e-6
+
 #: So many dts are looked at for one in which damping drives.
 LOOKS = 60
 
@@ -82,13 +85,15 @@ class Definiteness:
     @cached_property
     def decides(self) -> bool:
         """Whether all damping in a step is damping: only then does S alone decide."""
-        return self.damps(self.unit) and self._made(self.unit).springs.damping_stiffness >= 0
-
-    def damps(self, dt: float) -> bool:
-        """Whether no entry of E, of a spring or of a mass, is negative in a step of dt [s]."""
-        made = self._made(dt)
+        made = self._made(self.unit)
         least = min(made.springs.all.min(initial=0.0), made.drag.all.min(initial=0.0))
-        return bool(least >= -1e-12 * self.linear.mass.max())
+        return bool(least >= -1e-12 * self.linear.mass.max() and made.springs.damping_stiffness >= 0)
+
+    def drives(self, dt: float) -> bool:
+        """Whether E has an entry, of a spring or of a mass, that is negative in a step of dt [s]."""
+        made, system = self._made(dt), self.linear.system
+        of_springs, of_masses = made.springs.all / effective_masses(system), made.drag.all / system.masses
+        return bool(min(of_springs.min(initial=0.0), of_masses.min(initial=0.0)) < -DRIVEN)
 
     def drives_from(self, last: float) -> float:
         """The first dt [s] above which what should damp drives; infinite if none is up to the last one to look at [s].
@@ -99,8 +104,8 @@ class Definiteness:
             return np.inf
         before = 1e-3 * self.unit
         for dt in np.geomspace(min(before, last), last, LOOKS).tolist():
-            if not self.damps(dt):
-                low, high = bisect(lambda at: not self.damps(at), before, dt, _near)
+            if self.drives(dt):
+                low, high = bisect(self.drives, before, dt, _near)
                 return (low + high) / 2
             before = dt
         return np.inf

@@ -42,6 +42,21 @@ def test_drag_afterwards_turns_the_velocity_of_the_lightest_mass_round(masses: l
     assert np.sort(np.abs(moves).ravel())[-2] < 1e-3
 
 
+def test_rounding_of_what_a_step_damps_is_no_driving() -> None:
+    """Newmark of beta 0.2 and gamma 0.6 takes drag as drag at any dt: the limit is its fastest mode's, not 1e-7 s.
+
+    The largest eigenvalue passes 1 there.
+    """
+    rest, name = (
+        spring_equilibrium(find_scene("strip").system({"masses": 4, "drag": 0.43})),
+        "newmark(beta=0.2,gamma=0.6)",
+    )
+    limit = stability_limit(find(name), rest).dt
+    assert limit is not None
+    assert limit > 1e-4
+    assert growth(name, rest, (1 - 1e-6) * limit) < 0 < growth(name, rest, (1 + 1e-6) * limit)
+
+
 @pytest.mark.parametrize("light", [0.00844, 0.0063, 0.0052])
 def test_a_heavy_mass_beside_one_that_exponential_drag_all_but_holds_has_its_limit(light: float) -> None:
     """Velocities times e^(-h Cd/m), here e^-11 to e^-17: S(h) = 2 M (1 + e^(h Cd/M)) - h^2 K, with all its digits.
