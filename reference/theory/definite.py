@@ -19,6 +19,7 @@ l = 1, and has a root l > 1. So there its limit is, if S has not become negative
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -26,6 +27,7 @@ from typing import Any
 import numpy as np
 
 from reference.bisection import bisect
+from reference.errors import SolverError
 from reference.schemes.catalogue import Scheme
 from reference.schemes.implicit_damping import effective_masses
 from reference.state import Array
@@ -98,16 +100,17 @@ class Definiteness:
     def drives_from(self, last: float) -> float:
         """The first dt [s] above which what should damp drives; infinite if none is up to the last one to look at [s].
 
-        Looked at dt by dt: what drives goes on to do so.
+        Looked at dt by dt, up to one at which the scheme's equations are not solved: what drives goes on to do so.
         """
         if self.in_proportion:
             return np.inf
         before = 1e-3 * self.unit
-        for dt in np.geomspace(min(before, last), last, LOOKS).tolist():
-            if self.drives(dt):
-                low, high = bisect(self.drives, before, dt, _near)
-                return (low + high) / 2
-            before = dt
+        with suppress(SolverError):
+            for dt in np.geomspace(min(before, last), last, LOOKS).tolist():
+                if self.drives(dt):
+                    low, high = bisect(self.drives, before, dt, _near)
+                    return (low + high) / 2
+                before = dt
         return np.inf
 
     @cached_property
@@ -135,8 +138,11 @@ class Definiteness:
     @cached_property
     def _grow(self) -> tuple[bool, bool]:
         once, twice = self.damping_part(self.unit), self.damping_part(2 * self.unit)
-        rounding = 1e-12 * self.linear.mass.max()
-        springs, drag = (not np.allclose(2 * a, b, rtol=1e-9, atol=rounding) for a, b in zip(once, twice, strict=True))
+        # a spring between masses that are held counts as one of 1 kg, be all others ever so light
+        masses = effective_masses(self.linear.system), self.linear.system.masses
+        springs, drag = (
+            not np.allclose(2 * a, b, rtol=1e-9, atol=1e-12 * m) for a, b, m in zip(once, twice, masses, strict=True)
+        )
         return springs, drag
 
     def damping_part(self, dt: float) -> tuple[Array, Array]:

@@ -78,7 +78,10 @@ def stability_limit(scheme: Scheme, rest: Equilibrium, found: Rates | None = Non
     if linear is not None and is_quadratic(scheme, linear.damped, linear.dragged):
         definite = Definiteness(scheme, linear, 1 / found.fastest)
         if definite.decides:
-            return _by_definiteness(definite)
+            try:
+                return _by_definiteness(definite)
+            except SolverError as error:
+                return Limit(None, f"not computed: {error}")
     polynomial = stability_polynomial(scheme) if rest.contacts is None else None
     if polynomial is not None:
         return _by_polynomial(polynomial, rest, found)

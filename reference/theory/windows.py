@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from reference.bisection import bisect
+from reference.errors import SolverError
 from reference.state import Array
 from reference.theory.definite import Definiteness
 from reference.theory.inertia import negative_eigenvalues
@@ -42,8 +43,11 @@ def windows_of(definite: Definiteness, first: float) -> tuple[tuple[float, float
         return ()
     last = min(last, definite.drives_from(last))
     steps = np.geomspace((1 + 1e-6) * first, last, LOOKS)
-    with np.errstate(all="ignore"):
-        parts = definite.damping_parts(steps)
+    try:
+        with np.errstate(all="ignore"):
+            parts = definite.damping_parts(steps)
+    except SolverError:
+        return ()
     seen = [stable(float(dt), part) for dt, part in zip(steps, parts, strict=True)]
     found: list[tuple[float, float]] = []
     for before, after, was, now in zip(steps[:-1], steps[1:], seen[:-1], seen[1:], strict=True):

@@ -42,6 +42,16 @@ def test_drag_afterwards_turns_the_velocity_of_the_lightest_mass_round(masses: l
     assert np.sort(np.abs(moves).ravel())[-2] < 1e-3
 
 
+def test_strong_drag_of_light_masses_is_in_proportion_to_dt() -> None:
+    """Newmark's step takes drag as h Cd, and is stable at any dt: of masses of 6e-5 kg, too, with a spring held at both ends.
+
+    Rounding of what such a spring's step makes of no damping was taken for damping that grows faster than dt.
+    """
+    rest = spring_equilibrium(find_scene("strip").system({"masses": 4, "drag": 0.42867010382582243}))
+    found = stability_limit(find("newmark"), rest)
+    assert (found.reason, found.certainty) == ("stable at any dt", "certified")
+
+
 def test_rounding_of_what_a_step_damps_is_no_driving() -> None:
     """Newmark of beta 0.2 and gamma 0.6 takes drag as drag at any dt: the limit is its fastest mode's, not 1e-7 s.
 
@@ -96,11 +106,11 @@ def test_a_scheme_that_stops_iterating_early_may_be_unstable_far_below_what_it_w
 def test_a_narrow_range_of_growth_is_not_stepped_over() -> None:
     """Yoshida's composition with drag lets the light mass grow between 4.21 and 4.7 ms, and no more up to 5.35 ms.
 
-    The first limit is the first dt at which the largest eigenvalue passes 1, looked at here every thousandth.
+    The first limit is the first dt at which the largest eigenvalue passes 1, looked at here every hundredth.
     """
     rest = chain([0.00366, 14.4, 0.765, 12.3], 0.558)
-    steps = np.linspace(1e-3, 6e-3, 5001)
+    steps = np.linspace(3e-3, 6e-3, 301)
     grows = [growth("yoshida_4", rest, float(dt)) > 1e-9 for dt in steps]
     first = steps[grows.index(True)]
     assert first < 0.0043 < steps[grows.index(False, grows.index(True))] < 0.005
-    assert stability_limit(find("yoshida_4"), rest).dt == pytest.approx(first, abs=1e-6)
+    assert stability_limit(find("yoshida_4"), rest).dt == pytest.approx(first, abs=1e-5)
