@@ -43,9 +43,10 @@ def test_drag_afterwards_turns_the_velocity_of_the_lightest_mass_round(masses: l
 
 
 def test_strong_drag_of_light_masses_is_in_proportion_to_dt() -> None:
-    """Newmark's step takes drag as h Cd, and is stable at any dt: of masses of 6e-5 kg, too, with a spring held at both ends.
+    """Newmark's step takes drag as h Cd, and is stable at any dt: with a spring held at both ends, too.
 
-    Rounding of what such a spring's step makes of no damping was taken for damping that grows faster than dt.
+    The masses have 6e-5 kg. Rounding of what that spring's step makes of no damping was taken for damping that grows
+    faster than dt.
     """
     rest = spring_equilibrium(find_scene("strip").system({"masses": 4, "drag": 0.42867010382582243}))
     found = stability_limit(find("newmark"), rest)
