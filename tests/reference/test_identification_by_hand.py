@@ -18,6 +18,7 @@ from reference.identification.ranking import (
 )
 from reference.identification.result import Identification, Match
 from reference.identification.scale import fastest_rate_bound
+from reference.identification.single_steps import Steps
 from reference.lengths import lengths_and_rates
 from reference.obstacles import Plane
 from reference.outcome import Outcome
@@ -194,3 +195,13 @@ def test_what_a_system_lacks_is_given_to_it() -> None:
     assert (dragged.system.damping.tolist(), dragged.system.drag) == ([0.0], 0.025)
     assert [word for word, _ in lacking(replace(push, system=damped.system))] == ["drag"]
     assert [word for word, _ in lacking(replace(push, system=dragged.system))] == ["damping"]
+
+
+@pytest.mark.parametrize(
+    ("most", "expected"), [(4, [0, 3, 6, 9]), (2, [0, 9]), (10, list(range(10))), (25, list(range(10)))]
+)
+def test_of_many_steps_a_few_are_compared_evenly_spread(most: int, expected: list[int]) -> None:
+    """The first and the last among them; of few steps all, and none twice."""
+    still = np.zeros((11, 2, 2))
+    steps = Steps(Trajectory(DT * np.arange(11.0), still, still), dict.fromkeys(range(10), PAIR), False)
+    assert list(steps.spread(most).systems) == expected

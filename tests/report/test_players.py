@@ -36,3 +36,12 @@ def test_sentences_follow_the_numbers() -> None:
     held, torn = ["`kick_drift`", "holds", "holds"], ["`xpbd_jacobi`", "holds", "tears"]
     assert "longer steps than `xpbd_jacobi`." in players.of_cloth([held, torn])
     assert players.of_cloth([held, held]).startswith("None")
+
+
+def test_of_engines_that_are_not_run_nothing_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Though they are here, in a version; and they are not run."""
+    monkeypatch.setattr(players.EngineStepper, "version", "9.9")
+    monkeypatch.setattr(players.EngineStepper, "run", lambda *_: pytest.fail("it was run"))
+    rows = players.engines_table(measure=False)
+    assert {cell for row in rows for cell in row[2:]} == {"-"}
+    assert all(row[1].endswith(" 9.9") for row in rows)

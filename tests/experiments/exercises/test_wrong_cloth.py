@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from experiments.exercises.e09_cloth.exercise import counted
 from experiments.exercises.exercise import Question, find
 
 CLOTH = find("cloth")
@@ -169,3 +170,11 @@ def test_cloths_are_wide_tall_square_and_threads(hidden: bool) -> None:
     assert {q.about for q in CLOTH.questions(np.random.default_rng(0), hidden, "")} == {
         f"cloth of {r} x {c}" for r, c in asked
     }
+
+
+def test_numbers_that_no_mass_has_count_as_the_one_after_the_last() -> None:
+    """Of 4 rows and 5 columns: 20 masses, whichever way round; -1, 20 and 2.5 are none."""
+    question = Question("springs", (ROWS, COLUMNS), ("springs",), "", item="")
+    count = counted(question, np.array([[19.0, 0.0], [20.0, 3.0], [-1.0, 4.0], [2.5, 5.0]]))
+    assert count.shape == (21, 21)
+    assert [(int(a), int(b)) for a, b in np.argwhere(count)] == [(0, 19), (3, 20), (4, 20), (5, 20)]

@@ -8,6 +8,7 @@ import pytest
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.system import MassSpringSystem
+from reference.theory import step_spectrum
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
 
@@ -71,3 +72,16 @@ def test_rounding_of_what_is_remembered_is_no_growth(damping: float) -> None:
     """Verlet by positions on 100 1/s, hardly damped: 2/w, be the damping ever so small."""
     rest = spring_equilibrium(find_scene("oscillator").system({"damping": damping}))
     assert stability_limit(find("stormer_verlet"), rest).dt == pytest.approx(0.02, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("powers", "expected"),
+    [((2.0, 2.0), True), ((1.1, 1.0), True), ((1.5, 0.7), False), ((0.7, 1.5), False), ((3.0, 1.5), False)],
+)
+def test_growth_falls_as_a_power_of_dt_where_each_halving_says_the_same_power(
+    powers: tuple[float, float], expected: bool
+) -> None:
+    """From 1 on, at steps each half the last: a power of 1 or more in both, the same one; and none of rounding."""
+    grown = [1.0, 2.0 ** -powers[0], 2.0 ** -(powers[0] + powers[1])]
+    assert step_spectrum._falls_as_a_power(grown, 0.0) == expected
+    assert not step_spectrum._falls_as_a_power(grown, grown[-1])
