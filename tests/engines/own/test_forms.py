@@ -130,3 +130,15 @@ def test_the_numbers_of_one_hanging_mass_are_its_own() -> None:
     )
     given = exercise_spring(replace(system, masses=np.array([7.0, 0.3])))
     assert vars(given) == {"mass": 0.3, "stiffness": 40.0, "rest_length": 0.5, "damping": 0.7, "gravity": 4.0}
+
+
+def test_what_a_step_of_one_height_does_not_move_stays_where_it_is() -> None:
+    """A spring that hangs 2 m to the right of where scenes have it: to the side its mass does not move."""
+    system = find_scene("spring").system({})
+    system = replace(system, positions=system.positions + np.array([2.0, 0.0]))
+    names: dict[str, Any] = {}
+    exec("def step(y, v, spring, dt):\n    return y + dt * v, v - dt * spring.gravity\n", names)
+    run = stepper_of(names["step"]).run(system, 1e-3, 3).trajectory
+    assert run is not None
+    assert np.array_equal(run.positions[..., 0], np.full((4, 2), 2.0))
+    assert run.velocities[1, 1].tolist() == [0.0, -1e-3 * 9.81]
