@@ -17,6 +17,7 @@ from reference.motion import Motion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find, schemes
 from reference.state import State
+from report.site import solved_form
 from report.site.generated import schemes_page
 from report.site.linear_form import Equations, NotLinear, Sum, equations
 from report.site.mathml import of_equations
@@ -186,3 +187,26 @@ def test_the_page_has_every_scheme_with_its_equations_or_its_function() -> None:
         assert ("<math" in text) == (name in [*TRACED, *SOLVED])
         assert f"def {name}(" in text
     assert of_equations(equations(trace(find("rk4")))) in sections["rk4"]
+
+
+@pytest.mark.parametrize(
+    ("at", "expected"),
+    [
+        ([0.0, 0.0, 0.0], None),
+        ([0.5, 0.5, 0.5], (0, Fraction(1, 2))),
+        ([1 / 32, 1 / 64, 1 / 16], (1, Fraction(1, 2))),
+        ([1 / 256, 1 / 1024, 1 / 64], (2, Fraction(1))),
+    ],
+)
+def test_a_coefficient_is_a_fraction_times_a_power_of_dt(
+    at: list[float], expected: tuple[int, Fraction] | None
+) -> None:
+    """By its values at 1/16, 1/32 and 1/8 s."""
+    assert solved_form._term(np.array(at)) == expected
+
+
+@pytest.mark.parametrize("at", [[0.0, 1e-3, 1.0], [1.0, 1e-3, 0.0], [1 / 16, 1 / 64, 1 / 8], [16.0, 32.0, 8.0]])
+def test_what_is_no_power_of_dt_is_refused(at: list[float]) -> None:
+    """Nothing at one step and something at another; two powers; one over dt."""
+    with pytest.raises(NotLinear, match="no fraction times a power of dt"):
+        solved_form._term(np.array(at))

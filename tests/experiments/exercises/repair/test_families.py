@@ -7,7 +7,9 @@ from functools import cache
 
 import pytest
 
+from experiments.exercises.repair.alike_edits import of_alike
 from experiments.exercises.repair.edit import Edit
+from experiments.exercises.repair.names import names_in
 from experiments.exercises.repair.source_edits import edits_of, without_main
 from tests.experiments.exercises.repair.test_edits import SLIPS, function
 
@@ -302,3 +304,12 @@ def test_only_functions_classes_and_numbers_are_changed() -> None:
     edits: list[Edit] = edits_of(without_main(ast.parse(text)))
     assert {edit.line for edit in edits} == {2, 3}
     assert "__main__" not in ast.unparse(without_main(ast.parse(text)))
+
+
+@pytest.mark.parametrize(("second", "together"), [("b = v + 2", True), ("b = v * 2", False), ("b = v + d", False)])
+def test_lines_that_differ_in_names_and_numbers_only_are_changed_together(second: str, together: bool) -> None:
+    """The number in both at once, where both are sums of a name and a number; not a line made of something else."""
+    tree = ast.parse(f"def step(x, v, d):\n    a = x + 2\n    {second}\n    return a, b\n")
+    top = tree.body[0]
+    both = [edit for edit in of_alike(top, names_in(top, tree, {})) if len(edit.sites) == 2]
+    assert bool(both) == together
