@@ -302,6 +302,9 @@ def test_the_zip_grades_as_gradescope_would(
     assert (document["score"], document["extra_data"]["finding"]) == (score, finding)
     assert set(document["extra_data"]["walls"]) >= {"limits"}
     assert [test["visibility"] for test in document["tests"]] == ["visible", "after_published"]
+    # what is seen at once says nothing of the hidden check, which has run
+    assert ("The hidden one is told later." in document["tests"][0]["output"]) == (score == 100.0)
+    assert UNSEEN not in document["tests"][0]["output"]
     assert "sesame" not in json.dumps(document)
 
 

@@ -98,3 +98,11 @@ def test_students_have_numbers_of_their_own() -> None:
         # of sixty some are near either end
         assert low <= min(values) <= low + 0.1 * (high - low)
         assert high - 0.1 * (high - low) <= max(values) <= high
+
+
+def test_who_takes_the_mass_for_grams_is_off_by_the_root_of_a_thousand() -> None:
+    """Either way: kilograms taken for grams, and grams for kilograms. A limit of kick-drift is 2 sqrt(m/k)."""
+    ways = [one.parameters for one in EXERCISE.mistakes if one.name == "grams"]
+    given = {name: value for name, value in GIVEN.items() if name != "masses"}
+    limits = [EXERCISE.solutions["kick_drift"](**given, **way) for way in ways]
+    assert sorted(limits) == pytest.approx([2 * sqrt(0.5e-3 / 50), 2 * sqrt(500 / 50)])
