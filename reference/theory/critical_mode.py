@@ -13,7 +13,7 @@ from reference.theory.definite import Definiteness, lowest_eigenvector
 from reference.theory.linearisation import Linearisation
 from reference.theory.step_coefficients import is_quadratic
 
-#: So far beyond a limit, as a part of it, what should damp is seen to drive.
+#: So far beyond a limit, as a part of it, negative damping is seen.
 SHORTLY = 1e-6
 
 
@@ -45,13 +45,12 @@ class CriticalMode:
 def critical_mode(scheme: Scheme, linear: Linearisation, dt: float) -> CriticalMode:
     """The mode that limits a scheme at its limit dt [s].
 
-    Of a step with symmetric matrices, the direction in which S(dt) vanishes, or in which what should damp drives beyond
-    dt. Of others the fastest swing, which limits
-    them where damping is weak.
+    Of a step with symmetric matrices, the direction in which S(dt) vanishes, or in which its damping is negative beyond
+    dt. Of others the fastest swing, which limits them where damping is weak.
     """
     if is_quadratic(scheme, linear.damped, linear.dragged):
         definite, beyond = Definiteness(scheme, linear, dt), (1 + SHORTLY) * dt
-        matrix = definite.driven(beyond) if definite.drives(beyond) else definite.matrix(dt)
+        matrix = definite.damping_matrix(beyond) if definite.has_negative_damping(beyond) else definite.matrix(dt)
     else:
         matrix = -linear.scaled_stiffness
     moves = lowest_eigenvector(matrix) / np.sqrt(linear.mass)

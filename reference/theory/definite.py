@@ -11,7 +11,7 @@ are not negative, a step is stable if and only if the last is so for all q: if
     S(h) = A2 - A1 + A0 = 2 (A2 + A0) - h^2 K
 
 has no negative eigenvalue. Its negative pivots are counted (`inertia`) a little below the limit, none, and a little
-above, some: that certifies it. A scheme may make of damping what drives, in long steps: one that multiplies velocities
+above, some: that certifies it. A scheme may damp negatively in long steps: one that multiplies velocities
 by 1 - h c/m turns them round beyond m/c. There A2 is negative in a direction too, in which the quadratic is h^2 K at
 l = 1, and has a root l > 1. So there its limit is, if S has not become negative before.
 """
@@ -42,10 +42,10 @@ DENSE_UP_TO = 150
 #: A limit is certified between these parts of itself.
 BRACKET = 1e-9
 
-#: What drives is more than this part of a mass; less is rounding.
-DRIVEN = 1e-6
+#: Negative damping is more than this part of a mass; less is rounding.
+NEGATIVE = 1e-6
 
-#: So many dts are looked at for one in which damping drives.
+#: So many dts are looked at for one with negative damping.
 LOOKS = 60
 
 #: So often a direction is sought in which S is negative, and a march goes on.
@@ -91,24 +91,24 @@ class Definiteness:
         least = min(made.springs.all.min(initial=0.0), made.drag.all.min(initial=0.0))
         return bool(least >= -1e-12 * self.linear.mass.max() and made.springs.damping_stiffness >= 0)
 
-    def drives(self, dt: float) -> bool:
+    def has_negative_damping(self, dt: float) -> bool:
         """Whether E has an entry, of a spring or of a mass, that is negative in a step of dt [s]."""
         made, system = self._made(dt), self.linear.system
         of_springs, of_masses = made.springs.all / effective_masses(system), made.drag.all / system.masses
-        return bool(min(of_springs.min(initial=0.0), of_masses.min(initial=0.0)) < -DRIVEN)
+        return bool(min(of_springs.min(initial=0.0), of_masses.min(initial=0.0)) < -NEGATIVE)
 
-    def drives_from(self, last: float) -> float:
-        """The first dt [s] above which what should damp drives; infinite if none is up to the last one to look at [s].
+    def negative_damping_from(self, last: float) -> float:
+        """The dt [s] above which a step damps negatively; infinite if there is none up to the last one to look at [s].
 
-        Looked at dt by dt, up to one at which the scheme's equations are not solved: what drives goes on to do so.
+        Looked at dt by dt, up to one at which the scheme's equations are not solved: above it damping stays negative.
         """
         if self.in_proportion:
             return np.inf
         before = 1e-3 * self.unit
         with suppress(SolverError):
             for dt in np.geomspace(min(before, last), last, LOOKS).tolist():
-                if self.drives(dt):
-                    low, high = bisect(self.drives, before, dt, _near)
+                if self.has_negative_damping(dt):
+                    low, high = bisect(self.has_negative_damping, before, dt, _near)
                     return (low + high) / 2
                 before = dt
         return np.inf
@@ -165,8 +165,8 @@ class Definiteness:
         """S(dt), shape (m, m), an array up to DENSE_UP_TO, else sparse; with the damping's part where that is known."""
         return self._with(self._assembled(part or self.damping_part(dt)), dt)
 
-    def driven(self, dt: float) -> Any:
-        """E(dt), whose lowest eigenvector is what is driven most where it is not damped; as `matrix`."""
+    def damping_matrix(self, dt: float) -> Any:
+        """E(dt), in whose lowest eigenvector damping is most negative where it is; as `matrix`."""
         made = self._made(dt)
         return self._assembled((made.springs.all, made.drag.all))
 

@@ -43,7 +43,7 @@ SOLVED = {"kick_drift_truncated_damping": "kick_drift_implicit_damping"}
 #: Steps that solve for positions are differenced on obstacles up to this size of the whole state only: it takes long.
 IMPLICIT_UP_TO = 12
 
-#: Up to so many times the fastest 1/w a step is looked at for damping that drives.
+#: Up to so many times the fastest 1/w a step is looked at for negative damping.
 FAR = 1e6
 
 #: The Runge-Kutta limit of a large system is one value where it is known so nearly from both sides.
@@ -107,9 +107,9 @@ def _by_definiteness(definite: Definiteness) -> Limit:
     last = np.inf if definite.in_proportion else drowned_from(definite)
     dt = np.inf if definite.never_negative else definite.first_limit(last)
     # S changes its sign there as well
-    drives = definite.drives_from(min((1 + AS_GOOD_AS_ONE) * dt, last, FAR * definite.unit))
-    if np.isfinite(drives):
-        return Limit(drives, certainty="certified")
+    negative = definite.negative_damping_from(min((1 + AS_GOOD_AS_ONE) * dt, last, FAR * definite.unit))
+    if np.isfinite(negative):
+        return Limit(negative, certainty="certified")
     if definite.never_negative:
         return Limit(None, "stable at any dt", certainty="certified")
     if np.isfinite(dt):

@@ -82,13 +82,14 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             slowest = float(np.abs(found.values).min())
             start = max(start, min(1e-2 * unit, 4 * float(np.finfo(float).eps) / (LINEAR * slowest)))
         last = FARTHEST / float(np.abs(found.values).min())
-        limit = first_growth(Search(excess, rounding, precision, found.least_decay > 0), start, unit, last)
+        search = Search(excess, rounding, precision, found.least_decay > 0)
+        limit = first_growth(search, start, unit, last)
         if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
             return Limit(None, unsolved)
         phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
         if phantom:
             return _of_unresisted_motion(scheme, rest, found, unit)
-        return _with_windows(scheme, rest, unit, limit, lambda dt: excess(dt) > rounding(dt))
+        return _with_windows(scheme, rest, unit, limit, search.is_growth)
     if scheme.needs == "accelerations of one mass" or rest.linear is None:
         reason = f"{size} positions and velocities, which this scheme does not step alike; up to {WHOLE_UP_TO} it is"
         return Limit(None, f"not computed for {reason}")

@@ -38,11 +38,11 @@ def windows_of(definite: Definiteness, first: float) -> tuple[tuple[float, float
             matrix = definite.matrix(dt, part)
             return bool(np.isfinite(matrix).all()) and negative_eigenvalues(matrix) == 0
 
-    last = looked_to(definite, first)
-    if last <= first:
+    begin, last = (1 + 1e-6) * first, looked_to(definite, first)
+    last = min(last, definite.negative_damping_from(last))
+    if last <= begin:
         return ()
-    last = min(last, definite.drives_from(last))
-    steps = np.geomspace((1 + 1e-6) * first, last, LOOKS)
+    steps = np.geomspace(begin, last, LOOKS)
     try:
         with np.errstate(all="ignore"):
             parts = definite.damping_parts(steps)

@@ -168,7 +168,7 @@ def page_scheme(scheme: Scheme) -> PageScheme:
         "solves": json.dumps(solves_for_positions(scheme)),
         "solved": json.dumps(SOLVED.get(scheme.name, scheme.name)),
         "proportional": json.dumps(damps_in_proportion(scheme)),
-        "drags": json.dumps(drags_in_proportion(scheme)),
+        "proportional_drag": json.dumps(drags_in_proportion(scheme)),
         **own,
     }
     return PageScheme(scheme, "{\n" + ",\n".join(f"{key}: {value}" for key, value in entries.items()) + "\n}")

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from report.commands.options import json_option, setup_options
-from report.commands.terminal import exit_if_files_failed, progress, show_table
+from report.commands.terminal import progress, show_table
 from report.plain import plain
 
 if TYPE_CHECKING:
@@ -41,9 +42,8 @@ def identify_command(stepper: str, setup: Setup, as_json: bool) -> None:
         tell(stepper)
         identification = identify(found, setup.system, setup.dt, setup.steps, setup.changes)
     (_print_json if as_json else _show)(stepper, identification)
-    if not identification.ranking:
-        # nothing of it could be compared
-        exit_if_files_failed([(found.kind, "crashed")])
+    if found.kind == "own" and not identification.ranking:
+        sys.exit(1)  # nothing of it could be compared
 
 
 def _print_json(stepper: str, identification: Identification) -> None:

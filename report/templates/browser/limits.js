@@ -126,7 +126,7 @@ function limitOf(name, linear, known = {}, system = null) {
     return {...told, limit: Math.min(...known.rates.map(rate => stableAlong(scheme.polynomial, rate) / Math.hypot(...rate)))};
   }
   const whole = 2 * moving <= STEP_UP_TO && (scheme.linear || !linear.contacts.length);
-  const proportional = scheme.proportional && (scheme.drags || !linear.drag);
+  const proportional = scheme.proportional && (scheme.proportional_drag || !linear.drag);
   if (!proportional && !scheme.linear && !scheme.implicit && !whole) return {...told, limit: null, reason: "too large"};
   if (scheme.memory && !scheme.implicit) {
     return {...told, ...firstOrSlow(growthOfRemembering(scheme, linear, fastest), linear, fastest, known, shortestOf(scheme), false)};

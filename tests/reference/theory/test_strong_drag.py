@@ -53,7 +53,7 @@ def test_strong_drag_of_light_masses_is_in_proportion_to_dt() -> None:
     assert (found.reason, found.certainty) == ("stable at any dt", "certified")
 
 
-def test_rounding_of_what_a_step_damps_is_no_driving() -> None:
+def test_rounding_of_what_a_step_damps_is_no_negative_damping() -> None:
     """Newmark of beta 0.2 and gamma 0.6 takes drag as drag at any dt: the limit is its fastest mode's, not 1e-7 s.
 
     The largest eigenvalue passes 1 there.
