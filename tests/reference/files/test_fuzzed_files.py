@@ -18,8 +18,8 @@ from reference.errors import InputError
 from reference.files.scene_file import load
 from reference.scenes import Setup
 from tests.reference.files.mesh_files import BINARY_BLOCK, BLANKET, BLOCK, NEXT_BLOCK
-from tests.reference.files.test_mesh_file import SCENE
 from tests.reference.files.test_scene_file import NAMED, WRITTEN_OUT
+from tests.reference.files.test_scenes_of_meshes import SCENE
 
 #: For a file [s]; they take milliseconds.
 TIME_LIMIT = 5.0
