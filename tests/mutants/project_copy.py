@@ -5,52 +5,25 @@ from __future__ import annotations
 import importlib.util
 import os
 import shutil
-import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass
+from contextlib import contextmanager
 from pathlib import Path
 from threading import Event
 
-import psutil
-
 from reference.cache import cache_folder
+from tests.mutants.collected_tests import CollectedTests
+from tests.mutants.ending import MEMORY, OUT_OF_TIME, TestRun, ended
 from tests.mutants.mutations import Mutant
+
+ROOT = Path(__file__).parents[2]
 
 #: What is not copied: nothing of it is a source or a test.
 LEFT_OUT = (".git", ".venv*", "results", ".*_cache", ".hypothesis", "__pycache__")
 
-#: No more memory than this for one process [kB]: a mistake may ask for any amount.
-MEMORY = 8_000_000
-
 #: What pytest ends with when all is well, and when there is no test.
 PASSED, NO_TESTS = 0, 5
-
-#: What a process ends with that has been stopped by a limit of time.
-OUT_OF_TIME = (-signal.SIGKILL, -signal.SIGXCPU)
-
-#: Tests that for so long use less than a second on a processor wait for ever [s].
-WAITS = 180.0
-
-
-@dataclass(frozen=True)
-class TestRun:
-    """What came of some tests.
-
-    Attributes:
-        passed: all of them, or there were none.
-        in_time: they ended before a limit of time.
-        used: how long a processor worked for them, in all their processes [s].
-        said: the last lines they printed.
-    """
-
-    passed: bool
-    in_time: bool
-    used: float
-    said: str
 
 
 class ProjectCopy:
@@ -59,6 +32,7 @@ class ProjectCopy:
     def __init__(self, root: Path, folder: Path, stop: Event) -> None:
         self._root, self._scratch, self._cache = folder / "project", folder / "scratch", folder / "cache"
         self._stop = stop
+        self._collected: CollectedTests | None = None
         shutil.copytree(root, self._root, ignore=shutil.ignore_patterns(*LEFT_OUT))
         self._scratch.mkdir()
         # Kernels stand under the digest of their text, so that a mistake in a law or a loop is compiled anew: but not
@@ -79,9 +53,6 @@ class ProjectCopy:
     def run(self, tests: Sequence[str], options: Sequence[str], limit: float) -> TestRun:
         """Some test files, in this order, until the first failure or until a process has used its limit [s].
 
-        Not by the clock: a machine that is busy with something else is no endless loop. What waits for ever is told by
-        its using no time at all.
-
         Raises:
             InterruptedError: once it is to stop.
         """
@@ -100,26 +71,36 @@ class ProjectCopy:
                 stdin=subprocess.DEVNULL,
                 start_new_session=True,
             )
-            process.returncode, used = self._ended(process.pid)
+            process.returncode, used = ended(process.pid, self._stop.is_set)
         shutil.rmtree(self._root / ".hypothesis", ignore_errors=True)
         said = "\n".join(output.read_text(errors="replace").splitlines()[-8:])
         passed = process.returncode in (PASSED, NO_TESTS)
         return TestRun(passed, process.returncode not in OUT_OF_TIME, used, said)
 
-    def _ended(self, pid: int) -> tuple[int, float]:
-        """How a process ended, killed with its group if it is to stop or waits for ever; and what it used [s]."""
-        begin, before = time.monotonic(), 0.0
-        while True:
-            found, status, usage = os.wait4(pid, os.WNOHANG)
-            if found:
-                return os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime
-            if time.monotonic() > begin + WAITS and _used(pid) < before + 1.0:
-                os.killpg(pid, signal.SIGKILL)
-            elif time.monotonic() > begin + WAITS:
-                begin, before = time.monotonic(), _used(pid)
-            if self._stop.is_set():
-                os.killpg(pid, signal.SIGKILL)
-            time.sleep(0.05)
+    def run_in_fork(self, tests: Sequence[str], mutant: Mutant | None, limit: float) -> TestRun | None:
+        """Some tests, by name, in a process that has collected all, until the first failure; None where that cannot be.
+
+        Args:
+            tests: their names.
+            mutant: what is changed for them, in its file and in memory.
+            limit: what they may use of a processor [s].
+
+        Raises:
+            InterruptedError: once it is to stop.
+        """
+        if self._collected is None:
+            self._collected = CollectedTests(self._root, self._environment(), self._scratch, self._stop)
+        if mutant is None:
+            return self._collected.run(tests, None, limit)
+        file = self._root / mutant.file
+        source = file.read_text(encoding="utf-8")
+        with self.mutated(mutant):
+            return self._collected.run(tests, (str(file), source, mutant.applied(source)), limit)
+
+    def close(self) -> None:
+        """End what runs in it."""
+        if self._collected is not None:
+            self._collected.close()
 
     def _write(self, file: Path, text: str) -> None:
         file.write_text(text, encoding="utf-8")
@@ -129,15 +110,7 @@ class ProjectCopy:
         """The copy's modules, cache and temporary files."""
         return {
             **os.environ,
-            "PYTHONPATH": str(self._root),
+            "PYTHONPATH": os.pathsep.join(map(str, (self._root, self._root / "report" / "python", ROOT))),
             "XDG_CACHE_HOME": str(self._cache),
             "TMPDIR": str(self._scratch),
         }
-
-
-def _used(pid: int) -> float:
-    """How long a processor has worked for a process and all it has started [s]."""
-    with suppress(psutil.NoSuchProcess):
-        root = psutil.Process(pid)
-        return sum(sum(process.cpu_times()[:4]) for process in [root, *root.children(recursive=True)])
-    return 0.0

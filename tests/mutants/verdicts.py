@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from queue import SimpleQueue
@@ -12,9 +13,10 @@ from threading import Event
 from typing import Literal
 
 from tests.mutants.calls import Calls
+from tests.mutants.ending import TestRun
 from tests.mutants.mutations import Mutant
 from tests.mutants.near import Imports, engines_of
-from tests.mutants.project_copy import ProjectCopy, TestRun
+from tests.mutants.project_copy import ProjectCopy
 
 #: What is found of a mutant. Timed out counts as killed; not covered as survived.
 Verdict = Literal["killed", "timed out", "survived", "not covered"]
@@ -47,10 +49,11 @@ class Judge:
     ) -> list[Verdict]:
         """One for each mutant, told as they are found."""
         imports, stop = Imports(self.root), Event()
-        with TemporaryDirectory(prefix="mutants-") as folder:
+        with TemporaryDirectory(prefix="mutants-") as folder, ExitStack() as opened:
+            Path(folder).chmod(0o755)  # students' programs are run by another user, and must reach theirs
             copies: SimpleQueue[ProjectCopy] = SimpleQueue()
             for i in range(workers):
-                copies.put(ProjectCopy(self.root, Path(folder) / str(i), stop))
+                copies.put(opened.enter_context(closing(ProjectCopy(self.root, Path(folder) / str(i), stop))))
 
             def judged(mutant: Mutant) -> Verdict:
                 copy = copies.get()
@@ -80,16 +83,23 @@ class Judge:
             left -= seconds
             if left > 0:
                 tests.append(test)
+        limit = TIMES * (ALL - left) + BESIDES
         while tests:
-            with copy.mutated(mutant):
-                run = copy.run(tests, ("--all-cases",), TIMES * ALL)
+            run = copy.run_in_fork(tests, mutant, limit) or self._cold(copy, mutant, tests, limit)
             if run.passed:
                 return "survived"
             failed = [test for test in tests if _failed(test, run)] or tests
-            if self._unmutated(copy, failed, ("--all-cases",)).passed:
+            without = copy.run_in_fork(failed, None, limit) or self._unmutated(copy, failed, ("--all-cases",))
+            if without.passed:
                 return "killed" if run.in_time else "timed out"
+            self.failing |= dict.fromkeys(failed, without.said)
             tests = [test for test in tests if test not in failed]
         return "not covered"
+
+    def _cold(self, copy: ProjectCopy, mutant: Mutant, tests: Sequence[str], limit: float) -> TestRun:
+        """Tests in a process that imports everything anew."""
+        with copy.mutated(mutant):
+            return copy.run(tests, ("--all-cases",), limit)
 
     def _verdict(self, copy: ProjectCopy, mutant: Mutant, near: Sequence[str], verdict: Verdict) -> Verdict:
         """The nearest test first: what a test does without the mutant is asked only where it fails with it.
