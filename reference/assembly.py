@@ -94,6 +94,11 @@ def spring_blocks(system: MassSpringSystem, state: State) -> tuple[Blocks, Block
         + over_length[:, None, None] * across
         + (by_rate / divisor)[:, None, None] * turning
     )
+    return as_blocks(system, state, by_position, by_velocity)
+
+
+def as_blocks(system: MassSpringSystem, state: State, by_position: Array, by_velocity: Array) -> tuple[Blocks, Blocks]:
+    """The derivatives of the springs' forces, (s, d, d) each, with those of drag and of what resists bending."""
     nothing = np.zeros(len(system.masses))
     position = Blocks(by_position, nothing)
     if system.angular_springs is not None:
@@ -222,16 +227,22 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
     found = _by_iteration(system, blocks, right) if large else None
     if found is not None:
         return found
+    result = np.zeros_like(right)
+    if size <= DENSE_UP_TO and not many and system.angular_springs is None:
+        matrix, momentum = np.zeros((size, size)), np.empty(size)
+        index, rows = np.empty(len(system.masses), dtype=np.int64), np.ascontiguousarray(right, np.float64)
+        _write_equations(
+            *(system.fixed, system.springs, blocks.springs, blocks.masses, system.masses, rows),
+            *(index, matrix, momentum),
+        )
+        result[free] = _dense_solution(matrix, momentum).reshape(-1, system.dimension)
+        return result
     mass = np.repeat(system.masses[free], system.dimension)
     matrix = assemble(system, -1.0 * blocks, sparse=False if many else None)
     momentum = (mass * right[free].reshape(size, *right.shape[2:]).T).T
-    result = np.zeros_like(right)
     if isinstance(matrix, np.ndarray):
         matrix.flat[:: size + 1] += mass  # the diagonal
-        try:
-            solution = np.linalg.solve(matrix, momentum)
-        except np.linalg.LinAlgError:
-            raise SolverError("the system of equations for the velocities is singular") from None
+        solution = _dense_solution(matrix, momentum)
     else:
         from scipy.sparse import diags_array
         from scipy.sparse.linalg import spsolve
@@ -240,6 +251,38 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
         solution = spsolve((matrix + diags_array(mass)).tocsc(), momentum, permc_spec="MMD_AT_PLUS_A")
     result[free] = solution.reshape(right[free].shape)
     return result
+
+
+def _dense_solution(matrix: Array, momentum: Array) -> Array:
+    try:
+        return np.asarray(np.linalg.solve(matrix, momentum))
+    except np.linalg.LinAlgError:
+        raise SolverError("the system of equations for the velocities is singular") from None
+
+
+def write_equations(
+    fixed: BoolArray,
+    springs: IntArray,
+    of_springs: Array,
+    of_masses: Array,
+    masses: Array,
+    right: Array,
+    index: IntArray,
+    matrix: Array,
+    momentum: Array,
+) -> None:
+    """Write M - B to a matrix of zeros, and M r to the momentum, for the free masses; index as in `add_blocks`."""
+    add_blocks(fixed, springs, of_springs, of_masses, index, matrix)
+    for row in range(len(matrix)):
+        for column in range(len(matrix)):
+            matrix[row, column] = -matrix[row, column]
+    d = right.shape[1]
+    for i in range(len(fixed)):
+        if not fixed[i]:
+            for axis in range(d):
+                row = index[i] * d + axis
+                matrix[row, row] += masses[i]
+                momentum[row] = masses[i] * right[i, axis]
 
 
 def _by_iteration(system: MassSpringSystem, blocks: Blocks, right: Array) -> Array | None:
@@ -288,7 +331,7 @@ def matrix_vector_product(
 
 
 (_matrix_vector_product,) = compiled(matrix_vector_product)
-(_add_blocks,) = compiled(add_blocks)
+_add_blocks, _write_equations = compiled(add_blocks, write_equations)
 
 
 def _outer(u: Array, w: Array) -> Array:

@@ -15,7 +15,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from reference.assembly import Blocks, spring_blocks
+from reference.assembly import Blocks
+from reference.block_loops import blocks_by_loop
 from reference.jit import array, compiled
 from reference.springs.angular_law import forces_on_masses
 from reference.springs.linear_law import spring_force
@@ -198,7 +199,7 @@ class SpringMotion:
 
     def jacobians(self, state: State) -> tuple[Blocks, Blocks]:
         """The derivatives of the forces by positions [N/m] and by velocities [N s/m], spring by spring."""
-        return spring_blocks(self.system, state)
+        return blocks_by_loop(self.system, state)
 
     def state_of(self, state: State) -> State:
         """A state of the masses is one of its own."""
