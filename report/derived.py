@@ -36,8 +36,10 @@ def matrix_lines(explanation: Explanation) -> list[str]:
     if matrix.of_swings:
         letters = f"{letters.replace('k/m', 'g/L')}, of small swings of a rod of length L: x is its angle, v its rate"
     s = "h" if matrix.substeps == 1 else "s"
-    lines = [f"x' = {_times(entries[0], 'x')} + {_times(entries[1], f'{s} v')}"]
-    lines.append(f"{s} v' = {_times(entries[2], 'x')} + {_times(entries[3], f'{s} v')}")
+    lines = [
+        f"{new} = {_added(_times(of_x, 'x'), _times(of_v, f'{s} v'))}"
+        for new, of_x, of_v in (("x'", *entries[:2]), (f"{s} v'", *entries[2:]))
+    ]
     if matrix.substeps > 1:
         of_part = letters.replace("= h", "= s")
         letters = f"{of_part}, s = h/{matrix.substeps}: a step of h is {matrix.substeps} of these"
@@ -66,6 +68,10 @@ def _times(entry: str, of: str) -> str:
     return of if entry == "1" else f"-{of}" if entry == "-1" else f"({entry}) {of}"
 
 
+def _added(*terms: str) -> str:
+    return " + ".join(terms).replace("+ -", "- ")
+
+
 def difference_lines(explanation: Explanation) -> list[str]:
     """What positions obey step after step, with what its letters mean; x1 is the new one, x0 that before."""
     difference = explanation.difference
@@ -75,8 +81,7 @@ def difference_lines(explanation: Explanation) -> list[str]:
     of_old = [Formula({m: -c for m, c in part.numerator.items()}) for part in old]
     (first, *others), letters = _in_letters([new, *of_old], difference.damped and difference.dragged)
     places = ["x0", *(f"x[-{j}]" for j in range(1, len(others)))]
-    terms = " + ".join(_times(entry, place) for entry, place in zip(others, places, strict=True) if entry != "0")
-    terms = terms.replace("+ -", "- ")
+    terms = _added(*(_times(entry, place) for entry, place in zip(others, places, strict=True) if entry != "0"))
     without = _without(difference.damped, difference.dragged)
     return [f"{_times(first, 'x1')} = {terms}", f"with {letters}{without}"]
 
@@ -118,7 +123,7 @@ def force_lines(explanation: Explanation) -> list[str]:
 
 def _of_forces(power: str, terms: Sequence[str]) -> str:
     """A sum of weighted forces over m, times a power of h; nothing of none."""
-    total = " + ".join(terms).replace("+ -", "- ")
+    total = _added(*terms)
     return f" + {power} {f'({total})' if len(terms) > 1 or '/' in total else total}/m" if terms else ""
 
 
