@@ -32,7 +32,7 @@ def matrix_lines(explanation: Explanation) -> list[str]:
     matrix = explanation.matrix
     if matrix is None:
         return []
-    entries, letters = _in_letters(matrix.entries, matrix.damped and matrix.dragged)
+    entries, letters = _in_letters(matrix.entries)
     if matrix.of_swings:
         letters = f"{letters.replace('k/m', 'g/L')}, of small swings of a rod of length L: x is its angle, v its rate"
     s = "h" if matrix.substeps == 1 else "s"
@@ -48,10 +48,9 @@ def matrix_lines(explanation: Explanation) -> list[str]:
     return [*lines, f"with {letters}{without}{only}"]
 
 
-def _in_letters(entries: Sequence[Formula], of_both: bool) -> tuple[list[str], str]:
+def _in_letters(entries: Sequence[Formula]) -> tuple[list[str], str]:
     """Formulas as they are written, and what their letters mean: with g = b + d, where they ask for that sum only."""
-    of_sum = [entry.of_sum() for entry in entries] if of_both else [None]
-    summed = [str(entry).replace("b", "g") for entry in of_sum if entry is not None]
+    summed = [str(of_sum).replace("b", "g") for entry in entries if (of_sum := entry.of_sum()) is not None]
     if len(summed) == len(entries) and any(entry.asks("b") for entry in entries):
         return summed, "a = h^2 k/m, g = h (c + Cd)/m"
     asked = [part for part in LETTERS.split(", ") if any(entry.asks(part[0]) for entry in entries)]
@@ -79,7 +78,7 @@ def difference_lines(explanation: Explanation) -> list[str]:
         return []
     new, *old = difference.parts
     of_old = [Formula({m: -c for m, c in part.numerator.items()}) for part in old]
-    (first, *others), letters = _in_letters([new, *of_old], difference.damped and difference.dragged)
+    (first, *others), letters = _in_letters([new, *of_old])
     places = ["x0", *(f"x[-{j}]" for j in range(1, len(others)))]
     terms = _added(*(_times(entry, place) for entry, place in zip(others, places, strict=True) if entry != "0"))
     without = _without(difference.damped, difference.dragged)
@@ -93,12 +92,13 @@ def tableau_lines(explanation: Explanation) -> list[str]:
         return []
     text = tableau.text()
     rows = [[c, *map(str, row)] for c, row in zip(text["c"], text["a"], strict=True)] + [["", *map(str, text["b"])]]
-    widths = [max(len(str(row[i])) for row in rows) for i in range(len(rows[0]))]
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
     for row in rows:
-        cells = [str(cell).rjust(width) for cell, width in zip(row, widths, strict=True)]
+        cells = [cell.rjust(width) for cell, width in zip(row, widths, strict=True)]
         lines.append(f"{cells[0]} | {'  '.join(cells[1:])}")
-    return [*lines[:-1], "-" * len(lines[0]), lines[-1]]
+    *above, below = lines
+    return [*above, "-" * len(below), below]
 
 
 def force_lines(explanation: Explanation) -> list[str]:

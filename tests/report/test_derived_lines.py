@@ -281,6 +281,22 @@ def test_a_name_that_holds_at_other_dt_is_told_and_one_that_does_not_is_no_prope
     assert told("Stable", matrix=only, follows=FOLLOWS) == []
 
 
+def test_what_is_seen_of_oscillators_is_marked_with_their_dt_and_what_is_seen_of_slopes_with_theirs() -> None:
+    """Of one stepper both are told, each where it was derived."""
+    updates = Updates(((X, V),), (F(0),), (X, V))
+    damped = matrix(one(), over({ONE: F(1), B: F(1)}), damped=True)
+    lines = list(property_lines(explained(matrix=damped, follows=FOLLOWS, seen=seen(updates=updates), held=CHANGES)))
+    assert lines == [
+        "Explicit: no equations are solved",
+        "Slopes or forces taken in a step: 1, at dt = 0.25 and 0.125 s",
+        "Order 2 without damping: 2 on the oscillator, 1 with damping, at dt = 0.0625 s",
+        "No limits of stability follow, as its rule is another at another dt",
+        "Symplectic, and not reversible, without damping, at dt = 0.0625 s",
+        "Implicit in damping, at dt = 0.0625 s",
+        "At h w = 0.5: period x 1.25000, amplitude x 0.875 in a period, at dt = 0.0625 s",
+    ]
+
+
 def test_headings_say_at_which_dt_and_that_it_is_one_masss() -> None:
     """Slopes are read off at two dt, the step matrix at another; and a multistep method has its formula."""
     updates = Updates(((X, V),), (F(0),), (X, V))
