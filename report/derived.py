@@ -91,7 +91,8 @@ def tableau_lines(explanation: Explanation) -> list[str]:
     if tableau is None:
         return []
     text = tableau.text()
-    rows = [[c, *map(str, row)] for c, row in zip(text["c"], text["a"], strict=True)] + [["", *map(str, text["b"])]]
+    rows = [[str(c), *map(str, row)] for c, row in zip(text["c"], text["a"], strict=True)]
+    rows.append(["", *map(str, text["b"])])
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = []
     for row in rows:
