@@ -18,8 +18,8 @@ from reference.state import Array
 #: Stepper, masses of the string, second axis beside dt and its range, points along each axis (`stability --map` itself
 #: takes more).
 MAPS = (
-    ("heun", 20, "drag", (0.0, 1.0), 128),
-    ("rk4", 20, "damping", (0.0, 1.0), 128),
+    ("heun", 20, "drag", (0.0, 1.0), 96),
+    ("rk4", 20, "damping", (0.0, 1.0), 96),
     ("pymunk_springs", 6, "damping", (0.02, 1.0), 12),
 )
 

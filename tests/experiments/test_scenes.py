@@ -57,6 +57,26 @@ def test_every_engine_is_identified_on_every_scene(monkeypatch: pytest.MonkeyPat
     assert list(found.data["motions"]) == ["string", "chain"]
 
 
+@pytest.mark.parametrize(("most", "steps"), [(None, 100), (23, 100), (22, 25), (11, 25)])
+def test_an_engine_that_takes_long_on_so_many_masses_takes_fewer_steps(most: int | None, steps: int) -> None:
+    """From half the masses on that it says are the most: the string has eleven."""
+    engine = EngineStepper(Doctored(), isolate=in_this_process)
+    object.__setattr__(engine.engine, "interactive_up_to", most)
+    assert scenes.steps_of(engine, find("string").system({})) == steps
+
+
+def test_runs_of_fewer_steps_are_told_as_such(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In the table, and in the first finding; by one of two engines here, which is the same scheme in both."""
+    monkeypatch.setattr(scenes, "steps_of", lambda stepper, _: 25 if stepper.name == "rk4" else 100)
+    found = of(ran("string", "heun"), ran("string", "rk4", 25))
+    assert "runs of 100 steps (1 of them of 25, as they take long)" in found.findings[0]
+    (table,) = found.tables
+    steps = table.columns.index("steps")
+    assert [row[steps] for row in table.rows] == [100, 25]
+    monkeypatch.undo()
+    assert "runs of 100 steps that" in of(ran("string", "heun")).findings[0]
+
+
 def test_the_motion_shown_is_the_scenes_from_start_to_end() -> None:
     """At most so many states of it, the reference's to the bit."""
     setup = find("string").setup({})
