@@ -51,7 +51,7 @@ def truths(name: str, value: npt.ArrayLike, of_each: str) -> npt.NDArray[np.bool
         array = np.zeros(1)
     if array.dtype != bool and array.size:
         raise InputError(f"{name} = {value!r}: expected true or false for each {of_each}")
-    return array.astype(bool, copy=False)
+    return array.astype(bool)
 
 
 def check_sizes(name: str, value: npt.ArrayLike, divided_by: bool = False) -> None:
@@ -67,7 +67,7 @@ def refuse(name: str, array: Array, bad: npt.NDArray[np.bool_], expected: str) -
     if not bad.any():
         return
     index = tuple(int(i) for i in np.argwhere(bad)[0])
-    same_everywhere = array.ndim == 1 and np.all(bad) and len(set(array.tolist())) == 1
+    same_everywhere = array.ndim == 1 and len(set(array.tolist())) == 1
     place = "" if not index or same_everywhere else "[" + ", ".join(map(str, index)) + "]"
     raise InputError(f"{name}{place} = {array[index]:g}: expected {expected}")
 

@@ -99,14 +99,13 @@ def _island(system: MassSpringSystem) -> list[int]:
     found: dict[int, None] = {}
     seen = np.zeros(len(system.masses), dtype=bool)
     for seed in reversed(range(len(system.masses))):
-        stack = [] if seen[seed] or system.fixed[seed] else [seed]
-        seen[seed] = True
+        stack = [] if seen[seed] else [seed]
         while stack:
             at = stack.pop()
             for j, other in [] if system.fixed[at] else springs[at]:
                 if j not in found:
                     found[j] = None
-                    if not seen[other] or system.fixed[other]:
+                    if not seen[other]:
                         seen[other] = True
                         stack.append(other)
     return list(found)

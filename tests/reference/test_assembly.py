@@ -123,6 +123,16 @@ def test_large_systems_are_solved_sparse_with_the_same_result() -> None:
     assert np.abs(solution - dense_solution(system, blocks, right)).max() < 1e-12
 
 
+def test_many_right_sides_are_solved_as_each_alone() -> None:
+    """Of 40 masses, for which one alone is solved by iteration; a round of rounding apart."""
+    system = moving_string(40, damping=0.1, drag=0.02)
+    blocks, right = random_blocks(system), np.random.default_rng(0).normal(size=(41, 2, 3))
+    solution = solve_velocities(system, blocks, right)
+    for column in range(3):
+        alone = solve_velocities(system, blocks, right[..., column])
+        assert np.abs(solution[..., column] - alone).max() < 1e-12
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_sparse_and_dense_matrices_are_equal(dimension: int) -> None:
     """The same entries, summed in the same places."""

@@ -120,6 +120,16 @@ def test_a_tree_finds_the_pairs_that_all_pairs_have() -> None:
     assert len(found.pairs(x)) > 20
 
 
+@pytest.mark.parametrize("count", [3, TREE_FROM + 1])
+def test_where_a_run_has_blown_up_nobody_meets_anybody(count: int) -> None:
+    """As soon as one place is no number; of masses of which all neighbours meet before."""
+    x = np.arange(float(count))[:, None] * [0.5, 0.0]
+    round_ones = Collisions(np.full(count, 0.3))
+    assert len(round_ones.pairs(x)) == count - 1
+    x[0, 1] = np.nan
+    assert round_ones.pairs(x).shape == (0, 2)
+
+
 def test_the_coils_of_a_slinky_close_and_its_lower_end_waits() -> None:
     """Let go, all of it falls with g: its closed upper part meets the lower end when the centre has come down to it.
 
@@ -194,6 +204,13 @@ def test_a_wrong_number_is_named(given_: dict[str, Any], said: str) -> None:
     with pytest.raises(InputError) as refused:
         two(collisions=Collisions(np.array(given_["radii"]), given_.get("restitution", 0.0)))
     assert str(refused.value) == said
+
+
+def test_the_first_two_that_start_in_one_another_are_named() -> None:
+    """Of four in a row, 1 m apart, of which the second meets the third, and that the last."""
+    row = np.arange(4.0)[:, None] * [1.0, 0.0]
+    with pytest.raises(InputError, match=r"^radii: masses 1 and 2 start 1 m apart: expected 1.1 m or more$"):
+        Collisions(np.array([0.2, 0.6, 0.5, 0.7])).checked(row)
 
 
 def test_one_that_is_round_meets_nobody() -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from reference.distance_constraints import Rods, RopeMotion
+from reference.distance_constraints import DENSE_UP_TO, Rods, RopeMotion
 from reference.errors import SolverError
 from reference.motion import MotionOfRods
 from reference.pendulum import PendulumMotion
@@ -131,6 +131,21 @@ def tree(seed: int, masses: int) -> MassSpringSystem:
 def test_rods_of_a_tree_neither_lengthen_nor_push_it_away(seed: int, masses: int) -> None:
     """In three dimensions, flying freely."""
     check_rods(RopeMotion, tree(seed, masses))
+
+
+def test_many_rods_without_give_are_held_exactly() -> None:
+    """A chain of more than are solved for as a whole where they have some give, thrown in space."""
+    count, rng = DENSE_UP_TO + 11, np.random.default_rng(3)
+    chain = MassSpringSystem(
+        positions=np.cumsum(rng.normal(size=(count, 3)), axis=0),
+        springs=np.stack([np.arange(count - 1), np.arange(1, count)], axis=1),
+        masses=rng.uniform(0.1, 1.0, count),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(1.0),
+        drag=0.02,
+        velocities=rng.normal(size=(count, 3)),
+    )
+    check_rods(RopeMotion, chain)
 
 
 @pytest.mark.parametrize("equations", WRONG, ids=label)

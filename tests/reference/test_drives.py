@@ -10,7 +10,7 @@ import pytest
 
 from engines.process.isolation import run_engine
 from experiments.runs.steppers import find_steppers
-from reference.changes import Change
+from reference.changes import Change, Driven
 from reference.drives import Ramp, Sine
 from reference.errors import InputError
 from reference.files.setup import setup_for
@@ -156,3 +156,17 @@ def test_files_have_them_too(tmp_path: Path) -> None:
     file.write_text(file.read_text() + '[[changes]]\ntime = 0.2\nparameter = "gravity"\nvalue = 1.0\n')
     with pytest.raises(InputError, match="gravity is driven, and changed besides"):
         setup_for(str(file))
+
+
+def test_ground_moves_where_a_drive_says_so_and_not_where_a_parameter_does() -> None:
+    """Among other drives; a ramp of gravity alone leaves the ground where it is."""
+
+    class Shaking(Ramp):
+        """Gravity as it is seen from ground that moves."""
+
+        moves_ground = True
+
+    ramp, shaking = Ramp("drag", 0.0, 1.0, 2.0), Shaking("gravity", 0.0, 1.0, 2.0)
+    assert not Driven(FREE).ground_moves
+    assert not Driven(FREE, (Ramp("gravity", 0.0, 1.0, 2.0), ramp)).ground_moves
+    assert Driven(FREE, (ramp, shaking)).ground_moves

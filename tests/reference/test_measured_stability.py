@@ -69,6 +69,14 @@ def test_a_modes_growth_is_told_to_parts_of_a_millionth(rate: float) -> None:
     assert mode_growth(offsets, np.array([1.0, -1.0j])) == pytest.approx(rate, abs=1e-10)
 
 
+@pytest.mark.parametrize("what", [np.nan, np.inf, 0.0])
+def test_a_modes_growth_that_cannot_be_told_is_infinite(what: float) -> None:
+    """Where one offset of many is no number, or nothing is left of the mode."""
+    offsets = np.ones((20, 2))
+    offsets[7] = what
+    assert mode_growth(offsets, np.array([1.0, 2.0])) == np.inf
+
+
 def growth_of(scheme: Scheme, dt: float, steps: int, drag: float = 0.1) -> float:
     """How a random perturbation of a spring's mass, along the spring only, grows in a run: measured, no theory."""
     system = find_scene("spring").system({"drag": drag})

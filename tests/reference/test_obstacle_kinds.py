@@ -284,6 +284,10 @@ def test_what_knows_no_obstacles_says_so() -> None:
             lambda: replace(BARRIER, obstacles=(Circle((0.0, 0.0), 0.25),)),
             "positions[1] = [0.125, 0.0]: expected a start outside the circle obstacles[0], it is 0.125 m inside",
         ),
+        (
+            lambda: replace(BARRIER, obstacles=(Circle((0.0, -9.0), 0.25), Circle((0.0, 0.0), 0.45))),
+            "positions[1] = [0.125, 0.0]: expected a start outside the circle obstacles[1], it is 0.325 m inside",
+        ),
     ],
 )
 def test_bad_obstacles_are_refused_in_one_line(make: Callable[[], Any], message: str) -> None:

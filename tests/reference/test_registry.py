@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 
 import pytest
 
 from reference.errors import InputError
-from reference.registry import Registry, summary_of
+from reference.registry import Registry, imported, origin, summary_of
 
 
 @pytest.fixture
@@ -79,6 +80,34 @@ def test_what_is_entered_on_trial_is_gone_afterwards(files: list[str]) -> None:
     assert dict(found.all()) == before
     with pytest.raises(TypeError):
         found.all()["white"] = 9  # type: ignore[index]
+
+
+@pytest.mark.parametrize(
+    ("module", "whose"),
+    [
+        ("reference.scenes.strings", ""),
+        ("engines.bullet", ""),
+        ("experiments.runs", ""),
+        ("my_package.reference", "my_package"),
+        ("other", "other"),
+    ],
+)
+def test_what_is_the_labs_own_has_no_other_origin(module: str, whose: str) -> None:
+    """The first name of a module says whose it is."""
+    assert origin(module) == whose
+
+
+def test_of_the_labs_own_modules_an_error_is_an_error_and_of_others_it_is_told(tmp_path: Path) -> None:
+    """By the first name: a plug-in may have a module that is called as one of the lab's."""
+    (tmp_path / "some_plug_in").mkdir()
+    (tmp_path / "some_plug_in" / "reference.py").write_text("1 / 0\n")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.syspath_prepend(str(tmp_path))
+        with pytest.raises(InputError, match=r"^plug-in some_plug_in.reference: it cannot be imported: ZeroDivisionE"):
+            imported("some_plug_in.reference")
+    sys.modules.pop("some_plug_in", None)
+    with pytest.raises(ModuleNotFoundError):
+        imported("reference.that_is_not_there")
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,19 @@ def test_the_springs_nearest_to_a_fixed_mass_come_first_however_they_are_numbere
     assert in_order(held, "from_fixed").tolist() == [2, 3, 0, 1]
 
 
+def test_a_long_spring_from_a_fixed_mass_comes_before_short_ones_that_are_farther() -> None:
+    """It is the nearer end that counts: 0 m of the springs of mass 0, and 1 m of the one between the others."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 1.0], [0.0, 2.0]]),
+        springs=np.array([[2, 3], [0, 1], [0, 2]]),
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(1.0),
+        fixed=np.arange(4) == 0,
+    )
+    assert in_order(system, "from_fixed").tolist() == [1, 2, 0]
+
+
 def branched() -> MassSpringSystem:
     """A fixed mass 0, masses 2, 1 and 3 at 1, 2 and 3 m from it along a line, 4 and 5 off to the side of 2."""
     return MassSpringSystem(

@@ -114,6 +114,22 @@ def test_jacobians_are_the_derivatives_of_the_forces(corner: list[list[float]], 
     assert matrix == pytest.approx(matrix.T, abs=1e-11)
 
 
+def test_many_in_space_are_as_each_alone() -> None:
+    """Three in line along different axes, with arms of different lengths, and two bent: forces and derivatives."""
+    x = np.random.default_rng(5).normal(size=(15, 3))
+    x[2], x[5], x[8] = x[1] - 0.3 * (x[0] - x[1]), x[4] - 1.7 * (x[3] - x[4]), x[7] - 0.9 * (x[6] - x[7])
+    x[6], x[8] = x[7] + [0.0, 0.4, 0.0], x[7] - [0.0, 0.7, 0.0]
+    masses, stiffness = np.arange(15).reshape(5, 3), np.array([0.3, 0.4, 0.5, 0.6, 0.7])
+    rest = np.array([np.pi, np.pi, np.pi, 1.0, 2.0])
+    forces = forces_on_masses(AngularSprings(masses, stiffness, rest), x)
+    matrices = derivatives(AngularSprings(masses, stiffness, rest), x)
+    for j in range(5):
+        alone = AngularSprings(masses[j : j + 1], stiffness[j : j + 1], rest[j : j + 1])
+        one = forces_on_masses(alone, x)
+        assert forces[3 * j : 3 * j + 3] == pytest.approx(one[3 * j : 3 * j + 3], abs=1e-12)
+        assert matrices[j] == pytest.approx(derivatives(alone, x)[0], abs=1e-12 * np.abs(matrices[j]).max())
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_arms_in_line_that_rest_bent_have_a_direction_in_the_plane_only(dimension: int) -> None:
     """Of four masses in line; forces there are kappa beta/l. Without stiffness there are none, and no derivatives."""
@@ -307,6 +323,34 @@ def test_what_has_no_angle_or_no_plane_is_refused() -> None:
         find_scene("chain").system({"angular_stiffness": 1.0})
     with pytest.raises(InputError, match="no certain plane"):
         three(CORNERS["space, in line"], rest_angles=np.array(2.0))
+
+
+@pytest.mark.parametrize(
+    ("masses", "rest_angles", "said"),
+    [
+        ([[0, 1, 2], [1, 2, 3]], 1.0, "[1].masses = [1, 2, 3]: expected the last mass apart from the middle one"),
+        ([[0, 1, 2], [3, 2, 1]], 1.0, "[1].masses = [3, 2, 1]: expected the first mass apart from the middle one"),
+        ([[0, 1, 2], [0, 1, 5]], 1.0, "[1].masses = [0, 1, 5]: expected masses from 0 to 4"),
+        ([[0, 1, 2], [0, -1, 2]], 1.0, "[1].masses = [0, -1, 2]: expected masses from 0 to 4"),
+        ([[0, 1, 2], [2, 1, 2]], 1.0, "[1].masses = [2, 1, 2]: expected three different masses"),
+        ([[0, 1, 2], [1, 0, 2]], [1.0, -0.1], "[1].rest_angle = -0.1: expected a number from 0 to pi [rad]"),
+        ([[0, 1, 2], [1, 0, 2]], [1.0, 3.1417], "[1].rest_angle = 3.1417: expected a number from 0 to pi [rad]"),
+        ([[0, 1, 2], [0, 1, 4]], [1.0, 3.0], "[1].rest_angle = 3: expected masses that are in line to rest in line (3"),
+        ([[0, 1, 2], [1, 0, 4]], [1.0, 1.0], "[1].rest_angle = 1: expected masses that are in line to rest in line (0"),
+    ],
+)
+def test_the_first_wrong_one_is_named_by_its_number(masses: Any, rest_angles: Any, said: str) -> None:
+    """Of two in space of which the second is wrong: two of the five masses start in one place, three are in line."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [1, 1, 0], [2, 0, 0]]),
+        springs=np.zeros((0, 2), dtype=int),
+        masses=np.array(1.0),
+        rest_lengths=np.zeros(0),
+        stiffness=np.zeros(0),
+    )
+    with pytest.raises(InputError) as refused:
+        replace(system, angular_springs=AngularSprings(np.array(masses), np.array(1.0), np.array(rest_angles)))
+    assert str(refused.value).startswith(f"angular_springs{said}")
 
 
 @pytest.mark.parametrize("written", [3.14159, 3.1416])
