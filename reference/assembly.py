@@ -238,7 +238,7 @@ def solve_velocities(system: MassSpringSystem, blocks: Blocks, right: Array) -> 
         result[free] = _dense_solution(matrix, momentum).reshape(-1, system.dimension)
         return result
     mass = np.repeat(system.masses[free], system.dimension)
-    matrix = assemble(system, -1.0 * blocks, sparse=False if many else None)
+    matrix = assemble(system, -1.0 * blocks)
     momentum = (mass * right[free].reshape(size, *right.shape[2:]).T).T
     if isinstance(matrix, np.ndarray):
         matrix.flat[:: size + 1] += mass  # the diagonal

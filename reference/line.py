@@ -44,9 +44,8 @@ def system_in_plane(system: MassSpringSystem) -> MassSpringSystem:
 
 def is_vertical(system: MassSpringSystem) -> bool:
     """Whether a system of the plane stays on a vertical line, as what is along a line does there."""
-    across = system.positions[:, 0]
     sideways = (system.velocities[:, 0], system.gravity[:1], system.pulls[..., 0])
-    return bool((across == across[0]).all()) and not system.obstacles and not any(q.any() for q in sideways)
+    return bool(np.ptp(system.positions[:, 0]) == 0) and not system.obstacles and not any(q.any() for q in sideways)
 
 
 def system_on_line(system: MassSpringSystem) -> MassSpringSystem:

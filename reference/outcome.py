@@ -184,7 +184,7 @@ def _energy_ratios(
     mass, stiffness = _most(system, "mass", changes), _most(system, "stiffness", changes)
     gravity = np.linalg.norm(_most(system, "gravity", changes))
     v = trajectory.velocities
-    stiffest = system.with_parameter("stiffness", stiffness.tolist()) if changes and len(stiffness) else system
+    stiffest = system.with_parameter("stiffness", stiffness.tolist())
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         elastic = energy_of_springs(stiffest, length - system.rest_lengths)
         bent, of_a_radian = _bent(system, x)

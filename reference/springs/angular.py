@@ -83,7 +83,7 @@ class AngularSprings:
             refuse_rest_angles(rest_angles, bad, expected)
             rest_angles = np.where(straight, laid_out, np.minimum(rest_angles, np.pi))
         whole = AngularSprings(masses, np.array(stiffness), rest_angles)
-        for array in (whole.masses, whole.stiffness, whole.rest_angles):
+        for array in vars(whole).values():
             array.flags.writeable = False
         return whole
 

@@ -215,7 +215,10 @@ def test_the_first_two_that_start_in_one_another_are_named() -> None:
 
 def test_one_that_is_round_meets_nobody() -> None:
     """So nothing collides; and renumbered masses keep their radii."""
-    assert two(collisions=Collisions(np.array([0.1, 0.0]))).collisions is None
+    for restitution in (0.0, 0.5):
+        assert two(collisions=Collisions(np.array([0.1, 0.0]), restitution)).collisions is None
+    with pytest.raises(InputError, match=r"^restitution = 0.5: expected radii above zero with it: nothing collides$"):
+        two(collisions=Collisions(np.zeros(2), 0.5))
     turned = two().renumbered([1, 0]).collisions
     assert turned is not None
     assert turned.radii.tolist() == [0.2, 0.1]

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from reference.collisions.round_masses import Collisions
 from reference.distance_constraints import DENSE_UP_TO, Rods, RopeMotion
-from reference.errors import SolverError
+from reference.errors import InputError, SolverError
 from reference.motion import MotionOfRods
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme
 from reference.schemes.constrained import COMPLIANCE, IMPEDANCE, ROPE_KICK_DRIFT
 from reference.simulate import simulate
+from reference.springs.angular import AngularSprings
+from reference.springs.kinds import NonlinearSprings
 from reference.state import Array, State
 from reference.stepper import catalogued
 from reference.system import MassSpringSystem
@@ -269,3 +273,22 @@ def test_rods_between_fixed_masses_hold_nothing() -> None:
     for fixed in ([True, True, False, False], [True] * 4):
         outcome = catalogued()["rope_kick_drift"].run(replace(system, fixed=np.array(fixed)), 1e-3, 10)
         assert outcome.ending == "done"
+
+
+@pytest.mark.parametrize("motion", [RopeMotion, PendulumMotion], ids=label)
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"rest_lengths": np.array([0.125, 0.0, 0.125])}, "expected rest lengths > 0"),
+        ({"pulls": np.array([[0.0, 0.0], [0.0, 0.0], [0.0, 1.0], [0.0, 0.0]])}, "expected no force that pulls"),
+        ({"collisions": Collisions(np.array([0.01, 0.0, 0.01, 0.0]))}, "expected masses that do not collide"),
+        ({"nonlinear": NonlinearSprings(hardening=np.array([0.0, 1.0, 0.0]))}, "rods have no hardening"),
+        ({"angular_springs": AngularSprings(np.array([[0, 1, 2]]), np.array(1.0))}, "no springs that resist bending"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_what_rods_do_not_have_is_refused(motion: EquationsOf, fields: dict[str, Any], said: str) -> None:
+    """One such spring, force or pair among others is enough."""
+    system = find_scene("string").system({"masses": 3})
+    with pytest.raises(InputError, match=said):
+        motion(replace(system, **fields))

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from reference.jit import HEADER, array, compiled, module, text_of
+from reference.jit import HEADER, INNER, array, compiled, module, text_of
 from reference.state import Array
 
 
@@ -33,6 +33,7 @@ def test_what_is_compiled_is_the_text_without_its_types_and_docstring() -> None:
     assert text_of(ratio).endswith("\ndef ratio(a, b):\n    return a / b")
     assert text_of(squared_ratio).endswith("\ndef squared_ratio(a, b):\n    return ratio(a, b) ** 2")
     assert text_of(ratio).startswith("@njit(")
+    assert text_of(ratio, inner=True) == text_of(ratio).replace("'numpy')", f"'numpy', {INNER})")
 
 
 def test_functions_call_those_before_them_and_divide_as_numpy_does(kernels: Path) -> None:

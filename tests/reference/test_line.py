@@ -180,6 +180,7 @@ def test_all_of_a_system_is_put_into_the_plane() -> None:
     for name in ("positions", "velocities", "gravity"):
         assert np.array_equal(getattr(plane, name), in_plane(getattr(made, name)))
         assert np.array_equal(on_line(getattr(plane, name)), getattr(made, name))
+        assert not np.shares_memory(on_line(getattr(plane, name)), getattr(plane, name))
     assert plane.obstacles == (Plane((0.0, -9.0), (0.0, 1.0)),)
     flat = random_mesh(1, 5, 2)
     assert system_in_plane(flat) is flat
@@ -203,8 +204,8 @@ def test_what_leaves_the_vertical_line_in_any_way_is_of_the_plane(name: str) -> 
 
 def test_a_pull_along_the_line_is_one_upwards() -> None:
     """Other parameters have the same names there."""
-    names = ["pull.3.x", "stiffness", "mass"]
-    assert [parameter_in_plane(name) for name in names] == ["pull.3.y", "stiffness", "mass"]
+    names = ["pull.3.x", "pull.3.z", "stiffness", "mass.x"]
+    assert [parameter_in_plane(name) for name in names] == ["pull.3.y", "pull.3.z", "stiffness", "mass.x"]
 
 
 @pytest.mark.parametrize("value", [3.0, [3.0], (-2.0,)])

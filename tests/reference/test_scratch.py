@@ -70,3 +70,26 @@ def test_what_is_not_known_to_be_left_is_let_be(tmp_path: Path) -> None:
         next(n for n in before if n.startswith(dead[0]) and len(n) > len(dead[0]) + 4)
     }
     assert len([*tmp_path.iterdir()]) == 5
+
+
+#: A process number beyond all that Linux gives.
+NOBODY = 99_999_999
+
+
+def test_what_somebody_else_has_just_removed_is_not_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It was listed, and is no longer there."""
+    space = int(OWNED.match(owner_prefix())[1])  # type: ignore[index]
+    gone, there = (f"springlab-{space}-{NOBODY}-{started}-x" for started in (1, 2))
+    (tmp_path / there).mkdir()
+    monkeypatch.setattr("reference.scratch.os.listdir", lambda _: [gone, there])
+    assert sweep(tmp_path) == [tmp_path / there]
+
+
+def test_where_nobody_is_known_to_be_dead_all_is_let_be(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As on systems without /proc."""
+    space = int(OWNED.match(owner_prefix())[1])  # type: ignore[index]
+    (tmp_path / f"springlab-{space}-{NOBODY}-1-x").mkdir()
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "exists", lambda _: False)
+        assert sweep(tmp_path) == []
+    assert len(sweep(tmp_path)) == 1

@@ -37,6 +37,36 @@ def test_the_springs_nearest_to_a_fixed_mass_come_first_however_they_are_numbere
     assert in_order(held, "from_fixed").tolist() == [2, 3, 0, 1]
 
 
+@pytest.mark.parametrize(
+    ("order", "expected"),
+    [
+        ("colours", [*range(0, 60, 2), *range(1, 60, 2)]),
+        ("fixed_last", [*range(1, 60, 2), *range(2, 60, 2), 0]),
+        ("newest_first", [*range(59, 0, -2), *range(58, 0, -2), 0]),
+    ],
+)
+def test_springs_of_one_colour_keep_their_order_on_a_long_string_too(order: str, expected: list[int]) -> None:
+    """Sixty springs of two colours: as made, or the newest first."""
+    assert in_order(find_scene("string").system({"masses": 60}), order).tolist() == expected
+
+
+def test_a_walk_round_a_ring_by_hand() -> None:
+    """From mass 4 by springs 1 and 0; on from 1, put aside last, to 0 and back to 2, which is put aside already.
+
+    So from 0 it goes on to 3 before 2 has its turn.
+    """
+    ring = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [1.0, 1.0]]),
+        springs=np.array([[4, 1], [4, 2], [2, 0], [2, 1], [1, 0], [0, 3]]),
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(1.0),
+    )
+    assert in_order(ring, "island").tolist() == [1, 0, 4, 3, 5, 2]
+    held = replace(ring, fixed=np.arange(5) == 0)
+    assert in_order(held, "island").tolist() == [1, 0, 4, 3, 2, 5]
+
+
 def test_a_long_spring_from_a_fixed_mass_comes_before_short_ones_that_are_farther() -> None:
     """It is the nearer end that counts: 0 m of the springs of mass 0, and 1 m of the one between the others."""
     system = MassSpringSystem(

@@ -52,6 +52,15 @@ def test_what_one_spring_has_of_three(
     assert not any(getattr(found, name).flags.writeable for name in KINDS)
 
 
+def test_what_it_was_made_from_stays_as_it_was() -> None:
+    """Neither shared nor made read-only."""
+    hardening = np.array([1.0, 2.0, 3.0])
+    found = NonlinearSprings(hardening=hardening).checked(3)
+    hardening[0] = 7.0
+    assert found is not None
+    assert found.hardening.tolist() == [1.0, 2.0, 3.0]
+
+
 def test_parts_of_a_law_by_hand() -> None:
     """Some of its springs; the same with one of them linear; with two linear ones listed after them."""
     whole = law(hardening=[1.0, 0.0, 3.0], breaking_force=[5.0, 6.0, INF], tension_only=[False, True, False]).checked(3)
