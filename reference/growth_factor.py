@@ -14,8 +14,7 @@ def growth_factor(jacobian: Array) -> float:
     """The largest modulus of an eigenvalue of a step's Jacobian (its spectral radius, or amplification factor).
 
     Eigenvalues of 1 are left out. They are of motion that no force resists, which goes on as it is begun; they come in
-    pairs, and rounding tears a pair apart by its own root. Never below 1 - UNRESISTED: how fast all else dies away is not
-    told.
+    pairs, and rounding tears a pair apart by its own root. Never below 1 - UNRESISTED: no faster decay is told.
     """
     if not np.isfinite(jacobian).all():
         return np.inf
