@@ -86,7 +86,7 @@ class Step:
             np.array_equal(self.start[0], state.positions) and np.array_equal(self.start[1], state.velocities)
         )
         self.end = np.array(end.positions, float), np.array(end.velocities, float)
-        if self.end[0].shape != self.start[0].shape or self.end[1].shape != self.start[1].shape:
+        if self.end[0].shape != self.start[0].shape:
             raise InputError(f"it returns arrays of shape {self.end[0].shape}: expected {self.start[0].shape}")
         return end
 
@@ -103,6 +103,7 @@ class Solved:
         rates: the slopes at these.
         parts: at what parts of h the step said that it asked, in order.
         calls: how often it asked; and how often a step asks whose slopes are a thousandth of these.
+        overwrites: whether it wrote into y0.
     """
 
     h: float
@@ -114,6 +115,7 @@ class Solved:
     rates: tuple[Array, ...]
     parts: tuple[float, ...] = ()
     calls: tuple[int, int] = (0, 0)
+    overwrites: bool = False
 
 
 @dataclass(frozen=True)
@@ -135,7 +137,8 @@ class Recording:
     @property
     def overwrites(self) -> bool:
         """Whether it writes into the state it is given."""
-        return any(step.overwrites for row in self.unit for step in row)
+        solved = self.solved is not None and self.solved.overwrites
+        return solved or any(step.overwrites for row in self.unit for step in row)
 
 
 def record(advance: Callable[[], Advance], timed: bool = True) -> Recording:
@@ -226,4 +229,4 @@ def _solved(advance: Advance, another: Advance) -> Solved:
     points, slopes = (tuple(map(np.concatenate, pairs)) for pairs in (step.points, step.answers))
     parts = tuple((time - step.begun_at) / h for time in step.times)
     calls = len(step.times), len(gentle.times)
-    return Solved(h, row[0], row[1], points, slopes, tuple(ys), tuple(rates), parts, calls)
+    return Solved(h, row[0], row[1], points, slopes, tuple(ys), tuple(rates), parts, calls, step.overwrites)
