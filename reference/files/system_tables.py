@@ -25,7 +25,7 @@ BESIDES = (*KINDS, "radii", "restitution", "angular_stiffness")
 Vectors = list[float | list[float]]
 
 
-class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
+class SpringsTable(msgspec.Struct, forbid_unknown_fields=True):
     """What the tables [system] and [mesh] may say besides: of springs that are not linear, of masses that collide."""
 
     tension_only: bool | list[int] = False
@@ -51,7 +51,7 @@ class SpringsTable(msgspec.Struct, forbid_unknown_fields=True, kw_only=True):
         return NonlinearSprings(**given)
 
 
-class SystemTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
+class SystemTable(SpringsTable, kw_only=True):
     """The table [system]."""
 
     positions: Vectors
@@ -86,7 +86,7 @@ class SystemTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
         return with_bending(MassSpringSystem(**values), self.angular_stiffness)
 
 
-class MeshTable(SpringsTable, forbid_unknown_fields=True, kw_only=True):
+class MeshTable(SpringsTable, kw_only=True):
     """The table [mesh]."""
 
     file: str

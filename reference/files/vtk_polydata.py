@@ -8,7 +8,7 @@ Kitware, "Simple Legacy Formats".)
 from __future__ import annotations
 
 import re
-from itertools import pairwise
+from itertools import groupby, pairwise
 from typing import Any
 
 import numpy as np
@@ -130,11 +130,5 @@ def _elements(name: bytes, cells: list[npt.NDArray[Any]]) -> list[tuple[str, npt
     if name == b"LINES":
         pairs = [pair for cell in cells for pair in pairwise(cell.tolist())]
         return [("line", np.array(pairs))] if pairs else []
-    together: list[list[npt.NDArray[Any]]] = []
-    for cell in cells:
-        if together and len(together[-1][0]) == len(cell):
-            together[-1].append(cell)
-        else:
-            together.append([cell])
     kinds = {3: "triangle", 4: "quad"}
-    return [(kinds.get(len(some[0]), "polygon"), np.stack(some)) for some in together if len(some[0])]
+    return [(kinds.get(n, "polygon"), np.stack(list(some))) for n, some in groupby(cells, len) if n]

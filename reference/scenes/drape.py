@@ -73,7 +73,7 @@ def disc(radius: float, spacing: float, sample: int = 0) -> Disc:
     if not 0 < 2 * spacing <= radius:
         raise InputError(f"spacing = {spacing:g}: expected a number from 0 to {radius / 2:g}, half the radius [m]")
     counted("masses", int(min(2 * pi / sqrt(3) * (radius / spacing) ** 2, 1e18)), 1, MOST_MASSES)
-    reach = int(np.ceil(2 * radius / spacing / sqrt(3))) + 2
+    reach = int(2 * radius / spacing / sqrt(3)) + 2
     along, across = np.meshgrid(*[np.arange(-reach, reach + 1)] * 2)
     shift = np.random.default_rng(sample).uniform(-0.5, 0.5, 2)
     i, j = along + shift[0], across + shift[1]
