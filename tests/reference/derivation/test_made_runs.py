@@ -1,0 +1,347 @@
+"""What is derived of runs that are made here, from 2 x 2 matrices and errors of one's own choosing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from reference.derivation.difference_equation import DifferenceEquation, difference_equation
+from reference.derivation.explanation import _rounds_to_single, _swapped
+from reference.derivation.fit import Samples
+from reference.derivation.formula import ONE, Formula
+from reference.derivation.nonlinear_order import END_OF_ONE, END_OF_TWO, nonlinear_order, order_of_two_masses
+from reference.derivation.oscillators import ASIDE, DT, Run, Runs, end_of, matrices_at, oscillator, rows_of_steps
+from reference.derivation.pasts import MANY, after_many, pasts
+from reference.derivation.seen import NOTHING, forces_of
+from reference.derivation.step_matrix import COARSER, RODS, SOFTER, StepMatrix, step_matrix
+from reference.derivation.substeps import as_whole, of_substeps
+from reference.errors import Unsupported
+from reference.outcome import Outcome
+from reference.state import Array, Trajectory
+from reference.system import MassSpringSystem
+
+#: m11, m12, m21, m22 from a, b and d, each shape (n,).
+Rule = Callable[[Array, Array, Array], Sequence[Array | float]]
+
+
+def kick_drift(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
+    """As textbooks have it."""
+    return 1 - a, 1 - b - d, -a, 1 - b - d
+
+
+def runs_of(rule: Rule, refused: Callable[[MassSpringSystem], str] = lambda system: "") -> Runs:
+    """A stepper that multiplies (x, h v) of oscillators by the rule's matrix; it refuses some systems."""
+
+    def run(asked: Run) -> Outcome:
+        system, h, steps = asked
+        if reason := refused(system):
+            return Outcome("unsupported", reason)
+        mass = system.masses[1::2]
+        a, b, d = system.stiffness * h**2 / mass, system.damping * h / mass, system.drag * h / mass
+        entries = [np.broadcast_to(entry, a.shape) for entry in rule(a, b, d)]
+        matrices = np.stack(entries, axis=1).reshape(-1, 2, 2)
+        x, v = [system.start.positions], [system.start.velocities]
+        for _ in range(steps):
+            now = np.stack([-1.0 - x[-1][1::2, 0], -h * v[-1][1::2, 0]], axis=1)
+            moved = (matrices @ now[:, :, None])[:, :, 0]
+            x.append(x[0].copy())
+            v.append(v[0].copy())
+            x[-1][1::2, 0], v[-1][1::2, 0] = -1.0 - moved[:, 0], -moved[:, 1] / h
+        return Outcome("done", "", Trajectory(h * np.arange(steps + 1.0), np.stack(x), np.stack(v)))
+
+    return lambda asked: [run(each) for each in asked]
+
+
+def together(system: MassSpringSystem) -> str:
+    """For who steps one mass only."""
+    return "one mass only" if len(system.masses) > 2 else ""
+
+
+# --- Step matrices ---
+
+
+def test_a_matrix_is_seen_side_by_side_and_one_by_one() -> None:
+    """The same from both; of another at another h with the same a, b and d that h is told."""
+    text = [["1 - a", "1 - b - d"], ["-a", "1 - b - d"]]
+    for refused in (lambda system: "", together):
+        found = step_matrix(runs_of(kick_drift, refused))
+        assert (found.text(), found.damped, found.dragged, found.only_at) == (text, True, True, None)
+        assert (found.softer, found.coarser, found.substeps, found.left_out) == (1.0, 1.0, 1, ())
+    unlike = Samples(np.array([0.5, 1.5]), np.array([0.25, 0.5]), np.array([0.125, 0.75]))
+    expected = np.stack(np.broadcast_arrays(*kick_drift(unlike.a, unlike.b, unlike.d)), axis=1).reshape(2, 2, 2)
+    for refused in (lambda system: "", together):
+        measured = matrices_at(runs_of(kick_drift, refused), unlike)
+        np.testing.assert_allclose(measured, expected, atol=1e-14)
+        rows = rows_of_steps(runs_of(kick_drift, refused), unlike, 3)
+        assert rows.shape == (2, 4, 2)
+        np.testing.assert_allclose(rows[:, 3], np.linalg.matrix_power(expected, 3)[:, 0].T, atol=1e-14)
+
+
+def test_a_matrix_of_few_digits_is_seen_coarsely() -> None:
+    """Off by 1e-10, as what is differenced is: its fractions are found all the same, and that it is so is told."""
+
+    def rough(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
+        return [np.asarray(entry) + 1e-10 * np.sin(1e6 * a + i) for i, entry in enumerate(kick_drift(a, b, d))]
+
+    found = step_matrix(runs_of(rough))
+    assert (found.text()[0], found.coarser, found.softer) == (["1 - a", "1 - b - d"], COARSER, 1.0)
+    with pytest.raises(Unsupported, match="to the digits of single precision"):
+        step_matrix(runs_of(lambda a, b, d: (np.sqrt(1 + 40 * a), 1.0, -a, 1.0)), "single")
+
+
+def test_a_matrix_of_soft_springs_only_is_seen_of_these() -> None:
+    """As of iterations that converge there only; but not where its numbers are no fractions there."""
+
+    def of(factor: float) -> Rule:
+        def soft(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
+            return np.where(a <= 0.25, 1 - factor * a, np.cos(9 * a)), 1.0, -a, 1 - b - d
+
+        return soft
+
+    found = step_matrix(runs_of(of(0.5)))
+    assert (found.text(), found.softer, found.coarser) == ([["1 - a/2", "1"], ["-a", "1 - b - d"]], SOFTER, 1.0)
+    with pytest.raises(Unsupported, match=r"no small rational function of a, b and d gives m11 of its step matrix$"):
+        step_matrix(runs_of(of(0.123456789)))
+
+
+@pytest.mark.parametrize(
+    ("rule", "said"),
+    [
+        (lambda a, b, d: (1e4 * a, 1.0, -a, 1.0), "a step multiplies an oscillator by up to 2e"),
+        (lambda a, b, d: (1.0, 0.0, 0.0, 1.0), "a step changes nothing"),
+        (lambda a, b, d: (1.0, 1.0, 0.0, 1.0 - b), RODS),
+        (lambda a, b, d: (np.cos(a**0.5), np.sin(a**0.5) / a**0.5, np.sin(a), 2.0), "gives m11, m12, m21 of its step"),
+    ],
+)
+def test_why_there_is_no_matrix(rule: Rule, said: str) -> None:
+    """It diverges; it changes nothing; nothing depends on stiffness; some entries follow no formula."""
+    with pytest.raises(Unsupported, match=said):
+        step_matrix(runs_of(rule, lambda system: "one axis only" if system.dimension > 1 else ""))
+
+
+def test_a_true_motion_is_told_as_that() -> None:
+    """Of undamped oscillators: cosine and sine of the root of a, to 1e-16."""
+
+    def true(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
+        w = np.sqrt(a)
+        return np.cos(w), np.sin(w) / w, -w * np.sin(w), np.cos(w)
+
+    def undamped(system: MassSpringSystem) -> str:
+        return "no damping" if system.damping.any() or np.any(system.drag) or len(system.masses) > 2 else ""
+
+    with pytest.raises(Unsupported, match=r"a step is an oscillator's true motion, to .* of it"):
+        step_matrix(runs_of(true, undamped))
+
+
+def test_sub_steps_are_taken_apart() -> None:
+    """Three of kick-drift, in a/9 and b/3: the matrix of one, and the whole again."""
+    at = Samples(*(np.random.default_rng(2).uniform(0.05, 0.9, (3, 60))))
+    one = np.stack(np.broadcast_arrays(*kick_drift(at.a / 9, at.b / 3, at.d / 3)), axis=1).reshape(-1, 2, 2)
+    whole = as_whole(one, 3)
+    # (x, h v) in place of (x, h v/3)
+    scale = np.diag([1.0, 3.0])
+    np.testing.assert_allclose(whole, scale @ one @ one @ one @ np.linalg.inv(scale), atol=1e-14)
+    found = of_substeps(at, whole, 1e-13)
+    assert found is not None
+    assert (found[0], [str(entry) for entry in found[1]]) == (3, ["1 - a", "1 - b - d", "-a", "1 - b - d"])
+    assert of_substeps(at, whole, 1e-13, counts=(4, 2)) is None
+    assert of_substeps(at, np.where(whole == whole[0, 0, 0], np.inf, whole), 1e-13) is None
+    # one eigenvector only: nothing is told of roots
+    assert of_substeps(at, np.tile([[1.0, 1.0], [0.0, 1.0]], (60, 1, 1)), 1e-13) is None
+
+
+def test_forces_are_not_looked_for_where_stiffness_is_divided_by() -> None:
+    """In whichever entry: the runs are not asked for."""
+
+    def none(asked: Sequence[Run]) -> list[Outcome]:
+        raise AssertionError
+
+    a = (1, 0, 0, 0, 0)
+    plain, divided = Formula({ONE: Fraction(1)}), Formula({ONE: Fraction(1)}, {ONE: Fraction(1), a: Fraction(1)})
+    at = Samples(np.zeros(1), np.zeros(1), np.zeros(1))
+    for i in range(4):
+        m11, m12, m21, m22 = (divided if i == j else plain for j in range(4))
+        reasons: list[str] = []
+        matrix = StepMatrix((m11, m12, m21, m22), False, False, at, np.zeros((1, 2, 2)))
+        assert (forces_of(none, matrix, reasons), reasons) == (NOTHING, [])
+
+
+# --- Velocities that are not told ---
+
+
+def untold(runs: Runs, where: tuple[int, ...]) -> Runs:
+    """The same, one of whose velocities is no number."""
+
+    def spoiled(asked: Sequence[Run]) -> list[Outcome]:
+        outcomes = runs(asked)
+        for outcome in outcomes:
+            assert outcome.trajectory is not None
+            outcome.trajectory.velocities[where] = np.nan
+        return outcomes
+
+    return spoiled
+
+
+def test_a_velocity_that_is_no_number_is_none() -> None:
+    """One of two is enough; the reason is the run's own where it has one."""
+    bad = untold(runs_of(kick_drift), (-1, 1, 0))
+    (outcome,) = bad([Run(oscillator(0.5, 0.0, 0.0, ASIDE), DT)])
+    with pytest.raises(Unsupported, match=r"^it tells no velocities$"):
+        end_of(outcome)
+    with pytest.raises(Unsupported, match=r"^it blew up$"):
+        end_of(Outcome("diverged", "it blew up", outcome.trajectory))
+    with pytest.raises(Unsupported, match=r"^it tells no velocities$"):
+        pasts(bad, "double", damped=False, dragged=False)
+    with pytest.raises(Unsupported, match=r"^it crashed$"):
+        pasts(lambda asked: [Outcome("crashed", "it crashed")] * len(asked), "double", damped=True, dragged=True)
+
+
+# --- Pasts ---
+
+
+def counting(first: int) -> Runs:
+    """Kick-drift, but for a hundredth of the displacement from a step of a run on."""
+
+    def runs(asked: Sequence[Run]) -> list[Outcome]:
+        outcomes = runs_of(kick_drift)(asked)
+        for outcome in outcomes:
+            assert outcome.trajectory is not None
+            outcome.trajectory.positions[first:, 1] += 0.01 * ASIDE
+        return outcomes
+
+    return runs
+
+
+def test_a_memory_of_many_steps_is_seen_after_many() -> None:
+    """What a step does after a thousand others: not among the first five, and by a hundredth then."""
+    few = pasts(counting(MANY), "double", damped=False, dragged=False)
+    assert (few.one_step, few.steps, few.apart) == (True, 5, 0.0)
+    many = after_many(counting(MANY), "double", few)
+    assert (many.one_step, many.deterministic, many.steps) == (False, True, MANY)
+    assert many.apart == pytest.approx(0.01, rel=1e-6)
+    none = after_many(runs_of(kick_drift), "double", few)
+    assert (none.one_step, none.apart, none.steps) == (True, 0.0, MANY)
+    assert after_many(runs_of(lambda a, b, d: (1.1, 0.0, 0.0, 1.1)), "double", few) == few  # it grows too far
+
+
+# --- Orders ---
+
+
+def ending(errors: Callable[[float], float], steps: int = 0) -> Runs:
+    """Runs that end beside the true end by errors of a dt [m]; of so many steps more than were asked for."""
+
+    def runs(asked: Sequence[Run]) -> list[Outcome]:
+        found = []
+        for system, dt, n in asked:
+            end = (END_OF_ONE if len(system.masses) == 2 else END_OF_TWO).copy()
+            end[1, 0] += errors(dt)
+            end[-1, 1] -= errors(dt) / 2
+            x = np.stack([system.positions] * (n + steps) + [end])
+            found.append(Outcome("done", "", Trajectory(dt * np.arange(n + steps + 1.0), x, np.zeros_like(x))))
+        return found
+
+    return runs
+
+
+@pytest.mark.parametrize(
+    ("errors", "order"),
+    [
+        (lambda dt: dt, 1),
+        (lambda dt: dt**2, 2),
+        (lambda dt: dt**1.75, 2),
+        (lambda dt: dt**2.25, 2),
+        (lambda dt: dt**1.65, None),
+        (lambda dt: dt**2.35, None),
+        (lambda dt: 1.0, 0),
+        (lambda dt: 1e-13, None),  # rounding tells nothing
+        (lambda dt: dt**2 if dt > 0.03 else 1e-13, 2),  # by what is above it
+        (lambda dt: np.nan if dt < 0.02 else dt, None),
+    ],
+)
+def test_an_order_is_told_within_three_tenths(errors: Callable[[float], float], order: int | None) -> None:
+    """By the largest error of any mass and axis, at the shortest steps that tell."""
+    assert nonlinear_order(ending(errors), False, False) == order
+    assert order_of_two_masses(ending(errors)) == order
+
+
+def test_a_run_that_does_not_come_to_its_end_tells_no_order() -> None:
+    """One that has another number of steps; none; a stepper that cannot."""
+
+    def cannot(asked: Sequence[Run]) -> list[Outcome]:
+        raise Unsupported("not across")
+
+    assert nonlinear_order(ending(lambda dt: dt**2, 1), False, False) is None
+    assert nonlinear_order(lambda asked: [Outcome("crashed", "gone")] * len(asked), False, False) is None
+    assert nonlinear_order(cannot, False, False) is None
+
+
+# --- What is looked at before all ---
+
+
+def test_numbers_of_single_precision_are_seen_as_such() -> None:
+    """All of them; one of two that is not, or is nothing, tells nothing."""
+
+    def single(which: str) -> Runs:
+        def runs(asked: Sequence[Run]) -> list[Outcome]:
+            outcomes = runs_of(kick_drift)(asked)
+            for outcome in outcomes:
+                assert outcome.trajectory is not None
+                for name in which.split():
+                    values = getattr(outcome.trajectory, name)
+                    values[:] = values.astype(np.float32)
+            return outcomes
+
+        return runs
+
+    assert _rounds_to_single(single("positions velocities"))
+    assert not _rounds_to_single(single("positions"))
+    assert not _rounds_to_single(single("velocities"))
+    assert not _rounds_to_single(runs_of(lambda a, b, d: (0.0, 0.0, 0.0, 0.0)))
+    assert not _rounds_to_single(lambda asked: [Outcome("crashed", "gone")])
+
+
+@pytest.mark.parametrize(
+    ("place", "speed", "swapped"), [(0.0, -1.0, True), (0.0, 0.0, False), (-1.0, -1.0, False), (-1.0, 0.0, False)]
+)
+def test_an_exchanged_pair_is_seen_from_rest(place: float, speed: float, swapped: bool) -> None:
+    """Where the velocity stands, and the position: both."""
+    x, v = np.array([[[0.0], [-1.0]], [[0.0], [place]]]), np.array([[[0.0], [0.0]], [[0.0], [speed]]])
+    assert _swapped(Outcome("done", "", Trajectory(np.array([0.0, DT]), x, v))) == swapped
+    assert not _swapped(Outcome("done", "", Trajectory(np.array([0.0]), x[:1], v[:1])))
+    assert not _swapped(Outcome("crashed", "gone"))
+
+
+# --- Difference equations ---
+
+
+def test_a_matrix_has_the_difference_equation_of_its_trace_and_determinant() -> None:
+    """X1 = T x0 - D x-1 (Cayley and Hamilton); of one that refuses damping without it."""
+    found = difference_equation(runs_of(kick_drift))
+    assert found.text() == ["1", "-2 + b + d + a", "1 - b - d"]
+    assert (found.damped, found.dragged, found.explicit, found.order, found.of_fast) == (True, True, True, 2, None)
+    undamped = difference_equation(runs_of(kick_drift, lambda system: "no damping" if system.damping.any() else ""))
+    assert (undamped.damped, undamped.dragged) == (False, True)
+    with pytest.raises(Unsupported, match=r"^not now$"):
+        difference_equation(runs_of(kick_drift, lambda system: "not now"))
+
+
+def test_orders_of_difference_equations_by_hand() -> None:
+    """Of x1 - 2 x0 + x-1 + a (beta x1 + (1 - 2 beta) x0 + beta x-1): Numerov's 4 at beta = 1/12, else 2."""
+    a = (1, 0, 0, 0, 0)
+
+    def of(beta: Fraction, middle: Fraction) -> DifferenceEquation:
+        side = Formula({ONE: Fraction(1), a: beta}) if beta else Formula({ONE: Fraction(1)})
+        return DifferenceEquation((side, Formula({ONE: Fraction(-2), a: middle}), side), False, False)
+
+    orders = {Fraction(1, 12): 4, Fraction(1, 4): 2, Fraction(0): 2}
+    assert {beta: of(beta, 1 - 2 * beta).order for beta in orders} == orders
+    assert of(Fraction(1, 4), Fraction(1, 3)).order == 0
+    assert [of(beta, 1 - 2 * beta).explicit for beta in orders] == [False, False, True]
+    assert of(Fraction(1, 4), Fraction(1, 2)).of_fast == pytest.approx(1.0, abs=1e-7)
+    assert (of(Fraction(1, 4), Fraction(1, 2)).real_axis, of(Fraction(0), Fraction(1)).of_fast) == (None, None)
+    # stable to h w = 2 where explicit, and to sqrt(6) of Numerov's
+    for beta, limit in ((Fraction(0), 2.0), (Fraction(1, 12), 6**0.5)):
+        assert of(beta, 1 - 2 * beta).imaginary_axis[0][1] == pytest.approx(limit, rel=1e-6)
