@@ -16,6 +16,7 @@ from tests.mutants.calls import Calls
 from tests.mutants.equivalent import entry_of, equivalents, is_meant
 from tests.mutants.kinds import KINDS
 from tests.mutants.mutations import Mutant, mutants
+from tests.mutants.near import judged_here
 from tests.mutants.verdicts import MISSED, Judge, Verdict
 
 ROOT = Path(__file__).parents[2]
@@ -24,6 +25,8 @@ ROOMS = ("reference", "engines", "experiments", "report")
 
 def sample(root: Path, places: Sequence[str], count: int, seed: int) -> list[Mutant]:
     """Mutants of the files in some places, chosen at random, of each kind as many as of the others if there are.
+
+    Files of engines that are not installed here are left out: nothing can be said of them.
 
     Args:
         places: files, or folders of them, as paths from the root.
@@ -34,8 +37,9 @@ def sample(root: Path, places: Sequence[str], count: int, seed: int) -> list[Mut
     known, chance = equivalents(root), random.Random(seed)
     kinds: dict[str, list[Mutant]] = {kind: [] for kind in KINDS}
     for file in files:
-        if file.suffix == ".py":
-            for mutant in mutants(file.relative_to(root).as_posix(), file.read_text(encoding="utf-8")):
+        name = file.relative_to(root).as_posix()
+        if file.suffix == ".py" and judged_here(name):
+            for mutant in mutants(name, file.read_text(encoding="utf-8")):
                 if not any(is_meant(entry, mutant) for entry in known):
                     kinds[mutant.kind].append(mutant)
     for found in kinds.values():

@@ -86,7 +86,7 @@ class ForkServer:
         if change is not None and not change_code(*change):
             return UNCHANGED
         before = session.testsfailed
-        for item, following in zip(items, [*items[1:], None], strict=True):
+        for item, following in zip(items, [*items[1:], None], strict=False):
             item.config.hook.pytest_runtest_protocol(item=item, nextitem=following)
             if session.testsfailed > before:
                 os.write(writing, f"{item.nodeid}\n".encode())

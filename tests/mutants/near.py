@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 
-from engines.engine import registry
+from engines.engine import registry, version
 from tests.import_graph import import_graph, modules_named
 
 #: How many imports away tests still are near.
@@ -92,3 +92,9 @@ def engines_of(source: str) -> list[str]:
     homes = {name: type(engine).__module__ for name, engine in registry().items()}
     entered = [name for name, home in homes.items() if home == module]
     return entered or [name for name, home in homes.items() if home.rpartition(".")[0] == module.rpartition(".")[0]]
+
+
+def judged_here(source: str) -> bool:
+    """Whether tests can run a file here: not that of an engine that is not installed."""
+    entered = engines_of(source)
+    return not entered or any(version(registry()[name]) is not None for name in entered)

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutants import verdicts
+from tests.mutants import near, verdicts
 from tests.mutants.__main__ import ROOMS, ROOT, main, sample
 from tests.mutants.equivalent import FIELDS, KEPT, entry_of, equivalents, is_meant
 from tests.mutants.kinds import KINDS
 from tests.mutants.mutations import Mutant, mutants
-from tests.mutants.near import Imports, engines_of
+from tests.mutants.near import Imports, engines_of, judged_here
 from tests.mutants.verdicts import Judge
 
 SOURCE = '''"""Springs, from 0 on."""
@@ -125,6 +125,16 @@ def test_a_sample_has_all_kinds_alike() -> None:
     assert kinds.keys() == KINDS.keys()
     rare = {"unstable sort", "unit", "dropped copy"}
     assert max(kinds.values()) - min(kinds[kind] for kind in KINDS.keys() - rare) <= 1
+
+
+def test_files_of_engines_that_are_not_installed_are_left_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing can be said of them; of a file that is no engine's something always can."""
+    assert judged_here("engines/pymunk/springs.py")
+    monkeypatch.setattr(near, "version", lambda engine: None)
+    assert not judged_here("engines/pymunk/springs.py")
+    assert judged_here("reference/forces.py")
+    assert not sample(ROOT, ["engines/pymunk"], 1000, 0)
+    assert sample(ROOT, ["engines/own"], 1000, 0)
 
 
 def test_list_shows_the_sample_and_runs_nothing(project: Path, capsys: pytest.CaptureFixture[str]) -> None:
