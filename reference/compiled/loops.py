@@ -165,8 +165,7 @@ class Loops:
     def _start(self, count: str) -> list[str]:
         """The loop over masses to where the first stage wants them, if that is not where they are."""
         first = self.program.stages[0]
-        at_once = _is("x", first[0]) and _is("v", first[1])
-        return [] if at_once else self._loop("i", count, [], self._assign(first))
+        return [] if first == (Expression("x"), Expression("v")) else self._loop("i", count, [], self._assign(first))
 
     def _obstacle_numbers(self) -> list[str]:
         return [f"o{k} = obstacles[{k}]" for k in range(self.obstacles.numbers if self.obstacles else 0)]
@@ -266,15 +265,15 @@ class Loops:
                 return f"now{axis}"
             if name in ("x", "v"):
                 return self._at(f"{name}{axis}", "i")
-            if name[0] == "a":
+            if name.startswith("a"):
                 return self._at(f"{name}_{axis}", "i")
-            return self._of_system(name) if name[0] == "c" else name
+            return self._of_system(name)  # c0, c1, ...
 
         return expression.text(entry)
 
 
 def _is(name: str, expression: Expression) -> bool:
-    return not expression.parts and expression.template == name
+    return expression == Expression(name)
 
 
 def indented(lines: list[str]) -> list[str]:

@@ -55,12 +55,12 @@ def numbering(system: MassSpringSystem) -> IntArray:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-    n, (a, b) = len(system.masses), system.springs.T
-    ends = (np.concatenate([a, b]), np.concatenate([b, a]))
-    joined = coo_array((np.ones(len(ends[0]), dtype=np.int8), ends), shape=(n, n)).tocsr()
+    n, springs = len(system.masses), system.springs
+    ends = np.concatenate([springs, np.fliplr(springs)]).T
+    joined = coo_array((np.ones(2 * len(springs), dtype=np.int8), ends), shape=(n, n)).tocsr()
     order = reverse_cuthill_mckee(joined, symmetric_mode=True).astype(np.int64)
-    springs = np.bincount(ends[0], minlength=n)[order]
-    return order[np.lexsort((springs, np.arange(n) // runs.BLOCK))]
+    count = np.bincount(springs.ravel(), minlength=n)[order]
+    return order[np.lexsort((count, np.arange(n) // runs.BLOCK))]
 
 
 def lists_of(system: MassSpringSystem, chunks: int = 1) -> dict[str, Any]:

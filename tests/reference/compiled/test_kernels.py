@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-import textwrap
-
 import numpy as np
 import pytest
 
-from reference.compiled import loops
 from reference.compiled.kernels import advance
-from reference.compiled.loops import Loops
 from reference.compiled.sweep import sweep
-from reference.compiled.tracing import trace
 from reference.errors import InputError, Unsupported
 from reference.schemes.catalogue import Scheme, find, schemes
 from reference.simulate import simulate
@@ -114,12 +109,3 @@ def test_a_sweep_of_nonsense_is_refused(parameters: dict[str, Array], message: s
     with pytest.raises(InputError) as refused:
         sweep(STRING, find("heun"), np.full(2, DT), 5, parameters)
     assert str(refused.value) == message
-
-
-def test_the_example_in_the_docstring_of_the_loops_is_what_is_made() -> None:
-    """Euler on a string in the plane, line for line."""
-    text = Loops(trace(find("euler")), 2, string=True).text()
-    made = textwrap.dedent(text[text.index("    for step in range(steps):") :])
-    documented = loops.__doc__ or ""
-    example = documented[documented.index("    for step in range(steps):") : documented.index("No mass writes")]
-    assert textwrap.dedent(example).split() == made.split()
