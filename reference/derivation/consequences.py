@@ -192,7 +192,7 @@ def _periods(matrix: StepMatrix, below: float) -> Iterator[tuple[float, float, f
     """At some h w: the numerical period over the true one, and what a period multiplies amplitudes by."""
     for s in ANGLES:
         m = matrix.at(np.array([s**2]), np.zeros(1), np.zeros(1))[0]
-        value = np.linalg.eigvals(m)[0]
-        angle = abs(float(np.angle(value)))
+        value = max(np.linalg.eigvals(m), key=np.imag)  # of the pair the one that turns forwards
+        angle = float(np.angle(value))
         if s < below and value.imag:
             yield s, s / angle, float(abs(value) ** (2 * np.pi / angle))

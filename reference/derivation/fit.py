@@ -14,7 +14,7 @@ from itertools import product
 
 import numpy as np
 
-from reference.derivation.formula import ONE, VARIABLES, WEIGHTS, Formula, Monomial, Number, evaluated, weight
+from reference.derivation.formula import ONE, Formula, Monomial, Number, evaluated, weight
 from reference.derivation.small_fractions import fraction_or_itself
 from reference.state import Array
 
@@ -136,11 +136,11 @@ def _shapes(damped: bool, dragged: bool) -> tuple[tuple[tuple[Monomial, ...], tu
     """Terms above and below to try, the fewest first; exponentials of damping and of drag come after all others."""
     plain = [*_plain(damped, dragged)]
     plain.sort(key=lambda shape: len(shape[0]) + len(shape[1]))
-    decays = [e for e, there in (("E", damped), ("D", dragged)) if there]
+    decays = [decay for decay, there in (((1, 0), damped), ((0, 1), dragged)) if there]
     exponential = [
-        (tuple(m if not e else _times(m, e) for e in (None, which) for m in _monomials(n, damped, dragged)), ())
+        (tuple((*m[:3], *power) for power in ((0, 0), decay) for m in _monomials(n, damped, dragged)), ())
         for n in (2, 3, 4)
-        for which in decays
+        for decay in decays
     ]
     return (*plain, *exponential)
 
@@ -154,16 +154,9 @@ def _plain(damped: bool, dragged: bool) -> Iterator[tuple[tuple[Monomial, ...], 
 @cache
 def _monomials(most: int, damped: bool, dragged: bool) -> tuple[Monomial, ...]:
     """Those up to a power of h, of the variables that there are."""
-    powers = product(*(range(most // w + 1) if w and there else (0,) for w, there in _present(damped, dragged)))
-    found = [p for p in powers if weight((p[0], p[1], p[2], p[3], p[4])) <= most]
-    return tuple(sorted(((p[0], p[1], p[2], p[3], p[4]) for p in found), key=weight))
-
-
-def _present(damped: bool, dragged: bool) -> Iterator[tuple[int, bool]]:
-    return zip(WEIGHTS, (True, damped, dragged, False, False), strict=True)
-
-
-def _times(monomial: Monomial, variable: str) -> Monomial:
-    i = VARIABLES.index(variable)
-    more = [n + (j == i) for j, n in enumerate(monomial)]
-    return more[0], more[1], more[2], more[3], more[4]
+    found = [
+        (i, j, k, 0, 0)
+        for i, j, k in product(range(most // 2 + 1), range(most + 1), range(most + 1))
+        if 2 * i + j + k <= most and (damped or not j) and (dragged or not k)
+    ]
+    return tuple(sorted(found, key=weight))

@@ -80,7 +80,9 @@ class Formula:
         return np.asarray(above / below)
 
     def of_sum(self) -> Formula | None:
-        """The same with b alone, meaning b + d, where it depends on their sum only; else None."""
+        """The same with b alone, meaning b + d, where it depends on their sum only; else None: also of exponentials."""
+        if self.asks("E") or self.asks("D"):
+            return None
         alone = Formula(*({m: c for m, c in terms.items() if not m[2]} for terms in (self.numerator, self.denominator)))
         spread = Formula(*map(_of_both, (alone.numerator, alone.denominator)))
         return alone if spread == self else None
@@ -138,7 +140,7 @@ def exact_text(c: Number) -> str:
 
 def _of_both(terms: Terms) -> dict[Monomial, Number]:
     """With b + d in place of b, multiplied out."""
-    return {(m[0], m[1] - k, k, m[3], m[4]): comb(m[1], k) * c for m, c in terms.items() for k in range(m[1] + 1)}
+    return {(m[0], m[1] - k, k, 0, 0): comb(m[1], k) * c for m, c in terms.items() for k in range(m[1] + 1)}
 
 
 def _letters(monomial: Monomial) -> str:

@@ -60,8 +60,10 @@ def _order_on(system: MassSpringSystem, runs: Runs, true: Array) -> int | None:
     if not all(np.isfinite(errors)):
         return None
     told = [i for i in range(1, len(errors)) if errors[i] > ROUNDING]
-    orders = [float(np.log2(errors[i - 1] / errors[i])) for i in told[-1:]]
-    return round(orders[0]) if orders and abs(orders[0] - round(orders[0])) < NEAR else None
+    if not told:
+        return None
+    order = float(np.log2(errors[told[-1] - 1] / errors[told[-1]]))
+    return round(order) if abs(order - round(order)) < NEAR else None
 
 
 def swinging(damped: bool, dragged: bool) -> MassSpringSystem:

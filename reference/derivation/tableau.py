@@ -201,7 +201,8 @@ def _row(x: Form, v: Form, stages: int) -> tuple[Number, ...] | None:
         if not others.keys() <= allowed or any(c.power != 1 for c in others.values()):
             return None
         rows.append(tuple(_number(others, Symbol(slope, 0, j)) for j in range(stages)))  # type: ignore[arg-type]
-    return rows[0] if all(not _apart(p, q) for p, q in zip(*rows, strict=True)) else None
+    of_x, of_v = rows
+    return of_x if all(not _apart(p, q) for p, q in zip(of_x, of_v, strict=True)) else None
 
 
 def _apart(one: Number, other: Number, within: float = SAME) -> bool:

@@ -34,9 +34,9 @@ def mesh(springs: Any, masses: int = 4) -> MassSpringSystem:
     return MassSpringSystem(
         positions=np.stack([x, x**2], axis=1),
         springs=np.array(springs),
-        masses=0.1 + x,
-        rest_lengths=1.0 + np.arange(len(springs)),
-        stiffness=10.0 + np.arange(len(springs)),
+        masses=np.array(0.1 + x, dtype=np.float64),
+        rest_lengths=np.arange(1.0, 1 + len(springs)),
+        stiffness=np.arange(10.0, 10 + len(springs)),
         gravity=np.array([0.5, -9.81]),
         fixed=x == 0,
     )

@@ -57,6 +57,9 @@ def test_what_depends_on_a_sum_only_is_written_by_one_letter() -> None:
     assert str(Formula(above, below).of_sum()) == "(1 + b^2)/(1 + 3 b)"
     assert Formula({**above, (0, 1, 1, 0, 0): F(1)}, below).of_sum() is None
     assert Formula(above, {**below, D: F(2)}).of_sum() is None
+    # an exponential is of one of the two alone
+    assert Formula({(0, 1, 0, 1, 0): F(1), (0, 0, 1, 1, 0): F(1)}).of_sum() is None
+    assert Formula({DECAY: F(1)}).of_sum() is None
 
 
 def test_terms_are_written_by_powers_of_h() -> None:
@@ -78,6 +81,10 @@ def test_terms_are_written_by_powers_of_h() -> None:
         (2 * 3**0.5 + 1, "1 + 2 sqrt(3)"),
         (2 ** (1 / 3) / 4 - 3 * 4 ** (1 / 3), "cbrt(2)/4 - 3 cbrt(4)"),
         (3 * 2 ** (1 / 3) - 4 ** (1 / 3) / 12, "3 cbrt(2) - cbrt(4)/12"),
+        (1 + 2 ** (1 / 3) / 2, "1 + cbrt(2)/2"),
+        (4 ** (1 / 3) / 3, "cbrt(4)/3"),
+        (0.25, None),
+        (-7 / 12, None),
         (11**0.5, None),
         (3 * 3**0.5, None),
     ],
@@ -167,6 +174,9 @@ def test_what_is_divided_by_is_implicit() -> None:
     turned = consequences(of({ONE: F(1), A: F(-1, 2)}, {ONE: F(1), A: F(-1, 4)}, {A: F(-1)}, {ONE: F(1), A: F(-1, 2)}))
     assert (turned.symplectic, turned.reversible, turned.implicit) == (True, True, ())
     assert turned.imaginary_axis[0] == pytest.approx((0.0, 2.0), abs=1e-6)
+    # of determinant 1, and with equal diagonal entries at a = 1 only
+    apart = consequences(of({A: F(1)}, {ONE: F(1)}, {ONE: F(-1), A: F(1)}, {ONE: F(1)}))
+    assert (apart.symplectic, apart.reversible) == (True, False)
 
 
 # --- The nearest scheme ---
@@ -259,6 +269,8 @@ def test_methods_of_the_textbook(name: str) -> None:
     found = multistep_of(*row(name, 12))
     assert found is not None
     assert found == known
+    h, states, slopes = row(name, 12)  # one more, that stands still
+    assert multistep_of(h, [np.append(y, 1.0) for y in states], [np.append(f, 0.0) for f in slopes]) == known
     assert [other for other in METHODS if known.same(method(other))] == [name]
     assert not known.same(replace(known, beta=(*known.beta[:-1], known.beta[-1] + 2e-8)))
     assert known.same(replace(known, beta=(*known.beta[:-1], float(known.beta[-1]) + 0.5e-8)))

@@ -18,6 +18,7 @@ from reference.derivation.pasts import MANY, after_many, pasts
 from reference.derivation.seen import NOTHING, forces_of
 from reference.derivation.step_matrix import COARSER, RODS, SOFTER, StepMatrix, step_matrix
 from reference.derivation.substeps import as_whole, of_substeps
+from reference.derivation.swings import are_rods, swing_matrices
 from reference.errors import Unsupported
 from reference.outcome import Outcome
 from reference.state import Array, Trajectory
@@ -60,6 +61,11 @@ def together(system: MassSpringSystem) -> str:
     return "one mass only" if len(system.masses) > 2 else ""
 
 
+def resisted(system: MassSpringSystem) -> str:
+    """For who knows neither damping nor drag."""
+    return "nothing resists" if system.damping.any() or np.any(system.drag) else ""
+
+
 # --- Step matrices ---
 
 
@@ -80,16 +86,52 @@ def test_a_matrix_is_seen_side_by_side_and_one_by_one() -> None:
         np.testing.assert_allclose(rows[:, 3], np.linalg.matrix_power(expected, 3)[:, 0].T, atol=1e-14)
 
 
+def test_an_oscillator_is_what_it_says() -> None:
+    """A mass of 1 kg, displaced and moving away from its anchor, which is held; its numbers are over dt."""
+    system = oscillator(0.5, 0.25, 0.125, x=0.03, v=0.7, dt=0.5, gravity=-9.81)
+    assert (system.fixed.tolist(), system.masses.tolist(), system.springs.tolist()) == ([True, False], [1, 1], [[0, 1]])
+    assert (system.positions.tolist(), system.start.velocities.tolist()) == ([[0.0], [-1.03]], [[0.0], [-0.7]])
+    assert (system.stiffness.tolist(), system.damping.tolist(), system.drag) == ([2.0], [0.5], 0.25)
+    assert (system.rest_lengths.tolist(), system.gravity.tolist()) == ([1.0], [-9.81])
+
+
+def test_what_is_refused_is_told_and_the_rest_is_seen() -> None:
+    """Drag alone; damping and drag together; oscillators side by side, where many are needed one by one."""
+    found = step_matrix(runs_of(kick_drift, lambda system: "no drag" if np.any(system.drag) else ""))
+    assert (found.damped, found.dragged) == (True, False)
+    assert found.left_out == ("no drag in its step matrix: no drag",)
+    assert found.text() == [["1 - a", "1 - b"], ["-a", "1 - b"]]
+    both = lambda system: "not both" if system.damping.any() and np.any(system.drag) else ""  # noqa: E731
+    assert step_matrix(runs_of(kick_drift, both)).left_out == ("no drag in its step matrix: not both",)
+
+    def fourth(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
+        z = np.zeros((len(a), 2, 2))
+        z[:, 0, 1], z[:, 1, 0], z[:, 1, 1] = 1.0, -a, -b - d
+        powers = [np.broadcast_to(np.eye(2), z.shape), z, z @ z / 2, z @ z @ z / 6, z @ z @ z @ z / 24]
+        return list(np.stack(powers).sum(axis=0).reshape(-1, 4).T)
+
+    many = step_matrix(runs_of(fourth, together))
+    assert many.text()[0][0].startswith("1 - a/2 + a b/6 + a d/6 + a^2/24")
+    assert (many.exact, len(many.samples.a)) == (True, 160)
+
+
+def test_a_step_that_cannot_be_halved_is_not_said_to_ask_for_h() -> None:
+    """What it would do at half of it nobody knows."""
+    stiff = lambda system: "too stiff" if system.stiffness.max() > 2.1 / DT**2 else ""  # noqa: E731
+    by_h = lambda a, b, d: (1.0, 1.0, -a, 1.0 - b - d)  # noqa: E731
+    assert step_matrix(runs_of(by_h, stiff)).only_at is None
+
+
 def test_a_matrix_of_few_digits_is_seen_coarsely() -> None:
     """Off by 1e-10, as what is differenced is: its fractions are found all the same, and that it is so is told."""
 
     def rough(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
         return [np.asarray(entry) + 1e-10 * np.sin(1e6 * a + i) for i, entry in enumerate(kick_drift(a, b, d))]
 
-    found = step_matrix(runs_of(rough))
-    assert (found.text()[0], found.coarser, found.softer) == (["1 - a", "1 - b - d"], COARSER, 1.0)
+    found = step_matrix(runs_of(rough, resisted))
+    assert (found.text()[0], found.coarser, found.softer) == (["1 - a", "1"], COARSER, 1.0)
     with pytest.raises(Unsupported, match="to the digits of single precision"):
-        step_matrix(runs_of(lambda a, b, d: (np.sqrt(1 + 40 * a), 1.0, -a, 1.0)), "single")
+        step_matrix(runs_of(lambda a, b, d: (np.sqrt(1 + 40 * a), 1.0, -a, 1.0), resisted), "single")
 
 
 def test_a_matrix_of_soft_springs_only_is_seen_of_these() -> None:
@@ -101,10 +143,10 @@ def test_a_matrix_of_soft_springs_only_is_seen_of_these() -> None:
 
         return soft
 
-    found = step_matrix(runs_of(of(0.5)))
-    assert (found.text(), found.softer, found.coarser) == ([["1 - a/2", "1"], ["-a", "1 - b - d"]], SOFTER, 1.0)
+    found = step_matrix(runs_of(of(0.5), resisted))
+    assert (found.text(), found.softer, found.coarser) == ([["1 - a/2", "1"], ["-a", "1"]], SOFTER, 1.0)
     with pytest.raises(Unsupported, match=r"no small rational function of a, b and d gives m11 of its step matrix$"):
-        step_matrix(runs_of(of(0.123456789)))
+        step_matrix(runs_of(of(0.123456789), resisted))
 
 
 @pytest.mark.parametrize(
@@ -112,14 +154,14 @@ def test_a_matrix_of_soft_springs_only_is_seen_of_these() -> None:
     [
         (lambda a, b, d: (1e4 * a, 1.0, -a, 1.0), "a step multiplies an oscillator by up to 2e"),
         (lambda a, b, d: (1.0, 0.0, 0.0, 1.0), "a step changes nothing"),
-        (lambda a, b, d: (1.0, 1.0, 0.0, 1.0 - b), RODS),
+        (lambda a, b, d: (1.0, 1.0, 0.0, 1.0), RODS),
         (lambda a, b, d: (np.cos(a**0.5), np.sin(a**0.5) / a**0.5, np.sin(a), 2.0), "gives m11, m12, m21 of its step"),
     ],
 )
 def test_why_there_is_no_matrix(rule: Rule, said: str) -> None:
     """It diverges; it changes nothing; nothing depends on stiffness; some entries follow no formula."""
     with pytest.raises(Unsupported, match=said):
-        step_matrix(runs_of(rule, lambda system: "one axis only" if system.dimension > 1 else ""))
+        step_matrix(runs_of(rule, lambda system: "one axis only" if system.dimension > 1 else resisted(system)))
 
 
 def test_a_true_motion_is_told_as_that() -> None:
@@ -129,11 +171,8 @@ def test_a_true_motion_is_told_as_that() -> None:
         w = np.sqrt(a)
         return np.cos(w), np.sin(w) / w, -w * np.sin(w), np.cos(w)
 
-    def undamped(system: MassSpringSystem) -> str:
-        return "no damping" if system.damping.any() or np.any(system.drag) or len(system.masses) > 2 else ""
-
     with pytest.raises(Unsupported, match=r"a step is an oscillator's true motion, to .* of it"):
-        step_matrix(runs_of(true, undamped))
+        step_matrix(runs_of(true, resisted))
 
 
 def test_sub_steps_are_taken_apart() -> None:
@@ -167,6 +206,39 @@ def test_forces_are_not_looked_for_where_stiffness_is_divided_by() -> None:
         reasons: list[str] = []
         matrix = StepMatrix((m11, m12, m21, m22), False, False, at, np.zeros((1, 2, 2)))
         assert (forces_of(none, matrix, reasons), reasons) == (NOTHING, [])
+
+
+# --- Swings ---
+
+
+def pendulum(rule: Rule, by_stiffness: float = 0.0) -> Runs:
+    """A stepper of rods: (q, h q') of a mass under gravity is multiplied; a stiffness may add to the angle."""
+
+    def run(asked: Run) -> Outcome:
+        system, h, steps = asked
+        a, d = -system.gravity[1] * h**2, system.drag * h
+        m11, m12, m21, m22 = (float(entry) for entry in rule(a, 0.0, d))  # type: ignore[arg-type]
+        x, v = system.positions.copy(), system.start.velocities.copy()
+        q, rate = np.arctan2(x[1, 0], -x[1, 1]), v[1] @ [-x[1, 1], x[1, 0]]
+        path = [(x, v)]
+        for _ in range(steps):
+            q, rate = m11 * q + m12 * h * rate + by_stiffness * system.stiffness[0], (m21 * q + m22 * h * rate) / h
+            there = np.array([[0.0, 0.0], [np.sin(q), -np.cos(q)]])
+            path.append((there, rate * np.array([[0.0, 0.0], [np.cos(q), np.sin(q)]])))
+        places, speeds = (np.stack(each) for each in zip(*path, strict=True))
+        return Outcome("done", "", Trajectory(h * np.arange(steps + 1.0), places, speeds))
+
+    return lambda asked: [run(each) for each in asked]
+
+
+def test_small_swings_have_the_matrix_that_a_pendulum_is_multiplied_by() -> None:
+    """Of angles and rates, at a = h^2 g/L and d; who moves by a stiffness is no rod."""
+    at = Samples(np.array([0.5, 1.5]), np.zeros(2), np.array([0.25, 0.75]))
+    lopsided: Rule = lambda a, b, d: (1 - a, 1 - d, -a / 2, 1 - 2 * d)  # noqa: E731
+    expected = np.stack(np.broadcast_arrays(*lopsided(at.a, at.b, at.d)), axis=1).reshape(2, 2, 2)
+    np.testing.assert_allclose(swing_matrices(pendulum(lopsided), at), expected, atol=1e-11)
+    assert are_rods(pendulum(lopsided))
+    assert not are_rods(pendulum(lopsided, 1e-12))
 
 
 # --- Velocities that are not told ---
@@ -258,6 +330,7 @@ def ending(errors: Callable[[float], float], steps: int = 0) -> Runs:
         (lambda dt: 1.0, 0),
         (lambda dt: 1e-13, None),  # rounding tells nothing
         (lambda dt: dt**2 if dt > 0.03 else 1e-13, 2),  # by what is above it
+        (lambda dt: dt**2 if dt < 0.05 else dt / 32, 2),  # at the shortest
         (lambda dt: np.nan if dt < 0.02 else dt, None),
     ],
 )

@@ -252,6 +252,12 @@ def test_stages_of_what_iterates_are_found() -> None:
     assert (found.iterates, found.adapts, found.updates, found.remarks, reasons) == (True, False, None, (), [])
     with pytest.raises(Unsupported, match="it asks for slopes too often in a step: it iterates"):
         updates_of(record(lambda: midpoint))
+
+    def untimely(slopes: Slopes, state: State, h: float) -> State:
+        return midpoint(lambda time, x, v: slopes(state.time, x, v), state, h)
+
+    said = "slope 1 is taken 1/2 of a step on, and is told the time 0 of it on"
+    assert [seen(lambda: untimely, timed)[0].remarks for timed in (True, False)] == [(said,), ()]
     assert seen(lambda: rude)[0].remarks == ("it writes into the state it is given",)
 
 
