@@ -248,7 +248,7 @@ class Definiteness:
         if self._small:
             return self.linear.scaled_array(springs, masses)
         along = self.linear.along_springs(springs)
-        return self.linear.scaled(along + self.linear.on_masses(masses) if masses.any() else along)
+        return self.linear.scaled(along + self.linear.on_masses(masses))
 
     def _made(self, dt: float) -> DampingInStep:
         return self._made_of_unit if dt == self.unit else damping_in_step(self.scheme, self.linear, dt)
@@ -328,14 +328,15 @@ def lowest_eigenvector(matrix: Any) -> Array:
 
 def _lowest(matrix: Any) -> tuple[float, Array]:
     """The lowest eigenvalue and its eigenvector; of large matrices to ROUGH of the largest."""
-    if matrix.shape[0] <= DENSE_UP_TO:
+    size, _ = matrix.shape
+    if size <= DENSE_UP_TO:
         values, vectors = np.linalg.eigh(matrix if isinstance(matrix, np.ndarray) else matrix.toarray())
         return float(values[0]), np.asarray(vectors[:, 0])
     from scipy.sparse.linalg import ArpackNoConvergence, eigsh
 
-    start = np.random.default_rng(0).normal(size=matrix.shape[0])
+    start = np.random.default_rng(0).normal(size=size)
     try:
-        values, vectors = eigsh(matrix, 1, which="SA", v0=start, tol=ROUGH, maxiter=matrix.shape[0])
+        values, vectors = eigsh(matrix, 1, which="SA", v0=start, tol=ROUGH, maxiter=size)
     except ArpackNoConvergence as error:
         values, vectors = error.eigenvalues, error.eigenvectors
     if not len(values):

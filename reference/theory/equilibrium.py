@@ -48,12 +48,7 @@ def hanging_string(system: MassSpringSystem) -> State:
     g = float(np.linalg.norm(system.gravity))
     downwards = -np.eye(system.dimension)[min(1, system.dimension - 1)]
     below = np.cumsum(system.masses[:0:-1])[::-1]
-    lengths = system.rest_lengths[_in_order(system)] + stretch_under(system.stiffness[_in_order(system)], below * g)
+    lengths = system.rest_lengths + stretch_under(system.stiffness, below * g)
     positions = np.tile(system.positions[0], (len(system.positions), 1))
     positions[1:] += np.cumsum(lengths)[:, None] * (system.gravity / g if g else downwards)
     return State(0.0, positions, np.zeros_like(positions))
-
-
-def _in_order(system: MassSpringSystem) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
-    """The springs of a string from its first mass on, however they are listed."""
-    return np.argsort(system.springs.min(axis=1), kind="stable")

@@ -37,12 +37,13 @@ def pivots(matrix: Any) -> Any:
         return found if found.all() else np.full(len(left), np.nan)
     from scipy.sparse.linalg import splu
 
+    size, _ = matrix.shape
     options = {"SymmetricMode": True, "Equil": False}
     try:
         done = splu(matrix.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
     except RuntimeError:  # SuperLU: exactly singular
-        return np.full(matrix.shape[0], np.nan)
-    return done.U.diagonal() if (done.perm_r == done.perm_c).all() else np.full(matrix.shape[0], np.nan)
+        return np.full(size, np.nan)
+    return done.U.diagonal() if (done.perm_r == done.perm_c).all() else np.full(size, np.nan)
 
 
 def eliminate(left: Array) -> None:

@@ -242,11 +242,12 @@ def _identity(size: int) -> Any:
 
 def _lowest_eigenvector(matrix: Any) -> Array:
     """Of a sparse symmetric matrix."""
-    if matrix.shape[0] <= 200:
+    size, _ = matrix.shape
+    if size <= 200:
         return np.asarray(np.linalg.eigh(matrix.toarray())[1][:, 0])
     from scipy.sparse.linalg import eigsh
 
-    start = np.random.default_rng(0).normal(size=matrix.shape[0])
+    start = np.random.default_rng(0).normal(size=size)
     return np.asarray(eigsh(matrix, 1, which="SA", v0=start, tol=1e-3)[1][:, 0])
 
 

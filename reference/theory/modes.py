@@ -67,7 +67,7 @@ def natural_modes(linear: Linearisation, lowest: int | None = None) -> NaturalMo
 def _eigenvectors(linear: Linearisation, lowest: int | None) -> tuple[Array, Array]:
     """Of M^-1/2 K M^-1/2, rising; vectors as columns."""
     matrix = linear.scaled_stiffness
-    size = matrix.shape[0]
+    size, _ = matrix.shape
     if lowest is None or lowest >= size - 1:
         values, vectors = np.linalg.eigh(matrix.toarray() if hasattr(matrix, "toarray") else matrix)
         return values[:lowest], vectors[:, :lowest]

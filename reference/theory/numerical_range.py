@@ -76,6 +76,7 @@ def _top(matrix: Any) -> float:
 
     if not matrix.nnz or not abs(matrix).max():
         return 0.0
-    start = np.random.default_rng(0).normal(size=matrix.shape[0])
+    size, _ = matrix.shape
+    start = np.random.default_rng(0).normal(size=size)
     value = eigsh(matrix, 1, which="LA", v0=start, tol=1e-6, return_eigenvectors=False)
     return float(value[0]) * (1 + 2e-6)

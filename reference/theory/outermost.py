@@ -46,7 +46,7 @@ class Outermost:
         self._step, self._root = step, np.tile(np.sqrt(near.linear.mass), 2)[:, None]
         matrix = near.matrix((1 - BELOW) * limit)
         self._solve: Callable[[Array], Array] = splu(csc_array(matrix)).solve
-        size = matrix.shape[0]
+        size, _ = matrix.shape
         inverse: Any = LinearOperator((size, size), self._solve, dtype=float)
         start = np.random.default_rng(0).normal(size=size)
         self._moves: Array = eigsh(matrix, FIRST, sigma=0.0, OPinv=inverse, v0=start)[1]

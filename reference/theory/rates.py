@@ -75,7 +75,7 @@ def fastest_rate(rest: Equilibrium) -> float:
     if len(linear.mass) <= QUICK_UP_TO:
         return rates(rest).fastest
     if not linear.damped and not linear.dragged:
-        return float(np.abs(_top_undamped(linear)).max())
+        return float(_top_undamped(linear).item())
     return float(np.abs(_eigenvalues(linear, "LM")).max())
 
 

@@ -18,7 +18,7 @@ from reference.state import Array, Slope, State
 
 Complex = npt.NDArray[np.complex128]
 
-#: R is taken to have no more terms than half of this.
+#: R is taken to have no more terms than this.
 POINTS = 32
 
 #: Coefficients this small are rounding.
@@ -67,8 +67,6 @@ def stability_polynomial(scheme: Scheme) -> tuple[float, ...] | None:
     except (TypeError, ValueError, InputError, SolverError, Unsupported):
         return None
     found = np.fft.fft(np.array(values)) / POINTS
-    if np.abs(found.imag).max() > ROUNDING or np.abs(found[POINTS // 2 :]).max() > ROUNDING:
-        return None
     kept = np.trim_zeros(np.where(np.abs(found.real) > ROUNDING, found.real, 0.0), "b")
     polynomial = tuple(float(c) for c in kept)
     return polynomial if _holds_for_systems(scheme, polynomial) else None

@@ -175,16 +175,16 @@ def _is_never_negative(coefficients: Array) -> bool:
 
 def _product(p: Array, q: Array) -> Array:
     """Of two polynomials in a and b."""
-    product = np.zeros((p.shape[0] + q.shape[0] - 1, p.shape[1] + q.shape[1] - 1))
+    product, (rows, columns) = np.zeros(np.add(p.shape, q.shape) - 1), q.shape
     for (i, j), coefficient in np.ndenumerate(p):
-        product[i : i + q.shape[0], j : j + q.shape[1]] += coefficient * q
+        product[i : i + rows, j : j + columns] += coefficient * q
     return product
 
 
 def _difference(p: Array, q: Array) -> Array:
     difference = np.zeros(np.maximum(p.shape, q.shape))
-    difference[: p.shape[0], : p.shape[1]] += p
-    difference[: q.shape[0], : q.shape[1]] -= q
+    difference[tuple(map(slice, p.shape))] += p
+    difference[tuple(map(slice, q.shape))] -= q
     return difference
 
 

@@ -9,9 +9,16 @@ import pytest
 
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find, schemes
+from reference.theory import measured_mode
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
 from reference.theory.limits import stability_limit
-from reference.theory.measured_mode import STEPS, fastest_mode_of_step, measured_mode_limit, offsets
+from reference.theory.measured_mode import (
+    STEPS,
+    fastest_mode_of_step,
+    measured_mode_growth,
+    measured_mode_limit,
+    offsets,
+)
 from reference.theory.rates import rates
 from tests import wrong
 from tests.reference.systems import free_string, label, with_fields
@@ -107,3 +114,33 @@ def test_the_mode_of_another_scheme_is_not_kept() -> None:
     """Euler's left eigenvector does not tell modes of kick-drift apart."""
     with pytest.raises(AssertionError):
         check_only_the_mode(find("kick_drift"), find("euler"))
+
+
+@pytest.mark.parametrize(
+    ("expected", "looked_to", "measured"),
+    [
+        ((2.0, 3.0), np.inf, (2.0, 3.0)),
+        ((2.002, 2.99), np.inf, (2.0, 3.0)),
+        ((2.0, 2.9), 2.9, (2.0, 2.9)),
+        ((2.0, 3.01), 3.01, (2.0, 3.0)),
+        ((2.8, 3.5), np.inf, None),
+    ],
+)
+def test_the_ends_of_a_window_are_measured_and_where_no_further_was_looked_it_may_go_on(
+    expected: tuple[float, float], looked_to: float, measured: tuple[float, float] | None
+) -> None:
+    """Of runs that are stable from 2 to 3 s only."""
+    found = measured_mode._window(lambda dt: not 2 <= dt <= 3, *expected, looked_to)
+    assert found == (None if measured is None else pytest.approx(measured, rel=1e-4))
+
+
+def test_a_step_of_which_one_derivative_is_no_number_has_no_mode(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As where a spring has no direction; the others may be what they like."""
+    rest = spring_equilibrium(find_scene("oscillator").system({}))
+    found = rates(rest)
+    assert fastest_mode_of_step(find("kick_drift"), rest, 1e-3, found) is not None
+    jacobian = np.eye(2)
+    jacobian[0, 1] = np.nan
+    monkeypatch.setattr(measured_mode, "step_jacobian", lambda *_: jacobian)
+    assert fastest_mode_of_step(find("kick_drift"), rest, 1e-3, found) is None
+    assert measured_mode_growth(find("kick_drift"), rest, 1e-3, found) == np.inf

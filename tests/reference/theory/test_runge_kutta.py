@@ -91,6 +91,15 @@ def test_limits_of_known_polynomials() -> None:
     assert stable_along((1.0, 1.0, 0.5), np.pi / 2) == ((0.0, 0.0),)
 
 
+def test_a_window_by_hand() -> None:
+    """R(-s) = 1 - 0.6 s (4 - s): |R| <= 1 where s (4 - s) <= 2 / 0.6, but for s between 2 -+ sqrt(2 / 3), up to 4."""
+    low, high = 2 - np.sqrt(2 / 3), 2 + np.sqrt(2 / 3)
+    found = stable_along((1.0, 2.4, 0.6), np.pi)
+    assert np.array(found) == pytest.approx(np.array([[0.0, low], [high, 4.0]]), rel=1e-9)
+    both = stable_steps((1.0, 2.4, 0.6), np.array([-1.0, -0.9], dtype=complex))
+    assert np.array(both) == pytest.approx(np.array([[0.0, low], [high / 0.9, 4.0]]), rel=1e-9)
+
+
 def test_a_step_is_stable_where_no_mode_grows() -> None:
     """Of modes that decay at 3/s and 40/s, and swing: at 2,000 dt, each mode by its own; what rests has no say."""
     polynomial = MADE_UP[3]
@@ -104,5 +113,6 @@ def test_a_step_is_stable_where_no_mode_grows() -> None:
         clear = np.abs(h[:, None] - edges[np.isfinite(edges)]).min(axis=1) > 1e-6
         assert np.array_equal(stable[clear], inside[clear])
         assert found[0][0] == 0
+        assert all(low < high for low, high in found[1:])
     assert stable_steps(polynomial, np.zeros(2, dtype=complex)) == [(0.0, np.inf)]
     assert stable_steps((1.0, 1.0), np.array([-4.0 + 0j])) == [(0.0, 0.5)]

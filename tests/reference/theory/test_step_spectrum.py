@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from reference.limit import Limit
 from reference.scenes import find as find_scene
-from reference.schemes.catalogue import find
+from reference.schemes.catalogue import Scheme, find
 from reference.system import MassSpringSystem
 from reference.theory import step_spectrum
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
+from reference.theory.rates import Rates, rates
 
 
 @pytest.mark.parametrize("damping", [1e-3, 1e-5, 1e-7])
@@ -85,3 +89,62 @@ def test_growth_falls_as_a_power_of_dt_where_each_halving_says_the_same_power(
     grown = [1.0, 2.0 ** -powers[0], 2.0 ** -(powers[0] + powers[1])]
     assert step_spectrum._falls_as_a_power(grown, 0.0) == expected
     assert not step_spectrum._falls_as_a_power(grown, grown[-1])
+
+
+@pytest.mark.parametrize(
+    ("values", "start"),
+    [
+        ([10j, -10j, 3j, -3j], 1e-3),
+        ([-200.0, -1.0], 5e-5),
+        ([-1e-3 + 10j, -1e-3 - 10j, -1 + 5j, -1 - 5j], 2e-6),
+        ([-1 + 5j, -1 - 5j, -1e-3 + 10j, -1e-3 - 10j, 2j, -2j], 2e-6),
+    ],
+)
+def test_the_search_starts_where_every_step_is_right(values: list[complex], start: float) -> None:
+    """A hundredth of the fastest 1/w; or a tenth of -2 Re mu / |mu|^2, where Euler lets a mode grow, of the first."""
+    found = Rates(np.array(values, dtype=complex), 0, True)
+    assert step_spectrum._start(found) == pytest.approx(start, rel=1e-4)
+
+
+@pytest.mark.parametrize("what", [np.nan, np.inf])
+def test_a_step_of_which_one_derivative_is_no_number_grows_without_end(
+    what: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In the search, and where single modes are followed."""
+    rest = spring_equilibrium(find_scene("oscillator").system({}))
+    jacobian = np.diag([0.5, 0.5])
+    jacobian[0, 1] = what
+    monkeypatch.setattr(step_spectrum, "step_increments", lambda *_: jacobian)
+    monkeypatch.setattr(step_spectrum, "step_jacobian", lambda *_: jacobian)
+    assert step_spectrum._excess(find("kick_drift"), rest, 1e-3, rates(rest)) == np.inf
+    assert step_spectrum._growth_of_mode(find("kick_drift"), rest, 100j, 1e-3) == np.inf
+
+
+def test_the_growth_of_a_mode_is_that_of_the_eigenvalue_next_to_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of e^(h mu), among others that are larger."""
+    rest = spring_equilibrium(find_scene("oscillator").system({}))
+    turn, scale = np.exp(0.3j), 1.01
+    pair = scale * np.array([[turn.real, -turn.imag], [turn.imag, turn.real]])
+    jacobian = np.block([[pair, np.zeros((2, 2))], [np.zeros((2, 2)), np.diag([-2.0, 0.1])]])
+    monkeypatch.setattr(step_spectrum, "step_jacobian", lambda *_: jacobian)
+    assert step_spectrum._growth_of_mode(find("kick_drift"), rest, 30j, 0.01) == pytest.approx(0.01, rel=1e-9)
+
+
+def test_windows_of_what_an_iteration_would_come_to_are_kept_where_it_is_stable_too(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of three windows one in which it is unstable near an end, one in the middle; and only of steps that iterate."""
+    rest = spring_equilibrium(find_scene("oscillator").system({"damping": 0.1}))
+    monkeypatch.setattr(step_spectrum, "windows_of", lambda *_: ((2.0, 3.0), (4.0, 5.0), (6.0, 7.0)))
+    monkeypatch.setattr(step_spectrum, "looked_to", lambda *_: 9.0)
+    monkeypatch.setattr(step_spectrum, "relative_of", lambda scheme, *_: "one" if scheme.order == 1 else None)
+    limit, iterated = Limit(1.0), find("kick_drift_truncated_damping")
+
+    def kept(scheme: Scheme, limit: Limit) -> Limit:
+        return step_spectrum._with_windows(scheme, rest, 0.01, limit, lambda dt: 4.95 < dt < 5 or 6.4 < dt < 6.6)
+
+    found = kept(iterated, limit)
+    assert (found.windows, found.looked_to) == (((2.0, 3.0),), 9.0)
+    assert kept(find("kick_drift"), limit) is limit
+    assert kept(iterated, Limit(None, "stable at any dt")).windows == ()
+    assert kept(replace(iterated, order=2), limit) is limit

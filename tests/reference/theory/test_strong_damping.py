@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -11,10 +13,16 @@ from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.schemes.implicit_damping import effective_masses, spring_directions
 from reference.state import Array
+from reference.system import MassSpringSystem
+from reference.theory import strong_damping
+from reference.theory.definite import Definiteness
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
 from reference.theory.limits import stability_limit
+from reference.theory.linearisation import Linearisation
 from reference.theory.rates import Rates, rates
 from reference.theory.step_map import resisted
+from reference.theory.strong_damping import DROWNED, drowned_from, limit_with_rods
+from tests.reference.theory.test_rates import free_chain
 
 #: Parts of a limit at which nothing may grow; and rounding of eigenvalues of some twenty numbers of some size.
 BELOW, ROUNDING = (*np.geomspace(1e-3, 0.99, 60), 1 - 1e-6), 1e-11
@@ -115,3 +123,58 @@ def test_many_more_drowned_steps(request: pytest.FixtureRequest) -> None:
     if not request.config.getoption("--full"):
         pytest.skip("--full looks at 200 systems")
     assert checked(range(200)) > 30
+
+
+def held_by_a_rod(damping: float, **more: Any) -> Definiteness:
+    """A chain along a line of a fixed mass and three of 1 kg, on 7, 10 and 40 N/m, the first spring damped strongly."""
+    system = MassSpringSystem(
+        positions=np.arange(4.0)[:, None],
+        springs=np.array([[0, 1], [1, 2], [2, 3]]),
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array([7.0, 10.0, 40.0]),
+        damping=np.array([damping, 0.0, 0.0]),
+        gravity=np.zeros(1),
+        fixed=np.arange(4) == 0,
+        **more,
+    )
+    return Definiteness(find("drift_kick_exponential_damping"), Linearisation(system, system.start), 0.1)
+
+
+def test_beyond_a_drowned_spring_the_limit_is_that_of_what_it_holds() -> None:
+    """The first mass stays where it is; the others swing with the w of [[50, -40], [-40, 40]]: 2 over the faster one.
+
+    Drowned from h c/m = 18 on, with the m of a spring to a fixed mass.
+    """
+    definite = held_by_a_rod(1e4)
+    fastest = float(np.sqrt(np.linalg.eigvalsh(np.array([[50.0, -40.0], [-40.0, 40.0]]))[-1]))
+    assert drowned_from(definite) == pytest.approx(DROWNED / 1e4, rel=1e-12)
+    assert limit_with_rods(definite, 0.01) == pytest.approx(2 / fastest, rel=1e-8)
+
+
+def test_where_rods_hold_all_masses_nothing_is_unstable() -> None:
+    """However long the step; and where nothing is damped nothing drowns."""
+    definite = held_by_a_rod(1e4)
+    whole = definite.with_system(definite.linear.system.with_parameter("damping", 1e4))
+    assert limit_with_rods(whole, 0.01) == np.inf
+    assert drowned_from(definite.with_system(definite.linear.system.with_parameter("damping", 0.0))) == np.inf
+
+
+def test_the_slowest_swing_is_that_of_springs() -> None:
+    """Of a free chain sqrt(k/m), its fall left out; without any spring's stiffness there is none."""
+    chain = free_chain()
+    free = Definiteness(find("kick_drift"), Linearisation(chain, chain.start), 0.1)
+    assert strong_damping._slowest(free) == pytest.approx(np.sqrt(160.0), rel=1e-9)
+    loose = chain.with_parameter("stiffness", 0.0)
+    assert strong_damping._slowest(free.with_system(loose)) == np.inf
+
+
+@pytest.mark.parametrize("size", [1.0, 1e6])
+def test_moves_that_change_no_length(size: float) -> None:
+    """Of six coordinates and two rods four are left, orthonormal and across both."""
+    rods = np.random.default_rng(2).normal(size=(2, 6)) * size
+    found = strong_damping._without_change(rods.T @ rods)
+    assert found.shape == (6, 4)
+    assert found.T @ found == pytest.approx(np.eye(4), abs=1e-12)
+    assert rods @ found == pytest.approx(np.zeros((2, 4)), abs=1e-9 * size)
+    assert strong_damping._without_change(np.zeros((3, 3))).shape == (3, 3)
