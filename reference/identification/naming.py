@@ -63,7 +63,8 @@ def identify(
         steps: how many; a few hundred tell schemes apart well and keep rounding small.
     """
     outcome = stepper.run(system, dt, steps, changes)
-    return identify_all([(stepper, outcome)], system, dt, steps, changes).each[0]
+    (found,) = identify_all([(stepper, outcome)], system, dt, steps, changes).each
+    return found
 
 
 def identify_all(

@@ -18,7 +18,7 @@ from reference.identification.ranking import (
 )
 from reference.identification.result import Identification, Match
 from reference.identification.scale import fastest_rate_bound
-from reference.identification.single_steps import Steps
+from reference.identification.single_steps import TOUCH, Steps, steps_of
 from reference.lengths import lengths_and_rates
 from reference.obstacles import Plane
 from reference.outcome import Outcome
@@ -195,6 +195,32 @@ def test_what_a_system_lacks_is_given_to_it() -> None:
     assert (dragged.system.damping.tolist(), dragged.system.drag) == ([0.0], 0.025)
     assert [word for word, _ in lacking(replace(push, system=damped.system))] == ["drag"]
     assert [word for word, _ in lacking(replace(push, system=dragged.system))] == ["damping"]
+
+
+def test_steps_that_can_be_compared_are_between_states_of_numbers() -> None:
+    """And begin where every mass is slower than the system's size in a step, of 2 m in half a second."""
+    assert list(steps_of(STILL, PAIR).systems) == [0, 1, 2, 3]
+    lost = run(ZERO, np.array([0.0, 0.0, np.nan, 0.0, 0.0]))  # of one mass of two, along one axis
+    assert list(steps_of(lost, PAIR).systems) == [0, 3]
+    lost = run(np.array([0.0, 0.0, np.nan, 0.0, 0.0]), ZERO)
+    assert list(steps_of(lost, PAIR).systems) == [0, 3]
+    size = PAIR.scale
+    fast = run(ZERO, np.array([0.0, 0.99 * size / DT, 1.01 * size / DT, 0.0, 0.0]))
+    assert list(steps_of(fast, PAIR).systems) == [0, 1, 3]
+
+
+def test_steps_at_an_obstacle_are_left_out() -> None:
+    """Where any free mass touches any of them; a held one may."""
+    floor, wall = Plane((0.0, -1.0), (0.0, 1.0)), Plane((9.0, 0.0), (-1.0, 0.0))
+    system = replace(PAIR, obstacles=(floor, wall))
+    reach = TOUCH * system.scale
+    falling = run(np.array([0.0, -1 + 3 * reach, -1 + 0.5 * reach, 0.0, 0.0]), ZERO)
+    found = steps_of(falling, system)
+    assert (list(found.systems), found.touching) == ([0, 3], True)
+    alone = steps_of(falling, replace(system, obstacles=(wall,)))
+    assert (list(alone.systems), alone.touching) == ([0, 1, 2, 3], False)
+    held = steps_of(falling, replace(system, fixed=np.array([False, True])))
+    assert (list(held.systems), held.touching) == ([0, 1, 2, 3], False)
 
 
 @pytest.mark.parametrize(

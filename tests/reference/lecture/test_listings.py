@@ -18,6 +18,7 @@ from reference.lecture.listings import (
     StringConstants,
     derivatives,
     force_from_next,
+    heun_with_barrier,
     listings,
     why_no_string,
 )
@@ -226,6 +227,21 @@ def test_derivatives_are_the_force_law_of_slides_9_and_10() -> None:
     assert derivatives(links, 0, string) == pytest.approx(expected, rel=1e-14)
 
 
+def test_the_circle_as_it_is_printed_by_hand() -> None:
+    """Of three links the middle one is inside: put out along the normal, its velocity's components are multiplied.
+
+    Without forces a step moves nothing but those: at (0.6, 0.8) from the centre, times 1/2, of a circle of 1 m about
+    (3, 4); (v_x, v_y) becomes (0.8 v_x, -0.6 v_y).
+    """
+    system = StringConstants(0.0, 0.0, [0.0] * 3, [1.0] * 3, [1.0] * 3, 0.0, 0.0, [(3.0, 4.0, 1.0), (50.0, 0.0, 1.0)])
+    links = Links([1.0, 3.3, 9.0], [2.0, 4.4, 8.0], [5.0, 0.1, 7.0], [6.0, 0.2, 8.0])
+    heun_with_barrier(links, system, 0.0)
+    assert links.x == pytest.approx([1.0, 3.6, 9.0], rel=1e-14)
+    assert links.y == pytest.approx([2.0, 4.8, 8.0], rel=1e-14)
+    assert links.vx == pytest.approx([5.0, 0.08, 7.0], rel=1e-14)
+    assert links.vy == pytest.approx([6.0, -0.12, 8.0], rel=1e-14)
+
+
 def test_links_copied_are_links_of_their_own() -> None:
     """The temporary of slide 7 is not the state."""
     links = Links([1.0], [2.0], [3.0], [4.0])
@@ -236,6 +252,13 @@ def test_links_copied_are_links_of_their_own() -> None:
 
 def test_listings_say_what_they_are() -> None:
     """Slide and heading, in a sentence; the kind is the lecture's."""
+    assert list(listings()) == [
+        "lecture_heun_loops",
+        "lecture_heun_arrays",
+        "lecture_heun_incorrect",
+        "lecture_barrier",
+    ]
+    assert [listing.name for listing in LISTINGS] == list(listings())
     assert [listing.kind for listing in LISTINGS] == ["lecture"] * 4
     assert "headed incorrect" in INCORRECT.summary
     assert LOOPS.version is None
