@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
 
+from reference.changes import Change
+from reference.identification import identify
+from reference.identification.bits import BITS
+from reference.identification.naming import _has_step
 from reference.identification.pushes import PART, lacking, pushes
 from reference.identification.ranking import (
     comparable_frames,
@@ -24,6 +29,7 @@ from reference.obstacles import Plane
 from reference.outcome import Outcome
 from reference.scenes import find as find_scene
 from reference.state import Array, Trajectory
+from reference.stepper import stepper_named
 from reference.system import MassSpringSystem
 
 DT = 0.5
@@ -195,6 +201,8 @@ def test_what_a_system_lacks_is_given_to_it() -> None:
     assert (dragged.system.damping.tolist(), dragged.system.drag) == ([0.0], 0.025)
     assert [word for word, _ in lacking(replace(push, system=damped.system))] == ["drag"]
     assert [word for word, _ in lacking(replace(push, system=dragged.system))] == ["damping"]
+    string = find_scene("string").system({"masses": 2, "damping": "0.5,0"})  # one damped spring is damping
+    assert [word for word, _ in lacking(next(iter(pushes(string, 1e-3))))] == ["drag"]
 
 
 def test_steps_that_can_be_compared_are_between_states_of_numbers() -> None:
@@ -207,6 +215,42 @@ def test_steps_that_can_be_compared_are_between_states_of_numbers() -> None:
     size = PAIR.scale
     fast = run(ZERO, np.array([0.0, 0.99 * size / DT, 1.01 * size / DT, 0.0, 0.0]))
     assert list(steps_of(fast, PAIR).systems) == [0, 1, 3]
+
+
+def test_a_run_of_another_step_or_of_none_has_no_step() -> None:
+    """Of half a second, to rounding."""
+    assert _has_step(STILL, DT)
+    assert not _has_step(STILL, 1.001 * DT)
+    assert not _has_step(STILL, 0.999 * DT)
+    assert not _has_step(STILL.frames(slice(1)), DT)
+
+
+@dataclass
+class Claiming:
+    """A stepper in single precision that steps as one scheme and claims to be others."""
+
+    steps_as: str
+    claims: tuple[str, ...]
+    name: str = "claiming"
+    kind: str = "engine"
+    version: str | None = None
+    precision: str = "single"
+
+    def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
+        """As its scheme."""
+        return stepper_named(self.steps_as).run(system, dt, steps, changes)
+
+
+def test_a_scheme_of_single_precision_is_named_by_its_bits() -> None:
+    """The first claim of single precision that it is, whatever stands before it; one that it is not is not named so."""
+    single, other = "soft_constraints_cold(single=True)", "soft_constraints_relaxed(single=True)"
+    system = find_scene("string").system({"masses": 2})
+    for claims in ((single,), ("heun", single), (other, single)):
+        found = identify(Claiming(single, claims), system, 1e-3, 10)
+        assert (found.identified_as, found.compared, found.error) == (single, BITS, 0.0)
+        assert found.ranking[0].steps == 10
+    assert identify(Claiming(single, (other,)), system, 1e-3, 10).compared != BITS
+    assert identify(Claiming("heun", ("heun",)), system, 1e-3, 10).compared != BITS
 
 
 def test_steps_at_an_obstacle_are_left_out() -> None:
