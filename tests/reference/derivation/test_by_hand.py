@@ -130,6 +130,8 @@ def test_orders_by_hand() -> None:
     third["m21"] |= {(2, 0, 0, 0, 0): F(1, 6), (1, 2, 0, 0, 0): F(-1, 6)}
     taylor = consequences(of(*third.values(), damped=True))
     assert (taylor.order, taylor.undamped_order) == (3, 3)
+    dragged = [{(m[0], 0, m[1], 0, 0): c for m, c in entry.items()} for entry in third.values()]
+    assert consequences(of(*dragged, dragged=True)).order == 3
     less = {**third, "m11": {ONE: F(1), A: F(-1, 2)}}
     assert (consequences(of(*less.values(), damped=True)).order, consequences(of(*less.values())).order) == (2, 3)
     series = {**third, "m22": {E: F(1), A: F(-1, 2), (1, 1, 0, 0, 0): F(1, 3)}}

@@ -101,6 +101,13 @@ def test_what_is_refused_is_told_and_the_rest_is_seen() -> None:
     assert (found.damped, found.dragged) == (True, False)
     assert found.left_out == ("no drag in its step matrix: no drag",)
     assert found.text() == [["1 - a", "1 - b"], ["-a", "1 - b"]]
+    undamped = step_matrix(runs_of(kick_drift, lambda system: "no damping" if system.damping.any() else ""))
+    assert (undamped.damped, undamped.dragged) == (False, True)
+    assert undamped.left_out == ("no damping in its step matrix: no damping",)
+    assert undamped.text() == [["1 - a", "1 - d"], ["-a", "1 - d"]]
+    neither = step_matrix(runs_of(kick_drift, resisted))
+    assert (neither.damped, neither.dragged, neither.text()) == (False, False, [["1 - a", "1"], ["-a", "1"]])
+    assert neither.left_out == ("no damping and no drag in its step matrix: nothing resists",)
     both = lambda system: "not both" if system.damping.any() and np.any(system.drag) else ""  # noqa: E731
     assert step_matrix(runs_of(kick_drift, both)).left_out == ("no drag in its step matrix: not both",)
 
@@ -216,6 +223,8 @@ def pendulum(rule: Rule, by_stiffness: float = 0.0) -> Runs:
 
     def run(asked: Run) -> Outcome:
         system, h, steps = asked
+        if system.dimension == 1:
+            return Outcome("unsupported", "no motion along a line")
         a, d = -system.gravity[1] * h**2, system.drag * h
         m11, m12, m21, m22 = (float(entry) for entry in rule(a, 0.0, d))  # type: ignore[arg-type]
         x, v = system.positions.copy(), system.start.velocities.copy()
@@ -237,6 +246,11 @@ def test_small_swings_have_the_matrix_that_a_pendulum_is_multiplied_by() -> None
     lopsided: Rule = lambda a, b, d: (1 - a, 1 - d, -a / 2, 1 - 2 * d)  # noqa: E731
     expected = np.stack(np.broadcast_arrays(*lopsided(at.a, at.b, at.d)), axis=1).reshape(2, 2, 2)
     np.testing.assert_allclose(swing_matrices(pendulum(lopsided), at), expected, atol=1e-11)
+    found = step_matrix(pendulum(lopsided))
+    assert (found.of_swings, found.damped, found.dragged) == (True, False, True)
+    assert found.text() == [["1 - a", "1 - d"], ["-a/2", "1 - 2 d"]]
+    with pytest.raises(Unsupported, match="no motion along a line"):
+        step_matrix(pendulum(lopsided, 1e-12))
     assert are_rods(pendulum(lopsided))
     assert not are_rods(pendulum(lopsided, 1e-12))
 
@@ -397,6 +411,17 @@ def test_a_matrix_has_the_difference_equation_of_its_trace_and_determinant() -> 
     assert (found.damped, found.dragged, found.explicit, found.order, found.of_fast) == (True, True, True, 2, None)
     undamped = difference_equation(runs_of(kick_drift, lambda system: "no damping" if system.damping.any() else ""))
     assert (undamped.damped, undamped.dragged) == (False, True)
+
+    def but_for_one(asked: Sequence[Run]) -> list[Outcome]:
+        outcomes = runs_of(kick_drift)(asked)
+        for outcome in outcomes:
+            assert outcome.trajectory is not None
+            steps = np.arange(len(outcome.trajectory))
+            outcome.trajectory.positions[:, 1, 0] += 1e-3 * ASIDE * np.sin(steps**2)
+        return outcomes
+
+    with pytest.raises(Unsupported, match="its positions follow no linear equation of up to 8 steps back"):
+        difference_equation(but_for_one)
     with pytest.raises(Unsupported, match=r"^not now$"):
         difference_equation(runs_of(kick_drift, lambda system: "not now"))
 

@@ -127,6 +127,19 @@ def test_a_slope_that_the_step_before_left_counts_as_the_first() -> None:
     assert (len(found.first.points), found.first.reused) == (3, False)
 
 
+def test_a_slope_that_was_asked_for_elsewhere_is_an_older_one() -> None:
+    """At the place where the step ended, but with another velocity: it is not the first of the next."""
+
+    def step(slopes: Slopes, state: State, h: float) -> State:
+        k = (state.memory[0], state.memory[1]) if state.memory else slope_at(slopes, state)
+        end = moved(state, h, k)
+        return end.remembering(*slope_at(slopes, State(end.time, end.positions, state.velocities)))
+
+    found, _ = seen(lambda: step)
+    assert found.updates is not None
+    assert (found.updates.reused, found.updates.looks_back) == (False, 1)
+
+
 def adams() -> Advance:
     """Adams-Bashforth of two steps, begun with Euler's."""
 
@@ -177,12 +190,14 @@ def test_a_step_by_accelerations_is_told_by_these() -> None:
     ("spoil", "said"),
     [
         (lambda k, h: np.clip(k, -2.0, 2.0), NOT_LINEAR),  # unit answers are not clipped
+        (lambda k, h: np.concatenate([np.clip(k[:1], -0.1, 2.0), k[1:]]), NOT_LINEAR),  # of one mass only
+        (lambda k, h: k * (h - 0.25), "its coefficients are no powers of the step length"),
         (lambda k, h: k * h**0.5, "its coefficients are no powers of the step length"),
         (lambda k, h: k * (h - 0.2), "its coefficients are no powers of the step length"),
     ],
 )
 def test_a_step_that_has_no_formulas_says_why(spoil: Callable[[Array, float], Array], said: str) -> None:
-    """Clipped; with half a power of h; with another sign at another h."""
+    """Clipped; with nothing at one h; with half a power of h; with another sign at another h."""
 
     def spoiled(slopes: Slopes, state: State, h: float) -> State:
         p, q = slope_at(slopes, state)

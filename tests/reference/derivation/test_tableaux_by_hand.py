@@ -54,6 +54,7 @@ RK4 = tableau("0 0 0 0; 1/2 0 0 0; 0 1/2 0 0; 0 0 1 0", "1/6 1/3 1/3 1/6")
         (MIDPOINT, False, True, 2),
         (LOBATTO, False, False, 2),
         (TWO_MIDPOINTS, False, True, 2),
+        (tableau("1/6 0; 1/3 1/3", "1/3 2/3"), False, True, 2),  # of a third of a step and of two thirds
         (RK4, True, False, 4),
         (tableau("1", "1"), False, False, 1),
     ],
@@ -87,6 +88,9 @@ def test_slopes_taken_twice_and_slopes_not_used_are_left_out() -> None:
         (Fraction(1, 6), Fraction(2, 3), Fraction(1, 6)),
         (0, Fraction(1, 2), 1),
     )
+    # also from its formulas, but where they are to stay as they are written
+    stages = [tableau_of(of_tableau(twice), repeated=repeated) for repeated in (False, True)]
+    assert [found.stages for found in stages if found is not None] == [3, 4]
     # at other times they are two
     assert replace(twice, c=(Fraction(0), Fraction(1, 2), Fraction(1), Fraction(1))).without_repeated().stages == 4
     idle = tableau("0 0 0; 1/3 0 0; 1 0 0", "1/2 0 1/2")
@@ -140,6 +144,8 @@ def test_older_slopes_stand_behind_all_of_this_step() -> None:
     v = form(q10=("-1/3", 1), q01=(2, 1), v0=(1, 0), q00=(-1, 1))
     words = in_words(Updates(((X, V), (X, V)), (Fraction(0), Fraction(1)), (form(x0=(1, 0), p00=(1, 1)), v)))
     assert words[-1] == "v' = v - h f1.v + 2 h f2.v - h f1.v[-1]/3"
+    v = form(v0=(1, 0), q00=(1, 2), q10=(1, 1))
+    assert in_words(Updates(((X, V),), (Fraction(0),), (X, v)))[-1] == "v' = v + h a1[-1] + h^2 a1"
 
 
 # --- Equal parts ---
