@@ -31,16 +31,38 @@ def step_in(file: str, source: str, wanted: str | None) -> tuple[str, tuple[str,
         line = getattr(error, "lineno", None)
         raise InputError(f"{file}{f', line {line}' if line else ''}: expected Python: {error.args[0]}") from None
     functions = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    if (wanted or DEFAULT) not in functions:
+        _refuse_what_is_no_def(file, tree, wanted or DEFAULT)
     if not functions:
         raise InputError(f"{file}: expected a function {wanted or DEFAULT}, it has none")
     name = wanted or (DEFAULT if DEFAULT in functions or len(functions) > 1 else next(iter(functions)))
     if name not in functions:
         raise unknown_name(f"function of {file}", name, functions)
-    return name, roles_of(f"{file}: {name}", _required(functions[name]))
+    return name, roles_of(f"{file}: {name}", _required(file, functions[name]))
 
 
-def _required(function: ast.FunctionDef) -> Sequence[str]:
+def _refuse_what_is_no_def(file: str, tree: ast.Module, name: str) -> None:
+    """Say of something else of that name what it is. Raises InputError."""
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef | ast.AsyncFunctionDef) and node.name == name:
+            what = "a class" if isinstance(node, ast.ClassDef) else "an async function"
+        elif isinstance(node, ast.Assign) and any(isinstance(t, ast.Name) and t.id == name for t in node.targets):
+            what = "a lambda" if isinstance(node.value, ast.Lambda) else "a variable"
+        else:
+            continue
+        raise InputError(f"{file}, line {node.lineno}: {name} is {what}: expected def {name}(...)")
+
+
+def _required(file: str, function: ast.FunctionDef) -> Sequence[str]:
     """The parameters without defaults, and those with that are a form's too."""
+    by_name = [
+        argument.arg
+        for argument, default in zip(function.args.kwonlyargs, function.args.kw_defaults, strict=True)
+        if default is None
+    ]
+    if by_name:
+        what = f"{', '.join(by_name)} after a star, by name only"
+        raise InputError(f"{file}, line {function.lineno}: {function.name} takes {what}: expected them before it")
     given = [*function.args.posonlyargs, *function.args.args]
     return [argument.arg for argument in given[: len(given) - len(function.args.defaults)]]
 

@@ -83,6 +83,7 @@ from reference.obstacles import Obstacle, obstacle_of
 from reference.scenes import Setup, find
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion, Law, read_record
 from reference.springs.kinds import ONE_SIDED
+from reference.system import PARAMETERS, MassSpringSystem
 
 #: A file may be so large [bytes]: of larger systems only the mesh file is.
 LARGEST_FILE = 32 * 2**20
@@ -204,6 +205,7 @@ def _setup(
     dt = next(value for value in (dt, content.dt, own_dt) if value is not None)
     duration = next(value for value in (duration, content.duration, own_duration) if value is not None)
     changes = tuple(Change(c.time, c.parameter, c.value) for c in content.changes)
+    _refuse_wrong_numbers(changes, driven.system)
     _refuse_both(changes, driven.drives)
     all_changes = (*driven.changes(dt, duration), *changes)
     setup = Setup(path.stem, driven.system, dt, duration, all_changes, tuple(remarks), driven.ground_moves)
@@ -244,6 +246,16 @@ def _driven(path: Path, content: SceneFile, settings: Mapping[str, Any], remarks
     sines = (Sine(t.parameter, t.begin, t.amplitude, t.frequency) for t in content.sines)
     drives = (*drives, *ramps, *sines)
     return Driven(system, drives)
+
+
+def _refuse_wrong_numbers(changes: Iterable[Change], system: MassSpringSystem) -> None:
+    """Numbers that a parameter cannot have, where they stand: in a change. Raises InputError."""
+    for k, change in enumerate(changes):
+        if change.parameter in PARAMETERS:
+            try:
+                system.with_parameter(change.parameter, change.value)
+            except InputError as error:
+                raise InputError(f"changes[{k}].value: {error}") from None
 
 
 def _refuse_both(changes: Iterable[Change], drives: Iterable[Drive]) -> None:

@@ -21,6 +21,10 @@ Numbers = float | list[float]
 #: What tables say besides the plain fields of a system.
 BESIDES = (*KINDS, "radii", "restitution", "angular_stiffness")
 
+#: What is a number for all masses, or for all springs, or a list with one for each.
+OF_EACH = {"masses", "radii", "stiffness", "rest_lengths", "damping"}
+OF_EACH |= {"hardening", "largest_force", "breaking_force", "breaking_stretch"}
+
 #: One for each mass: its numbers along the axes, or along a line its number.
 Vectors = list[float | list[float]]
 
@@ -71,12 +75,13 @@ class SystemTable(SpringsTable, kw_only=True):
         for place, i in enumerate(self.fixed):
             if not 0 <= i < n:
                 raise InputError(f"fixed[{place}] = {i}: expected a mass from 0 to {n - 1}")
+        self._refuse_lists_of_one(n)
         values: dict[str, Any] = {name: getattr(self, name) for name in self.__struct_fields__ if name not in BESIDES}
         values["collisions"] = Collisions(np.asarray(self.radii, dtype=float), self.restitution)
         values["nonlinear"] = self.nonlinear(len(self.springs))
         values["fixed"] = np.isin(np.arange(n), self.fixed)
-        values["positions"] = _rows(self.positions)
-        values["velocities"] = 0.0 if self.velocities is None else _rows(self.velocities)
+        values["positions"] = _rows("positions", self.positions)
+        values["velocities"] = 0.0 if self.velocities is None else _rows("velocities", self.velocities)
         if self.rest_lengths is None:
             values["rest_lengths"] = 1.0
             unstretched = MassSpringSystem(**values)
@@ -84,6 +89,15 @@ class SystemTable(SpringsTable, kw_only=True):
             with np.errstate(over="ignore"):
                 values["rest_lengths"] = np.linalg.norm(unstretched.positions[b] - unstretched.positions[a], axis=1)
         return with_bending(MassSpringSystem(**values), self.angular_stiffness)
+
+    def _refuse_lists_of_one(self, masses: int) -> None:
+        """A list has a number for each: of one number for several, others are missing. Raises InputError."""
+        counts = {"masses": (masses, "masses"), "radii": (masses, "masses")}
+        for name in self.__struct_fields__:
+            count, what = counts.get(name, (len(self.springs), "springs"))
+            value = getattr(self, name)
+            if name in OF_EACH and isinstance(value, list) and len(value) == 1 != count:
+                raise InputError(f"{name} = {value}: expected a number for all, or one for each of {count} {what}")
 
 
 class MeshTable(SpringsTable, kw_only=True):
@@ -126,5 +140,10 @@ class MeshTable(SpringsTable, kw_only=True):
         ).system()
 
 
-def _rows(vectors: Vectors) -> list[list[float]]:
-    return [vector if isinstance(vector, list) else [vector] for vector in vectors]
+def _rows(name: str, vectors: Vectors) -> list[list[float]]:
+    """Each mass's numbers as a list. Raises InputError where one has more or fewer than the first."""
+    rows = [vector if isinstance(vector, list) else [vector] for vector in vectors]
+    for i, row in enumerate(rows):
+        if len(row) != len(rows[0]):
+            raise InputError(f"{name}[{i}] = {row}: expected {len(rows[0])} numbers, as {name}[0] has")
+    return rows

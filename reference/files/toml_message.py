@@ -30,6 +30,8 @@ def plain(message: str, root: type[msgspec.Struct]) -> str:
     "unknown key 'stifness': did you mean 'stiffness'?"
     >>> plain("Expected `float | null`, got `str` - at `$.dt`", File)
     'dt: expected a number, got text'
+    >>> plain("Object missing required field `stiffness` - at `$.system`", File)
+    'system.stiffness is missing'
 
     Args:
         root: what the file as a whole is read as.
@@ -37,7 +39,10 @@ def plain(message: str, root: type[msgspec.Struct]) -> str:
     what, _, where = message.partition(" - at `$")
     path = where.rstrip("`").removeprefix(".")
     unknown = re.fullmatch(r"Object contains unknown field `(.*)`", what)
+    missing = re.fullmatch(r"Object missing required field `(.*)`", what)
     table = _table(root, path)
+    if missing:
+        return f"{path}.{missing[1]} is missing" if path else f"{missing[1]} is missing"
     if unknown and table is not None:
         what = str(unknown_name("key", unknown[1], table.__struct_fields__))
     else:

@@ -86,7 +86,7 @@ def _where_decay_ends(search: Search, low: float, high: float) -> Limit:
         while search.is_no_decay(seen):
             seen /= RATIO
             if seen < SHORTEST * low:
-                why = f"growth is seen at {high:.3g} s, and in shorter steps damping takes less than rounding"
+                why = f"growth is seen at {high:.3g} s; in shorter steps damping takes less than can be told"
                 return Limit(None, f"not computed: {why}")
         low, _ = bisect(search.is_no_decay, seen, high, search.near)
         _, high = bisect(search.is_growth, low, high, search.near)

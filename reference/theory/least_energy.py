@@ -140,20 +140,28 @@ class Descent:
         Raises:
             SolverError: if they are not reached.
         """
+        driving = self.weight
         for _ in range(MOST_PUSHES):
-            q = self.newton(self.downhill(q))
+            q = self.newton(self.downhill(q, driving))
             if not np.abs(self.force(q)).max(initial=0.0) < force_tolerance(self.system, self.weight):
                 raise SolverError("no equilibrium: the forces do not balance anywhere near the start")
             away = self.downwards(q)
             if away is None:
                 return q
             q = self.pushed(q, away)
+            # where masses differ by powers of ten, what drives a light one off may be far below the whole weight
+            driving = min(driving, float(np.abs(self.force(q)).max()))
         raise SolverError(f"no equilibrium: after {MOST_PUSHES} pushes off ridges of the energy it is still on one")
 
-    def downhill(self, q: Array) -> Array:
-        """Coordinates where forces nearly balance, with less energy than those given."""
-        mu, height = self.weight / self.size, self.energy(q)
-        near = max(NEAR * self.weight, force_tolerance(self.system, 0.0))
+    def downhill(self, q: Array, driving: float | None = None) -> Array:
+        """Coordinates where forces nearly balance, with less energy than those given.
+
+        Args:
+            driving: how large the forces are that drive it there [N]; the whole weight, if left out.
+        """
+        driving = self.weight if driving is None else driving
+        mu, height = driving / self.size, self.energy(q)
+        near = max(NEAR * driving, force_tolerance(self.system, 0.0))
         for _ in range(self.most_steps if len(q) > self.quasi_newton_up_to else MOST_STEPS_OF_SMALL):
             force = self.force(q)
             largest = np.abs(force).max(initial=0.0)

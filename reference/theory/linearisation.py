@@ -110,7 +110,12 @@ class Linearisation:
         from scipy.sparse import block_array, diags_array
 
         inverse = diags_array(1 / self.mass)
-        slowed = self.damping + self.on_masses(np.full(len(self.system.masses), self.system.drag))
+        slowed = self.damping_and_drag
         return block_array(
             [[None, diags_array(np.ones(len(self.mass)))], [-inverse @ self.stiffness, -inverse @ slowed]]
         ).tocsr()
+
+    @property
+    def damping_and_drag(self) -> Any:
+        """All that resists velocities [N s/m]: sparse, shape (m, m)."""
+        return self.damping + self.on_masses(np.full(len(self.system.masses), self.system.drag))

@@ -31,6 +31,12 @@ OUTER, MOST_ROUNDS = 6, 100
 #: Parts of the fastest rate below which a real part, a frequency squared is zero but for rounding.
 UNDAMPED, UNRESISTED = 1e-12, 1e-10
 
+#: Parts of the fastest rate: real parts smaller than WEAK have lost digits; eigenvalues TOGETHER have one space.
+WEAK, TOGETHER = 1e-9, 1e-12
+
+#: What dampers do to a mode that does not change their length, as a part of what they could: squares of rounding.
+UNSEEN = 1e-26
+
 
 @dataclass(frozen=True, eq=False)
 class Rates:
@@ -100,8 +106,39 @@ def _damped(linear: Linearisation) -> Rates:
     directions = unresisted_directions(linear)
     # a direction without spring and drag has the eigenvalue zero twice, with drag once, and once the rate it stops at
     unresisted = directions if linear.dragged else 2 * directions
-    order = np.argsort(np.abs(values), kind="stable")
-    return _without_rounding(values[order[unresisted:]], unresisted, True)
+    kept = values[np.argsort(np.abs(values), kind="stable")[unresisted:]]
+    if np.abs(kept.real).min(initial=np.inf) <= WEAK * np.abs(kept).max(initial=0.0):
+        kept = _with_weak_decay(linear, len(kept))
+    return Rates(kept, unresisted, True)
+
+
+def _with_weak_decay(linear: Linearisation, count: int) -> Complex:
+    """So many eigenvalues, the largest, with the real parts of those that hardly decay to their own digits.
+
+    With Omega^2 the eigenvalues of M^-1/2 K M^-1/2 and C of the damping, along their eigenvectors, the motion is
+
+        d/dt (Omega q, v) = [[0, Omega], [-Omega, -C]] (Omega q, v),
+
+    a skew matrix less a symmetric one. So an eigenvector x of length one has the real part -x_v* C x_v, exactly, where
+    of the eigenvalue itself rounding leaves some 1e-15 of the fastest. Modes whose frequencies are as near to one
+    another as that are taken together: within their space C is diagonalised.
+    """
+    squares, along = np.linalg.eigh(linear.scaled_stiffness.toarray())
+    omega = np.diag(np.sqrt(np.maximum(squares, 0.0)))
+    damping = along.T @ linear.scaled(linear.damping_and_drag).toarray() @ along
+    values, vectors = np.linalg.eig(np.block([[0 * omega, omega], [-omega, -damping]]))
+    order = np.argsort(np.abs(values), kind="stable")[-count:]
+    values, vectors = values[order].astype(complex), vectors[:, order]
+    fastest = float(np.abs(values).max())
+    weak = np.flatnonzero(np.abs(values.real) <= WEAK * fastest)
+    weak = weak[np.argsort(values[weak].imag, kind="stable")]
+    for together in np.split(weak, 1 + np.flatnonzero(np.diff(values[weak].imag) > TOGETHER * fastest)):
+        basis, _ = np.linalg.qr(vectors[:, together])
+        velocities = basis[len(omega) :]
+        decay = np.linalg.eigvalsh(velocities.conj().T @ damping @ velocities)
+        decay[decay <= UNSEEN * np.abs(damping).max()] = 0.0
+        values[together] = -decay + 1j * values[together].imag
+    return values
 
 
 def _outermost(linear: Linearisation) -> Rates:

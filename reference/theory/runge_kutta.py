@@ -90,24 +90,26 @@ def _holds_for_systems(scheme: Scheme, polynomial: tuple[float, ...]) -> bool:
     return bool(np.abs(jacobian - expected).max() < 1e-12)
 
 
-def modulus_along(polynomial: tuple[float, ...], angle: float) -> Array:
-    """The coefficients in s of |R(s e^(i angle))|^2 - 1, of s^0 first."""
-    terms = [c * np.exp(1j * k * angle) for k, c in enumerate(polynomial)]
-    # on the axes the cosines are what they are, not what the rounded angle makes of them
-    if abs(np.cos(angle)) < 1e-15:
-        terms = [c * (1j if angle > 0 else -1j) ** k for k, c in enumerate(polynomial)]
+def modulus_along(polynomial: tuple[float, ...], direction: complex) -> Array:
+    """The coefficients in s of |R(s u)|^2 - 1, of s^0 first, with u a direction: a complex number of modulus 1.
+
+    Those of odd powers are as small as the real part of u, however small that is, and rounded as that is.
+    """
+    terms = [c * direction**k for k, c in enumerate(polynomial)]
     square = np.convolve(terms, np.conj(terms)).real
     square[0] -= 1.0
-    return np.where(np.abs(square) < ROUNDING, 0.0, square)
+    rounding = np.full(len(square), ROUNDING)
+    rounding[1::2] *= abs(direction.real)
+    return np.where(np.abs(square) <= rounding, 0.0, square)
 
 
-def stable_along(polynomial: tuple[float, ...], angle: float) -> tuple[tuple[float, float], ...]:
-    """The intervals of s >= 0 in which |R(s e^(i angle))| <= 1, rising; the first from 0, empty if unstable at once.
+def stable_along(polynomial: tuple[float, ...], direction: complex) -> tuple[tuple[float, float], ...]:
+    """The intervals of s >= 0 in which |R(s u)| <= 1, rising; the first from 0, empty if unstable at once.
 
-    >>> stable_along((1.0, 1.0), np.pi)  # Euler, of decay: up to 2
+    >>> stable_along((1.0, 1.0), -1 + 0j)  # Euler, of decay: up to 2
     ((0.0, 2.0),)
     """
-    square = modulus_along(polynomial, angle)
+    square = modulus_along(polynomial, direction)
     order = int(np.argmax(square != 0)) if square.any() else 0
     roots = np.roots(square[order:][::-1]) if square.any() else np.array([])
     real = np.sort(roots.real[(np.abs(roots.imag) < 1e-9 * np.abs(roots)) & (roots.real > 0)])
@@ -172,7 +174,7 @@ def stable_steps(polynomial: tuple[float, ...], rates: Complex) -> list[tuple[fl
     """The intervals of h in which no mode of these rates [1/s] grows, rising [s]; the first from 0."""
     common = [(0.0, np.inf)]
     for rate in _of_upper_half(rates):
-        own = [(a / abs(rate), b / abs(rate)) for a, b in stable_along(polynomial, float(np.angle(rate)))]
+        own = [(a / abs(rate), b / abs(rate)) for a, b in stable_along(polynomial, complex(rate / abs(rate)))]
         common = [
             (max(a, c), min(b, d)) for a, b in common for c, d in own if max(a, c) < min(b, d) or max(a, c) == 0.0
         ]

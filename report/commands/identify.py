@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from report.commands.options import json_option, setup_options
-from report.commands.terminal import progress, show_table
+from report.commands.terminal import exit_if_files_failed, progress, show_table
 from report.plain import plain
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ def identify_command(stepper: str, setup: Setup, as_json: bool) -> None:
     """
     from experiments.runs.steppers import find_steppers
     from experiments.simulation.recorded import identify_recording, is_recording
-    from reference.identification import identify
+    from reference.identification import identify_all
 
     if is_recording(stepper):
         recorded = Path(stepper)
@@ -40,10 +39,11 @@ def identify_command(stepper: str, setup: Setup, as_json: bool) -> None:
     (found,) = find_steppers([stepper])
     with progress("identify") as tell:
         tell(stepper)
-        identification = identify(found, setup.system, setup.dt, setup.steps, setup.changes)
+        outcome = found.run(setup.system, setup.dt, setup.steps, setup.changes)
+        runs = [(found, outcome)]
+        (identification,) = identify_all(runs, setup.system, setup.dt, setup.steps, setup.changes).each
     (_print_json if as_json else _show)(stepper, identification)
-    if found.kind == "own" and not identification.ranking:
-        sys.exit(1)  # nothing of it could be compared
+    exit_if_files_failed([(found.kind, outcome.ending)])
 
 
 def _print_json(stepper: str, identification: Identification) -> None:

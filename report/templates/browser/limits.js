@@ -47,6 +47,9 @@ function growthOfWholeMode(scheme, w2, g, drag) {
   };
 }
 
+// Decay slower than this part of the fastest rate has few digits, or none.
+const WEAK = 1e-8;
+
 // More of a growth factor is no rounding; what is less by that decays.
 const SEEN = 1e-11;
 
@@ -123,7 +126,12 @@ function limitOf(name, linear, known = {}, system = null) {
   }
   if (scheme.polynomial && 2 * moving <= ALL_UP_TO) {
     known.rates = known.rates || ratesOf(linear);
-    return {...told, limit: Math.min(...known.rates.map(rate => stableAlong(scheme.polynomial, rate) / Math.hypot(...rate)))};
+    const limits = rates => Math.min(...rates.map(rate => stableAlong(scheme.polynomial, rate) / Math.hypot(...rate)));
+    const limit = limits(known.rates), strongest = Math.max(...known.rates.map(([re]) => Math.abs(re)));
+    // where all decay is so slow that rounding leaves few of its digits, it may be none, or as much as this
+    const most = WEAK * Math.max(...known.rates.map(rate => Math.hypot(...rate)));
+    const unsure = strongest < most && limits(known.rates.map(([re, im]) => [-most, im])) > (1 + 1e-6) * limits(known.rates.map(([re, im]) => [0, im]));
+    return unsure ? {...told, limit: null, reason: "slow"} : {...told, limit};
   }
   const whole = 2 * moving <= STEP_UP_TO && (scheme.linear || !linear.contacts.length);
   const proportional = scheme.proportional && (scheme.proportional_drag || !linear.drag);

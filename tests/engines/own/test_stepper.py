@@ -212,6 +212,15 @@ def test_who_writes_into_what_it_is_given_is_told_in_every_form(form: str, writt
     ("text", "word", "said"),
     [
         ("x = 1\n", "", "expected a function step, it has none"),
+        ("\nstep = lambda f, y, t, dt: y\n", "", ", line 2: step is a lambda: expected def step(...)"),
+        ("step = other = 1\n", ":other", ", line 1: other is a variable: expected def other(...)"),
+        ("class step:\n    pass\n", "", ", line 1: step is a class: expected def step(...)"),
+        ("async def step(f, y, t, dt):\n    return y\n", "", ", line 1: step is an async function: expected def step"),
+        (
+            "def step(f, y, *, dt, t=0):\n    return y\n",
+            "",
+            ", line 1: step takes dt after a star, by name only: expected them before it",
+        ),
         ("def step(:\n", "", "line 1: expected Python"),
         ("def step(foo, bar):\n    pass\n", "", "expected step(x, v, dt, system)"),
         (FORMS["euler"], ":stp", "unknown function of mine.py 'stp': did you mean 'step'?"),

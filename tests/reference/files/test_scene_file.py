@@ -161,7 +161,7 @@ def test_the_ground_moves_along_a_line(tmp_path: Path) -> None:
         (
             "[0, -0.5, -1.25]",
             "[0, [-0.5], [-1.0, 2.0]]",
-            "positions = [[0.0], [-0.5], [-1.0, 2.0]]: expected numbers [m]",
+            "positions[2] = [-1.0, 2.0]: expected 1 numbers, as positions[0] has",
         ),
         ("[0.0, 0.0, 1.0]", "[[0.0, 0.0]]", "velocities has shape (1, 2): expected (3, 1)"),
         ("[3.0]", "[0.0, 1.0]", "normal = [0.0, 1.0]: expected 1 finite number [m]"),
@@ -234,11 +234,11 @@ def test_an_empty_list_of_springs_is_a_heap_of_masses(tmp_path: Path) -> None:
         # Keys.
         (WRITTEN_OUT + "dampign = 1.0\n", ", line 14", "system: unknown key 'dampign': did you mean 'damping'?"),
         ('scene = "string"\nduratoin = 1.0\n', ", line 2", "unknown key 'duratoin': did you mean 'duration'?"),
-        (WRITTEN_OUT.replace("masses = [0.1, 0.2, 0.3]\n", ""), "", "system: object missing required field `masses`"),
+        (WRITTEN_OUT.replace("masses = [0.1, 0.2, 0.3]\n", ""), "", "system.masses is missing"),
         (
             'scene = "string"\n[[changes]]\ntime = 0.1\nparameter = "drag"\n',
             "",
-            "changes[0]: object missing required field `value`",
+            "changes[0].value is missing",
         ),
         (
             'scene = "string"\n[parameters]\nstifness = 100.0\n',
@@ -246,6 +246,22 @@ def test_an_empty_list_of_springs_is_a_heap_of_masses(tmp_path: Path) -> None:
             "unknown parameter of scene 'string' 'stifness': did you mean 'stiffness'?",
         ),
         ('scene = "strng"\n', "", "unknown scene 'strng': did you mean 'string'?"),
+        # Numbers that some are missing of, and that stand elsewhere.
+        (
+            WRITTEN_OUT.replace("masses = [0.1, 0.2, 0.3]", "masses = [0.1]"),
+            ", line 6",
+            "masses = [0.1]: expected a number for all, or one for each of 3 masses",
+        ),
+        (
+            WRITTEN_OUT + "hardening = [2.0]\n",
+            ", line 14",
+            "hardening = [2.0]: expected a number for all, or one for each of 2 springs",
+        ),
+        (
+            WRITTEN_OUT + '[[changes]]\ntime = 0.1\nparameter = "stiffness"\nvalue = [1.0, 2.0, 3.0]\n',
+            ", line 17",
+            "changes[0].value: stiffness has 3 numbers: expected one, or one for each of 2 springs",
+        ),
         # What there must be one of.
         ("dt = 1e-3\n", "", 'expected either scene = "..." or a table [system] or a table [mesh]'),
         ("", "", 'expected either scene = "..." or a table [system] or a table [mesh]'),

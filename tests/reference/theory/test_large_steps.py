@@ -75,7 +75,8 @@ def test_limits_along_many_angles_are_those_along_each(name: str) -> None:
     polynomial = stability_polynomial(find(name))
     assert polynomial is not None
     angles = np.concatenate([[np.pi / 2, np.pi], np.linspace(np.pi / 2, np.pi, 200)[1:-1]])
-    expected = [stable_along(polynomial, float(angle))[0][1] for angle in angles]
+    directions = [1j, -1 + 0j, *np.exp(1j * angles[2:])]
+    expected = [stable_along(polynomial, complex(direction))[0][1] for direction in directions]
     assert first_limits_along(polynomial, angles) == pytest.approx(expected, rel=1e-9)
 
 

@@ -49,6 +49,26 @@ def test_large_systems_come_to_balance_where_they_are_stable(scene: str, setting
     assert squared_frequencies(system, rest, lowest=4).min() > 0
 
 
+@pytest.mark.parametrize("light", [1e-2, 1e-4, 1e-6])
+def test_a_light_mass_beside_a_heavy_one_does_not_stay_above_its_anchor(light: float) -> None:
+    """It starts right above it, where forces balance, and comes to hang at -(L0 + m g/k): beside 100 kg, too.
+
+    What drives it down is a part of its own weight, a millionth of the whole and less.
+    """
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.0, -1.0], [0.0, 0.3]]),
+        springs=np.array([[0, 1], [0, 2]]),
+        masses=np.array([1.0, 100.0, light]),
+        rest_lengths=np.array([1.0, 0.3]),
+        stiffness=np.array([2000.0, 10.0]),
+        fixed=np.array([True, False, False]),
+    )
+    rest = equilibrium(system)
+    hung = -np.array([1.0 + 100 * 9.81 / 2000, 0.3 + light * 9.81 / 10])
+    assert rest.positions[1:, 1] == pytest.approx(hung, rel=1e-9)
+    assert rest.positions[1:, 0] == pytest.approx([0.0, 0.0], abs=1e-6)
+
+
 @pytest.mark.parametrize("law", [wrong.gravity_turned, wrong.one_sided], ids=lambda law: law.__name__)
 def test_balance_fails_on_wrong_forces(law: wrong.Law) -> None:
     """Under other forces it would rest elsewhere."""

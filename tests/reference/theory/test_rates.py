@@ -84,3 +84,43 @@ def test_of_other_equations_by_eulers_step() -> None:
     assert found.values.real == pytest.approx(np.full(2, -0.75), rel=1e-5)
     assert np.sort(found.values.imag) == pytest.approx(np.sqrt(9.81 / 0.5 - 0.75**2) * np.array([-1, 1]), rel=1e-5)
     assert (found.unresisted, found.all) == (0, True)
+
+
+@pytest.mark.parametrize("c", [1e-6, 1e-10, 1e-12, 1e-15])
+def test_modes_that_hardly_decay_have_the_digits_of_their_damping(c: float) -> None:
+    """-c n/(2 m), n = 1 and 3, to first order in c: of eigenvalues themselves rounding leaves 1e-15 of the fastest."""
+    found = rates(rest(free_chain(damping=np.array(c))))
+    assert np.sort(-found.values.real) == pytest.approx(np.repeat([c, 3 * c], 2), rel=1e-6, abs=0)
+    assert found.least_decay == pytest.approx(c, rel=1e-6, abs=0)
+
+
+def test_modes_of_one_frequency_are_told_apart_by_what_damps_them() -> None:
+    """Two masses alike on springs alike, damped by 1e-12 and 5e-12 N s/m, decay at c/(2 m) each."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0], [1.0], [3.0], [4.0]]),
+        springs=np.array([[0, 1], [2, 3]]),
+        masses=np.array(0.5),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(80.0),
+        damping=np.array([1e-12, 5e-12]),
+        fixed=np.array([True, False, True, False]),
+        gravity=np.zeros(1),
+    )
+    found = rates(rest(system))
+    assert np.sort(-found.values.real) == pytest.approx([1e-12, 1e-12, 5e-12, 5e-12], rel=1e-9, abs=0)
+
+
+def test_what_dampers_do_not_see_does_not_decay() -> None:
+    """Two masses on three springs, that in the middle damped: the mode in which both move alike keeps on."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0], [1.0], [2.0], [3.0]]),
+        springs=np.array([[0, 1], [1, 2], [2, 3]]),
+        masses=np.array(0.3),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array([70.0, 11.0, 70.0]),
+        damping=np.array([0.0, 0.1, 0.0]),
+        fixed=np.array([True, False, False, True]),
+        gravity=np.zeros(1),
+    )
+    found = rates(rest(system))
+    assert np.sort(found.values.real) == pytest.approx([-1 / 3, -1 / 3, 0.0, 0.0], rel=1e-12, abs=0)

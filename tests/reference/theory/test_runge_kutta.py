@@ -53,13 +53,19 @@ def test_what_is_no_explicit_runge_kutta_method_has_none(name: str) -> None:
     assert stability_polynomial(find(name)) is None
 
 
+def towards(angle: float) -> complex:
+    """e^(i angle), without rounding on the axes."""
+    axes = {np.pi: -1 + 0j, np.pi / 2: 1j, -np.pi / 2: -1j}
+    return axes.get(angle, complex(np.exp(1j * angle)))
+
+
 @pytest.mark.parametrize("angle", [np.pi, np.pi / 2, -np.pi / 2, 2.0, -2.5, 0.3])
 @pytest.mark.parametrize("polynomial", MADE_UP, ids=len)
 def test_the_modulus_is_that_of_the_polynomial(polynomial: tuple[float, ...], angle: float) -> None:
     """|R(s e^(i angle))|^2 - 1 at ten s, to rounding of its largest terms."""
     s = np.linspace(0, 2, 10)
     expected = size(polynomial, s * np.exp(1j * angle)) ** 2 - 1
-    found = np.polyval(modulus_along(polynomial, angle)[::-1], s)
+    found = np.polyval(modulus_along(polynomial, towards(angle))[::-1], s)
     np.testing.assert_allclose(found, expected, atol=1e-12 * max(1.0, float(np.abs(expected).max())))
 
 
@@ -69,7 +75,7 @@ def test_inside_the_intervals_nothing_grows_and_outside_everything_does(
     polynomial: tuple[float, ...], angle: float
 ) -> None:
     """At 4,000 s, those within 1e-6 of an edge aside; the first interval begins at 0; many angles at once agree."""
-    found = stable_along(polynomial, angle)
+    found = stable_along(polynomial, towards(angle))
     s = np.linspace(1e-3, 20, 4000)
     edges = np.array(found).ravel()
     clear = np.abs(s[:, None] - edges).min(axis=1) > 1e-6
@@ -88,7 +94,15 @@ def test_limits_of_known_polynomials() -> None:
     np.testing.assert_allclose(first_limits_along((1.0, 1.0), angles), np.maximum(-2 * np.cos(angles), 0), atol=1e-12)
     assert first_limits_along((1.0, 1.0, 0.5, 1 / 6, 1 / 24), np.array([np.pi / 2]))[0] == pytest.approx(np.sqrt(8))
     assert first_limits_along((1.0,), angles).tolist() == [np.inf] * 7
-    assert stable_along((1.0, 1.0, 0.5), np.pi / 2) == ((0.0, 0.0),)
+    assert stable_along((1.0, 1.0, 0.5), 1j) == ((0.0, 0.0),)
+
+
+@pytest.mark.parametrize("decay", [1e-8, 1e-14, 1e-18, 1e-30])
+def test_beside_the_imaginary_axis_limits_are_those_of_the_lowest_powers(decay: float) -> None:
+    """Of z = s (-d + i): Euler's |R|^2 - 1 = s^2 - 2 s d, up to 2 d; Heun's s^4/4 - 2 s d, up to (8 d)^(1/3)."""
+    for polynomial, limit in (((1.0, 1.0), 2 * decay), ((1.0, 1.0, 0.5), (8 * decay) ** (1 / 3))):
+        ((_, found), *_) = stable_along(polynomial, complex(-decay, 1.0))
+        assert found == pytest.approx(limit, rel=max(1e-9, 10 * decay ** (1 / 3)), abs=0)
 
 
 def test_a_window_by_hand() -> None:

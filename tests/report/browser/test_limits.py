@@ -117,6 +117,15 @@ def test_where_damping_takes_less_than_rounding_no_limit_is_told() -> None:
         assert (told["limit"], told.get("reason")) == expected
 
 
+def test_a_runge_kutta_limit_that_hangs_on_damping_below_rounding_is_not_told() -> None:
+    """Heun's and Euler's are as its third root, and as itself; RK4's is its own."""
+    system = find_scene("chain").system({"masses": 3, "damping": 1e-9})
+    (answer,) = ask([asked_of_page(system, ask="limits", schemes=["euler", "heun", "rk4"])])
+    told = {name: (found["limit"], found.get("reason")) for name, found in answer["limits"].items()}
+    assert told["euler"] == told["heun"] == (None, "slow")
+    assert agrees(answer["limits"]["rk4"], "rk4", at_rest(system))
+
+
 @pytest.mark.rotating(3)
 def test_limits_are_those_of_the_theory_room(request: pytest.FixtureRequest) -> None:
     """All modes of the rest, by the page's own equilibrium, eigenvalues and traced steps: to 1e-6."""

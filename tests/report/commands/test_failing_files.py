@@ -8,8 +8,9 @@ import pytest
 
 from tests.report.commands.terminal import springlab
 
-#: A step that raises, and one that works.
+#: A step that raises, one that returns what is not a number, and one that works.
 BROKEN = "def step(x, v, dt, system):\n    raise ValueError('no slope')\n"
+NO_NUMBERS = "def step(x, v, dt, system):\n    return x * float('nan'), v\n"
 WORKS = "def step(x, v, dt, system):\n    return x + dt * v, v + dt * system.acceleration(x, v)\n"
 
 COMMANDS = {
@@ -40,3 +41,13 @@ def test_a_file_that_works_ends_with_0(command: str, tmp_path: Path) -> None:
     file = tmp_path / "own.py"
     file.write_text(WORKS)
     assert springlab(*COMMANDS[command], str(file)).code == 0
+
+
+@pytest.mark.parametrize("command", ["compare", "simulate", "identify"])
+def test_a_file_that_returns_no_numbers_is_a_result_and_told(command: str, tmp_path: Path) -> None:
+    """It neither raised nor took too long: a run that diverges, as an engine's may."""
+    file = tmp_path / "own.py"
+    file.write_text(NO_NUMBERS)
+    done = springlab(*COMMANDS[command], str(file))
+    assert done.code == 0
+    assert "own.py returns NaN or infinity" in done.err
