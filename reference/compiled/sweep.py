@@ -89,7 +89,7 @@ def sweep(
         named.setdefault(name, _in_lanes(np.broadcast_to(array, (m, *np.shape(array))), m, blocks))
     for i in loops.axes:
         begin = _in_lanes(start[:, :, i], m, blocks)
-        named |= {f"x{i}": begin.copy(), f"xs{i}": begin.copy(), f"sum{i}": np.zeros((blocks, LANES))}
+        named |= {f"x{i}": begin, f"xs{i}": begin.copy(), f"sum{i}": np.zeros((blocks, LANES))}
     still = start if still is None else np.broadcast_to(still, (m, n, d))
     origin = [_in_lanes(still[:, :, i], m, blocks) for i in loops.axes]
     function = compiled(loops).sweep

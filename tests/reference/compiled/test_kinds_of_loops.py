@@ -7,21 +7,25 @@ import sys
 from dataclasses import replace
 from typing import Any
 
+import numba
 import numpy as np
 import pytest
 
 from reference.collisions.round_masses import Collisions
-from reference.compiled import runs
-from reference.compiled.kernels import _noalias, arrays_of, lists, loops_for
+from reference.compiled import kernels, runs
+from reference.compiled.kernels import Kernel, _noalias, arrays_of, lists, loops_for
 from reference.compiled.loops import Loops
 from reference.compiled.mesh_loops import MeshLoops
 from reference.compiled.run_loops import RunLoops
-from reference.compiled.sweep import _in_lanes, _out_of_lanes, _per_system, sweep
+from reference.compiled.sweep import _in_lanes, _out_of_lanes, _per_system, _use_threads, sweep
 from reference.compiled.tracing import trace
 from reference.errors import Unsupported
-from reference.schemes.catalogue import find
+from reference.motion import Motion
+from reference.schemes.catalogue import Scheme, find
 from reference.springs.kinds import NonlinearSprings
+from reference.state import State
 from reference.system import MassSpringSystem
+from tests.reference.compiled.test_loops_interpreted import interpreted
 from tests.reference.systems import moving_string
 
 HEUN, EULER = find("heun"), find("euler")
@@ -123,6 +127,33 @@ def test_threads_are_in_the_text_where_there_are_some() -> None:
     assert ("for c in prange(" in runs_spread, "parallel=True" in runs_spread) == (True, True)
     known, unknown = (Loops(program, 2, string=True, noalias=noalias).text() for noalias in (True, False))
     assert ("noalias=True" in known, "noalias" in unknown) == (True, False)
+
+
+def test_no_more_threads_are_asked_for_than_there_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of a system and of many; of one thread nothing is asked where there is but one; all where no number is given."""
+    asked: list[int] = []
+    monkeypatch.setattr(numba, "set_num_threads", asked.append)
+    monkeypatch.setattr(kernels, "compiled", interpreted)
+    most = numba.config.NUMBA_NUM_THREADS
+    for threads in (1, 2, 10**6):
+        Kernel(STRING, EULER, threads).advance(1e-3, 1)
+    assert asked == [min(2, most), most]
+    for given in (None, 1, 10**6):
+        _use_threads(given)
+    assert asked[2:] == [most, 1, most]
+
+
+@pytest.mark.parametrize("half", ["positions", "velocities"])
+def test_a_scheme_that_makes_half_a_state_of_something_else_is_not_compiled(half: str) -> None:
+    """Positions, or velocities, that are none of what it was given: it runs as it is written."""
+
+    def other(motion: Motion, state: State, dt: float) -> State:
+        end = state.kick(dt * motion.acceleration(state))
+        object.__setattr__(end, half, np.zeros((4, 2)))
+        return end
+
+    with pytest.raises(Unsupported, match="its states are not made of the one it was given"):
+        trace(Scheme(other, 1))
 
 
 def test_a_stage_that_is_not_where_masses_are_is_gone_to_first() -> None:
