@@ -108,7 +108,8 @@ class Descent:
         self._free = ~system.fixed
         self.size = system.size or 1.0
         self._loads = carried[self._free].ravel()
-        tension = np.abs(self._motion.acceleration(system.start, damping=False)) * system.masses[:, None]
+        still = self.at(system.positions[self._free].ravel())
+        tension = np.abs(self._motion.acceleration(still)) * system.masses[:, None]
         # what forces are small against: what is carried, what the start pulls with, a millionth of what springs can
         firm = 1e-6 * float((system.stiffness * system.rest_lengths).max(initial=0.0))
         firm = max(firm, 1e-6 * stiffness_across(system) * system.shortest)
@@ -122,7 +123,7 @@ class Descent:
 
     def force(self, q: Array) -> Array:
         """On the free masses [N]."""
-        forces = self._motion.acceleration(self.at(q), damping=False) * self.system.masses[:, None]
+        forces = self._motion.acceleration(self.at(q)) * self.system.masses[:, None]
         return np.asarray(forces[self._free].ravel() + self._loads)
 
     def energy(self, q: Array) -> float:
