@@ -190,7 +190,7 @@ def fastest_mode_of_step(scheme: Scheme, rest: Equilibrium, dt: float, found: Ra
     kept = resisted(values.astype(complex), found.unresisted, dt * found.fastest)
     if not len(kept):
         return None
-    fastest = int(np.flatnonzero(values == kept[np.argmax(np.abs(kept))])[0])
+    fastest = int(np.argmax(values == kept[np.argmax(np.abs(kept))]))
     value = complex(values[fastest])
     return FastestMode(modes[:, fastest].real, _left_eigenvector(jacobian, value), abs(value) - 1)
 

@@ -79,4 +79,4 @@ def _top(matrix: Any) -> float:
     size, _ = matrix.shape
     start = np.random.default_rng(0).normal(size=size)
     value = eigsh(matrix, 1, which="LA", v0=start, tol=1e-6, return_eigenvectors=False)
-    return float(value[0]) * (1 + 2e-6)
+    return float(value.item()) * (1 + 2e-6)

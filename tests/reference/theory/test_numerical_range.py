@@ -12,10 +12,12 @@ from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.state import Array
 from reference.system import MassSpringSystem
+from reference.theory import limits
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.limits import stability_limit
 from reference.theory.linearisation import Linearisation
 from reference.theory.numerical_range import DIRECTIONS, _clipped, _limits, limit_from_below, polygon
+from reference.theory.rates import Rates
 from reference.theory.runge_kutta import stability_polynomial
 
 
@@ -96,3 +98,27 @@ def test_a_square_is_cut_along_a_line(
     """What is on the line stays; of what would be nothing all is kept."""
     square: Array = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
     assert _clipped(square, np.array(normal), most) == pytest.approx(np.array(kept))
+
+
+def test_a_polynomials_limit_of_large_systems_is_one_value_where_all_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All rates, or nothing but swings; else it lies between what the range and what the outermost rates tell."""
+    heun, rest = (1.0, 1.0, 0.5), spring_equilibrium(find_scene("string").system({"masses": 2}))
+    monkeypatch.setattr(limits, "limit_from_below", lambda *_: below)
+    rk4, below = (1.0, 1.0, 0.5, 1 / 6, 1 / 24), 0.9
+    swings, mixed, decays = (np.array(v, dtype=complex) for v in ([10j, -10j], [10j, -10j, -1 + 2j], [-2.0, -1.0]))
+    assert limits._by_polynomial(rk4, rest, Rates(swings, 0, False)).dt == pytest.approx(np.sqrt(8) / 10)
+    for rates, whole in ((decays, True), (decays, False), (mixed, False)):
+        limit = limits._by_polynomial(heun if rates is decays else rk4, rest, Rates(rates, 0, whole))
+        first = 1.0 if rates is decays else np.sqrt(8) / 10
+        if whole:
+            assert (limit.dt, limit.certainty, limit.at_most) == (pytest.approx(first), "computed", None)
+        else:
+            below = 0.5 * first
+            limit = limits._by_polynomial(heun if rates is decays else rk4, rest, Rates(rates, 0, whole))
+            assert (limit.dt, limit.certainty, limit.at_most) == (below, "between", pytest.approx(first))
+            below = first
+            assert limits._by_polynomial(heun if rates is decays else rk4, rest, Rates(rates, 0, whole)).at_most is None
+    low, high = 2 - np.sqrt(2 / 3), 2 + np.sqrt(2 / 3)
+    windows = limits._by_polynomial((1.0, 2.4, 0.6), rest, Rates(np.array([-1.0 + 0j]), 0, True))
+    assert windows.dt == pytest.approx(low)
+    assert np.array(windows.windows) == pytest.approx(np.array([[high, 4.0]]))
