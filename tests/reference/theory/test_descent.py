@@ -133,7 +133,7 @@ def test_where_one_force_is_left_there_is_no_rest() -> None:
     class Lazy(Descent):
         """Does not move."""
 
-        def downhill(self, q: Array) -> Array:
+        def downhill(self, q: Array, driving: float | None = None) -> Array:
             """Not at all."""
             return q
 
