@@ -36,7 +36,7 @@ OVER_ONE: tuple[Offset, ...] = ((0, 2), (2, 0))
 NEIGHBOURS: tuple[Offset, ...] = tuple(o for o in product((0, 1, -1), repeat=3) if o > (0, 0, 0))
 
 #: The edges of the six tetrahedra that each cell falls into, all around its diagonal (1, 1, 1) (Freudenthal 1942).
-TETRAHEDRA: tuple[Offset, ...] = tuple(o for o in NEIGHBOURS if min(o) == 0 or min(o) == 1)
+TETRAHEDRA: tuple[Offset, ...] = tuple(o for o in NEIGHBOURS if min(o) >= 0)
 
 #: What a block of jello is made of.
 Cells = Literal["lattice", "tetrahedra"]
