@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from engines.engine import registry
 from reference.derivation.difference_equation import difference_equation
+from reference.derivation.multistep import Multistep
 from reference.derivation.oscillators import runs_of
+from reference.derivation.seen import NOTHING
 from reference.derivation.step_matrix import step_matrix
+from reference.derivation.tableau import Tableau
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import Scheme, find
 from reference.schemes.structural import hht
 from reference.state import State
 from reference.stepper import SchemeStepper
-from report.derived_table import FILE, _same, engine_rows, line_of, row_of, steppers
+from report.derived_table import FILE, _alike, _order, _same, _table, engine_rows, line_of, row_of, steppers
 from report.listings import stepper_rows
 from tests import wrong
 
@@ -63,6 +68,38 @@ def test_a_mistake_in_what_is_remembered_is_told() -> None:
     matrix, difference = step_matrix(runs), difference_equation(runs)
     assert _same(find("hht"), matrix, difference) == "**no**"
     assert _same(mine, matrix, difference) == "yes"
+
+
+def test_matrices_are_held_against_each_other_entry_by_entry() -> None:
+    """The largest difference counts; of what remembers the roots, beside zeros, by whatever the first is multiplied."""
+    one = np.array([[1.0, 2.0], [3.0, 4.0]])
+    for place in ((0, 0), (0, 1), (1, 0), (1, 1)):
+        other = one.copy()
+        other[place] += 2e-9
+        assert (_alike(other, one, 1e-9), _alike(other, one, 3e-9)) == (False, True)
+    swung = np.array([[0.5, 1.0, 0.0], [-0.5, 0.5, 0.0], [0.0, 0.0, 0.0]])  # z^3 - z^2 + 3 z/4
+    polynomial = np.array([2.0, -2.0, 1.5])
+    assert _alike(polynomial, swung, 1e-9)
+    assert _alike(np.array([1.0, -1.0, 0.75, 0.0, 0.0]), swung, 1e-9)
+    for i in (1, 2):
+        assert not _alike(polynomial + 1e-5 * np.eye(3)[i], swung, 1e-9)
+    assert not _alike(np.array([2.0, -2.0, 1.5, 1e-5]), swung, 1e-9)
+
+
+def test_orders_are_those_of_what_tells_most() -> None:
+    """A tableau's, a multistep method's, a difference equation's, a step matrix's without damping; else none."""
+    matrix = step_matrix(runs_of(SchemeStepper(find("heun"))))
+    tableau = Tableau(((Fraction(0),),), (Fraction(1),), (Fraction(0),))
+    bdf3 = Multistep(*(tuple(map(Fraction, row.split())) for row in ("18/11 -9/11 2/11", "6/11 0 0 0")))
+    assert _order(NOTHING, None, None) == "-"
+    assert _order(NOTHING, matrix, None) == "2"
+    assert _order(NOTHING._replace(multistep=bdf3), matrix, None) == "3"
+    assert _order(NOTHING._replace(multistep=bdf3, tableau=tableau), matrix, None) == "1"
+
+
+def test_a_table_has_a_line_below_its_head() -> None:
+    """Bars within cells do not end them."""
+    assert _table(["a", "b"], [["1", "x | y"]]) == ["| a | b |", "| --- | --- |", "| 1 | x \\| y |"]
 
 
 def test_one_sub_step_too_few_is_told() -> None:

@@ -34,7 +34,7 @@ def kick_drift(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
 
 
 def runs_of(rule: Rule, refused: Callable[[MassSpringSystem], str] = lambda system: "") -> Runs:
-    """A stepper that multiplies (x, h v) of oscillators by the rule's matrix; it refuses some systems."""
+    """A stepper that multiplies (x, h v) of oscillators by the rule's matrix; it refuses some systems. Gravity moves all alike."""
 
     def run(asked: Run) -> Outcome:
         system, h, steps = asked
@@ -47,7 +47,7 @@ def runs_of(rule: Rule, refused: Callable[[MassSpringSystem], str] = lambda syst
         x, v = [system.start.positions], [system.start.velocities]
         for _ in range(steps):
             now = np.stack([-1.0 - x[-1][1::2, 0], -h * v[-1][1::2, 0]], axis=1)
-            moved = (matrices @ now[:, :, None])[:, :, 0]
+            moved = (matrices @ now[:, :, None])[:, :, 0] - system.gravity[0] * h**2
             x.append(x[0].copy())
             v.append(v[0].copy())
             x[-1][1::2, 0], v[-1][1::2, 0] = -1.0 - moved[:, 0], -moved[:, 1] / h
@@ -108,6 +108,8 @@ def test_what_is_refused_is_told_and_the_rest_is_seen() -> None:
     neither = step_matrix(runs_of(kick_drift, resisted))
     assert (neither.damped, neither.dragged, neither.text()) == (False, False, [["1 - a", "1"], ["-a", "1"]])
     assert neither.left_out == ("no damping and no drag in its step matrix: nothing resists",)
+    falling = step_matrix(runs_of(kick_drift, lambda system: "" if system.gravity.any() else "only under gravity"))
+    assert (falling.damped, falling.dragged, falling.text()) == (False, False, [["1 - a", "1"], ["-a", "1"]])
     both = lambda system: "not both" if system.damping.any() and np.any(system.drag) else ""  # noqa: E731
     assert step_matrix(runs_of(kick_drift, both)).left_out == ("no drag in its step matrix: not both",)
 
