@@ -34,7 +34,7 @@ def kick_drift(a: Array, b: Array, d: Array) -> Sequence[Array | float]:
 
 
 def runs_of(rule: Rule, refused: Callable[[MassSpringSystem], str] = lambda system: "") -> Runs:
-    """A stepper that multiplies (x, h v) of oscillators by the rule's matrix; it refuses some systems. Gravity moves all alike."""
+    """A stepper that multiplies (x, h v) of oscillators by the matrix of a rule, under gravity; some it refuses."""
 
     def run(asked: Run) -> Outcome:
         system, h, steps = asked
