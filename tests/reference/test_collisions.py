@@ -55,6 +55,21 @@ def test_two_that_meet_part_by_the_law_of_impact(restitution: float) -> None:
     assert centre == pytest.approx(0.75 + common * run.times, abs=1e-13)
 
 
+@pytest.mark.parametrize("dimension", [1, 2, 3])
+def test_two_in_one_place_part_along_the_last_axis(dimension: int) -> None:
+    """By the law of impact: with 1 and 3 kg, u1 = 2 and u2 = -1 m/s, e = 1/2 the speeds are -1.375 and 0.125 m/s.
+
+    v1 = u1 - (1 + e) m2 (u1 - u2)/(m1 + m2); other axes keep theirs, and the lighter one moves three times as far.
+    """
+    x, v = np.zeros((2, dimension)), np.full((2, dimension), 7.0)
+    v[:, -1] = [2.0, -1.0]
+    found_x, found_v = collide(Collisions(np.array([0.1, 0.3]), 0.5), np.array([1.0, 1 / 3]), x, v)
+    assert found_v[:, -1] == pytest.approx([-1.375, 0.125], rel=1e-14)
+    assert found_x[:, -1] == pytest.approx([-0.3, 0.1], rel=1e-14)
+    assert (found_v[:, :-1] == 7.0).all()
+    assert not found_x[:, :-1].any()
+
+
 def test_a_fixed_mass_stays_and_throws_back_whoever_meets_it() -> None:
     """As if it were without end in mass."""
     system = two(1.0, fixed=np.array([False, True]), velocities=np.array([[2.0, 0.0], [0.0, 0.0]]))
