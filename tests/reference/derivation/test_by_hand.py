@@ -18,7 +18,7 @@ from reference.derivation.multistep import Multistep, multistep_of
 from reference.derivation.near import begun_otherwise, nearest_known
 from reference.derivation.of_schemes import updates_of_scheme
 from reference.derivation.oscillators import runs_of
-from reference.derivation.over_dts import DTS, OverDts, over_dts
+from reference.derivation.over_dts import DTS, OverDts, _off, over_dts
 from reference.derivation.small_fractions import fraction_or_itself, recognised, simplest_within
 from reference.derivation.step_matrix import StepMatrix, step_matrix
 from reference.motion import Motion
@@ -325,3 +325,26 @@ def test_each_dt_is_tried_by_itself() -> None:
     assert (single.drowned, single.failed) == (DTS[:2], held.failed)
     assert held.named_there == ("200 at 0.02",)
     assert 0.01 < held.off[0] < 10
+
+
+@pytest.mark.parametrize(("refused", "moving"), [(DTS, [True, False]), (DTS[4:], [True])])
+def test_a_string_is_set_in_motion_where_the_stepper_can_begin_so(refused: Any, moving: list[bool]) -> None:
+    """It is asked again at rest where it can begin so at no dt; one that it cannot is told as that."""
+    heun, asked = runs_of(stepper_named("heun")), []
+
+    def runs(those: Any) -> list[Outcome]:
+        asked.append(bool(those[0].system.velocities.any()))
+        at_rest = Outcome("unsupported", "at rest only")
+        return [at_rest if r.dt in refused and r.system.velocities.any() else heun([r])[0] for r in those]
+
+    system = find_scene("string").system({"masses": 4, "angle": 30.0})
+    held = over_dts(runs, "heun", system, "double", lambda on, dt: None)
+    assert asked == moving
+    assert held.failed == (() if len(moving) == 2 else (DTS[4],))
+    assert DTS[3] in held.same
+
+
+def test_a_step_is_off_by_a_part_of_its_largest_number() -> None:
+    """Of a metre at least."""
+    assert _off(np.array([1e-3, 102.0]), np.array([1e-3, 100.0])) == pytest.approx(0.02)
+    assert _off(np.array([1e-3, 0.02]), np.array([1e-3, 0.01])) == pytest.approx(0.01)

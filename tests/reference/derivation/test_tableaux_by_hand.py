@@ -21,7 +21,7 @@ from reference.derivation.force_jumps import Taken
 from reference.derivation.implicit import implicit_multistep, implicit_tableau
 from reference.derivation.near import parts_of
 from reference.derivation.of_schemes import tableau_of_scheme, updates_of_scheme
-from reference.derivation.stages import MOST, _forces, tableau_by_jumps
+from reference.derivation.stages import MOST, _forces, _same_betas, tableau_by_jumps
 from reference.derivation.tableau import Tableau, nearest, tableau_of
 from reference.derivation.updates import Coefficient, Symbol, Updates, in_words
 from reference.schemes.catalogue import find
@@ -243,6 +243,18 @@ def test_a_tableau_by_its_forces(known: Tableau) -> None:
     assert [tableau_by_jumps(other, matrix) for other in others] == [None] * len(others)  # type: ignore[arg-type]
     another = OfTableau(tableau("0 0; 1 0", "1/4 3/4"))
     assert tableau_by_jumps(forces, another) is None  # type: ignore[arg-type]
+
+
+def test_fractions_have_to_give_every_beta() -> None:
+    """To 1e-8, each of them."""
+    forces = taken(HEUN)
+    assert _same_betas(HEUN, forces)
+    for i in range(2):
+        for off, same in ((2e-8, False), (5e-9, True)):
+            other = [
+                replace(force, in_position=float(force.in_position) + off * (i == j)) for j, force in enumerate(forces)
+            ]
+            assert _same_betas(HEUN, other) == same
 
 
 def test_forces_that_are_none_too_many_or_not_at_the_start_give_no_tableau() -> None:
