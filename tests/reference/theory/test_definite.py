@@ -138,3 +138,59 @@ def test_negative_damping_begins_where_it_does(last: float, expected: float) -> 
     found = TurnsRound(of.scheme, of.linear, of.unit).negative_damping_from(last)
     assert found == pytest.approx(expected, rel=1e-8)
     assert of.negative_damping_from(last) == np.inf
+
+
+def of_unequal(scheme: str, damping: float) -> Definiteness:
+    """S(h) of a scheme on a string of 30, 20 and 50 g with a drag of 0.1 N s/m, of which one spring is damped."""
+    words = {"masses": 3, "mass": [0.03, 0.02, 0.05], "drag": 0.1, "damping": [0.0, damping, 0.0]}
+    system = find_scene("string").system(words)
+    return Definiteness(find(scheme), Linearisation(system, system.start), 0.01)
+
+
+def test_drag_that_turns_velocities_round_is_negative_from_the_lightest_mass_on() -> None:
+    """1 - h Cd/m of 20 g is negative beyond 0.2 s; what is explicit, implicit or exponential never is."""
+    turns = of_unequal("kick_drift_drag_afterwards", 0.0)
+    assert [turns.has_negative_damping(dt) for dt in (0.1, 0.199, 0.201, 0.29, 0.31, 0.6)] == [False] * 2 + [True] * 4
+    assert turns.negative_damping_from(1.0) == pytest.approx(0.2, rel=1e-8)
+    for name in ("kick_drift", "kick_drift_exponential_drag", "backward_euler", "drift_kick_exponential_damping"):
+        assert not any(of_unequal(name, 0.2).has_negative_damping(dt) for dt in (0.1, 0.21, 1.0)), name
+
+
+@pytest.mark.parametrize(
+    ("scheme", "grow", "part"),
+    [
+        ("kick_drift", (False, False), -1.0),
+        ("backward_euler", (False, False), 1.0),
+        ("implicit_midpoint", (False, False), 0.0),
+        ("kick_drift_exponential_drag", (False, True), -1.0),
+        ("drift_kick_exponential_damping", (True, False), -1.0),
+    ],
+)
+def test_whose_damping_grows_faster_than_dt(scheme: str, grow: tuple[bool, bool], part: float) -> None:
+    """Of springs, of drag; only one spring of three is damped, and without it springs' damping does not grow."""
+    found = of_unequal(scheme, 0.2)
+    assert (found.springs_grow, found.drag_grows) == grow
+    assert found.in_proportion == (grow == (False, False))
+    assert found.stiffness_part == pytest.approx(part, abs=1e-9)
+    assert found.decides
+    assert found.never_negative == (scheme in ("backward_euler", "implicit_midpoint"))
+    assert not of_unequal(scheme, 0.0).springs_grow
+
+
+def test_the_damping_of_many_steps_is_that_of_each() -> None:
+    """4 Q - 2 E of every spring and mass; and the matrices that it makes, as arrays and sparse ones."""
+    for scheme in ("drift_kick_exponential_damping", "kick_drift_exponential_drag"):
+        found = of_unequal(scheme, 0.2)
+        steps = np.array([0.01, 0.03, 0.1])
+        for dt, part in zip(steps.tolist(), found.damping_parts(steps), strict=True):
+            for one, other in zip(part, found.damping_part(dt), strict=True):
+                assert one == pytest.approx(other, rel=1e-9, abs=1e-15)
+            dense = found.matrix(dt)
+            assert found.matrix(dt, part) == pytest.approx(dense, rel=1e-9)
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setattr(module, "DENSE_UP_TO", 1)
+                assert found.matrix(dt).toarray() == pytest.approx(dense, rel=1e-9, abs=1e-9)
+                assert found.damping_matrix(dt).toarray() == pytest.approx(
+                    of_unequal(scheme, 0.2).damping_matrix(dt).toarray()
+                )
+            assert found.damping_matrix(dt) == pytest.approx(found.damping_matrix(dt).T)
