@@ -218,7 +218,7 @@ def _strongest_pulls(system: MassSpringSystem, changes: Sequence[Change]) -> Arr
     for change in changes:
         if is_pull(change.parameter):
             place = place_of_pull(change.parameter, most)
-            most[place] = max(most[place], float(np.abs(change.value).max()))
+            most[place] = max(most[place], np.abs(change.value).item())
     return lengths(most)
 
 

@@ -103,7 +103,7 @@ def derivatives(springs: AngularSprings, positions: Array) -> Array:
 def _with_stiffness(springs: AngularSprings) -> AngularSprings:
     """Those that have any: the masses of one that went with a broken spring may be in one place, or in line."""
     acts = springs.stiffness > 0
-    if acts.all() or not len(springs.masses):
+    if acts.all():
         return springs
     return AngularSprings(springs.masses[acts], springs.stiffness[acts], springs.rest_angles[acts])
 

@@ -133,6 +133,15 @@ def test_many_right_sides_are_solved_as_each_alone() -> None:
         assert np.abs(solution[..., column] - alone).max() < 1e-12
 
 
+@pytest.mark.parametrize("size", [1e-30, 1e30])
+def test_velocities_of_any_size_are_solved_for(size: float) -> None:
+    """As are those of 1 m/s: also by iteration, which is told when to end by a part of them."""
+    system = moving_string(40, damping=0.1, drag=0.02)
+    blocks, right = random_blocks(system), np.random.default_rng(0).normal(size=system.positions.shape)
+    expected = solve_velocities(system, blocks, right)
+    assert solve_velocities(system, blocks, size * right) / size == pytest.approx(expected, rel=1e-10, abs=1e-12)
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_sparse_and_dense_matrices_are_equal(dimension: int) -> None:
     """The same entries, summed in the same places."""

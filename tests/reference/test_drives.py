@@ -170,3 +170,12 @@ def test_ground_moves_where_a_drive_says_so_and_not_where_a_parameter_does() -> 
     assert not Driven(FREE).ground_moves
     assert not Driven(FREE, (Ramp("gravity", 0.0, 1.0, 2.0), ramp)).ground_moves
     assert Driven(FREE, (ramp, shaking)).ground_moves
+
+
+@pytest.mark.parametrize("make", [lambda name: Ramp(name, 0.0, 1.0, 2.0), lambda name: Sine(name, 0.0, 1.0, 2.0)])
+def test_what_is_driven_is_a_parameter_or_a_pull(make: Callable[[str], Ramp | Sine]) -> None:
+    """Anything else is refused, with a suggestion."""
+    for name in ("mass", "gravity", "pull.1.x"):
+        assert make(name).parameter == name
+    with pytest.raises(InputError, match=r"^unknown parameter 'stifness': did you mean 'stiffness'\?$"):
+        make("stifness")

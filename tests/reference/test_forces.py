@@ -331,3 +331,12 @@ def test_a_system_without_springs_falls() -> None:
         stiffness=np.array(1.0),
     )
     assert SpringMotion(system).acceleration(system.start).tolist() == [[0.0, -9.81, 0.0]]
+
+
+def test_a_pull_on_one_mass_of_many_is_its_force_over_its_mass() -> None:
+    """On top of all else; none where nothing pulls, and none on what is fixed."""
+    system = find_scene("string").system({"masses": 3, "mass": [0.1, 0.2, 0.4]})
+    pulls = np.zeros_like(system.positions)
+    pulls[0], pulls[2] = [9.0, 9.0], [0.6, -1.0]
+    plain, pulled = (SpringMotion(s).acceleration(s.start) for s in (system, replace(system, pulls=pulls)))
+    assert pulled - plain == pytest.approx(np.array([[0.0, 0.0], [0.0, 0.0], [3.0, -5.0], [0.0, 0.0]]), abs=1e-12)

@@ -258,6 +258,8 @@ def test_what_knows_no_obstacles_says_so() -> None:
         (lambda: Circle((0.0, 0.0), True), "radius = True: expected a finite number > 0 [m]"),
         (lambda: Circle((0.0, 0.0), float("nan")), "radius = nan: expected a finite number > 0 [m]"),
         (lambda: Circle((0.0, 0.0), 10**400), f"radius = {10**400}: expected a finite number > 0 [m]"),
+        (lambda: Circle((0.0, float("nan")), 1.0), "centre = (0.0, nan): expected 2 finite numbers [m]"),
+        (lambda: Plane((True, 0.0), (0.0, 1.0)), "point = (True, 0.0): expected 1 or 2 or 3 finite numbers [m]"),
         (lambda: Circle((0.0,), 1.0), "centre = (0.0,): expected 2 finite numbers [m]"),
         (lambda: Sphere((0.0, 0.0), 1.0), "centre = (0.0, 0.0): expected 3 finite numbers [m]"),
         (lambda: Plane((), (0.0, 1.0)), "point = (): expected 1 or 2 or 3 finite numbers [m]"),
@@ -338,6 +340,19 @@ def test_a_box_is_as_far_as_its_nearest_point(made: Box) -> None:
     for wrong in (beyond, lambda x: np.abs(made.signed_distances(x)[0][:, 0])):
         with pytest.raises(AssertionError):
             check_gap(made, wrong)
+
+
+@pytest.mark.parametrize(
+    ("half_sizes", "depth", "normal"),
+    [((1.0, 1.0, 1.0), 1.0, [1, 0, 0]), ((2.0, 1.0, 1.0), 1.0, [0, 1, 0]), ((2.0, 2.0, 0.5), 0.5, [0, 0, 1])],
+)
+def test_from_the_middle_of_a_box_the_way_out_is_along_one_axis(
+    half_sizes: tuple[float, ...], depth: float, normal: list[int]
+) -> None:
+    """The first of those along which it is as near to a face as along any other."""
+    gap, outwards = Box((1.0, 2.0, 3.0), half_sizes).signed_distances(np.array([[1.0, 2.0, 3.0]]))
+    assert gap.tolist() == [[-depth]]
+    assert outwards.tolist() == [normal]
 
 
 def test_a_mass_beside_the_edge_of_a_box_is_pushed_to_the_nearer_face() -> None:

@@ -272,6 +272,16 @@ def stretching() -> MassSpringSystem:
         ),
         (moving_string(3), "expected every spring to start at its rest length"),
         (stretching(), "expected velocities that do not stretch any spring"),
+        (
+            replace(find_scene("string").system({"masses": 3}), rest_lengths=np.array([0.125, 0.126, 0.125])),
+            "expected every spring to start at its rest length",
+        ),
+        (
+            replace(
+                find_scene("string").system({"masses": 2}), velocities=np.array([[0.0, 0.0], [0.0, 1.0], [0.1, 1.0]])
+            ),
+            "expected velocities that do not stretch any spring",
+        ),
     ],
 )
 def test_other_systems_are_refused_with_the_reason(system: MassSpringSystem, reason: str) -> None:

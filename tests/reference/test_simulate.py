@@ -13,11 +13,12 @@ from hypothesis import strategies as st
 
 from reference.changes import Change, changes_by_step, whole_steps
 from reference.errors import InputError
+from reference.motion import MotionOfSprings
 from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find, schemes
 from reference.simulate import simulate
-from reference.state import Trajectory
+from reference.state import State, Trajectory
 from reference.system import MassSpringSystem
 from tests import wrong
 from tests.reference.systems import label, moving_string, property_test, with_fields
@@ -311,3 +312,19 @@ def test_every_parameter_reaches_its_field() -> None:
     assert system.damping.tolist() == [0.3] * 2
     assert system.drag == 0.2
     assert system.gravity.tolist() == [0.0, -1.6]
+
+
+@pytest.mark.parametrize("lost", ["positions", "velocities"])
+def test_a_run_ends_at_the_first_state_of_which_one_number_is_lost(lost: str) -> None:
+    """Of one mass, in the third step, whether it is where it is or how fast that is not known."""
+
+    def losing(motion: MotionOfSprings, state: State, dt: float) -> State:
+        moved = {"positions": state.positions + 0.0, "velocities": state.velocities + 0.0}
+        if state.time > 1.5 * dt:
+            moved[lost][1, 0] = np.nan
+        return State(state.time + dt, **moved)
+
+    system = find_scene("string").system({"masses": 3})
+    run = simulate(system, Scheme(losing, 1, "scheme"), 1e-3, 0.01)
+    assert len(run) == 4
+    assert np.isnan(getattr(run, lost)[3, 1, 0])

@@ -83,7 +83,11 @@ def test_what_changes_and_what_does_not(name: str, value: Any, expected: dict[st
         apart["angular_springs.stiffness"] = bends["stiffness"]
         assert {**bends, "stiffness": None} == {**before["angular_springs"], "stiffness": None}
     assert apart == expected
-    arrays = [a for part in (changed, changed.angular_springs, changed.nonlinear) for a in vars(part).values()]
+    arrays = [
+        a
+        for part in (changed, changed.angular_springs, changed.nonlinear, changed.collisions)
+        for a in vars(part).values()
+    ]
     assert not any(array.flags.writeable for array in arrays if isinstance(array, np.ndarray))
 
 

@@ -361,6 +361,12 @@ def test_half_a_turn_in_six_digits_is_half_a_turn(written: float) -> None:
     assert not np.abs(forces_on_masses(angular_of(system), system.positions)).max() > 1e-12
 
 
+@pytest.mark.parametrize(("written", "kept"), [(1.0, 1.0), (3.1416, np.pi), (0.0, 0.0), (3.14, 3.14)])
+def test_a_rest_angle_in_space_is_kept_and_is_half_a_turn_at_most(written: float, kept: float) -> None:
+    """Of masses that are not in line."""
+    assert angular_of(three(CORNERS["space"], rest_angles=np.array(written))).rest_angles.tolist() == [kept]
+
+
 def test_systems_keep_their_angular_springs_when_they_are_renumbered() -> None:
     """The same forces, mass by mass; the plain lists make the same again."""
     system = three(CORNERS["space"], velocities=np.zeros((3, 3)))
