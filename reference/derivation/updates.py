@@ -105,7 +105,7 @@ def updates_of(recording: Recording) -> Updates:
         (_form(ones[0], twos[0], names), _form(ones[1], twos[1], names))
         for ones, twos in zip(_pairs(last[0]), _pairs(last[1]), strict=True)
     ]
-    parts = tuple(_part(step, t) for step, t in zip([last[0]] * len(last[0].times), last[0].times, strict=True))
+    parts = tuple(_part(last[0], time) for time in last[0].times)
     found = _with_reused(Updates(tuple(form_pairs[:-1]), parts, form_pairs[-1]), recording)
     _check(found, recording)
     return found

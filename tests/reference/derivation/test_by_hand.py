@@ -181,6 +181,16 @@ def test_what_is_divided_by_is_implicit() -> None:
     assert (apart.symplectic, apart.reversible) == (True, False)
 
 
+def test_periods_are_told_below_the_first_limit_only() -> None:
+    """Of [[1, 1], [m21, 1 - a]] with the determinant 1 + a (a - 0.09) (1 - a): it grows from h w = 0.3 to 1."""
+    m21 = {A: F(-91, 100), (2, 0, 0, 0, 0): F(-109, 100), (3, 0, 0, 0, 0): F(1)}
+    found = consequences(of({ONE: F(1)}, {ONE: F(1)}, m21, {ONE: F(1), A: F(-1)}))
+    first, second = found.imaginary_axis
+    assert (first[1], second[0]) == pytest.approx((0.3, 1.0), abs=1e-6)
+    ((s, _, amplitude),) = found.periods
+    assert (s, amplitude < 1) == (0.1, True)
+
+
 # --- The nearest scheme ---
 
 

@@ -105,6 +105,11 @@ def test_the_nearest_of_as_many_stages_is_told_with_what_differs() -> None:
     half, one, two = Fraction(1, 2), Fraction(1, 3), Fraction(2, 3)
     assert nearest(third, known) == ("heun", [("b1", two, half), ("b2", one, half)])
     assert nearest(MIDPOINT, known) is None
+    assert HEUN.differences(known[1][1]) == [
+        ("a21", Fraction(1), two),
+        ("b1", half, Fraction(1, 4)),
+        ("b2", half, Fraction(3, 4)),
+    ]
     late = replace(HEUN, c=(Fraction(0), half))
     assert late.differences(HEUN) == [("c2", half, Fraction(1))]
     assert (late.same(HEUN), HEUN.same(HEUN), HEUN.same(RK4)) == (False, True, False)
