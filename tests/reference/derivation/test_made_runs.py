@@ -108,6 +108,11 @@ def test_what_is_refused_is_told_and_the_rest_is_seen() -> None:
     neither = step_matrix(runs_of(kick_drift, resisted))
     assert (neither.damped, neither.dragged, neither.text()) == (False, False, [["1 - a", "1"], ["-a", "1"]])
     assert neither.left_out == ("no damping and no drag in its step matrix: nothing resists",)
+    each = lambda s: "its springs do not" if s.damping.any() else "no air" if np.any(s.drag) else ""  # noqa: E731
+    assert step_matrix(runs_of(kick_drift, each)).left_out == (
+        "no damping in its step matrix: its springs do not",
+        "no drag in its step matrix: no air",
+    )
     falling = step_matrix(runs_of(kick_drift, lambda system: "" if system.gravity.any() else "only under gravity"))
     assert (falling.damped, falling.dragged, falling.text()) == (False, False, [["1 - a", "1"], ["-a", "1"]])
     both = lambda system: "not both" if system.damping.any() and np.any(system.drag) else ""  # noqa: E731

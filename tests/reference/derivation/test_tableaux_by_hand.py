@@ -91,6 +91,7 @@ def test_slopes_taken_twice_and_slopes_not_used_are_left_out() -> None:
     # also from its formulas, but where they are to stay as they are written
     stages = [tableau_of(of_tableau(twice), repeated=repeated) for repeated in (False, True)]
     assert [found.stages for found in stages if found is not None] == [3, 4]
+    assert tableau_of(of_tableau(twice)) == stages[0]
     # at other times they are two
     assert replace(twice, c=(Fraction(0), Fraction(1, 2), Fraction(1), Fraction(1))).without_repeated().stages == 4
     idle = tableau("0 0 0; 1/3 0 0; 1 0 0", "1/2 0 1/2")
