@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 
+from reference import assembly
 from reference.assembly import Blocks, assemble, damping_blocks, solve_velocities, spring_blocks
 from reference.errors import SolverError
 from reference.forces import SpringMotion
@@ -131,6 +132,28 @@ def test_many_right_sides_are_solved_as_each_alone() -> None:
     for column in range(3):
         alone = solve_velocities(system, blocks, right[..., column])
         assert np.abs(solution[..., column] - alone).max() < 1e-12
+
+
+def test_the_iteration_finds_what_a_matrix_gives() -> None:
+    """And does find it: 40 masses, of which each falls otherwise with its own move."""
+    system = moving_string(40, damping=0.1)
+    blocks, rng = random_blocks(system), np.random.default_rng(0)
+    blocks = Blocks(blocks.springs, rng.uniform(0.0, 0.02, 41))
+    right = rng.normal(size=system.positions.shape)
+    found = assembly._by_iteration(system, blocks, right)
+    assert found is not None
+    assert np.abs(found - dense_solution(system, blocks, right)).max() < 1e-12
+
+
+def test_what_masses_have_of_their_own_is_on_the_diagonal() -> None:
+    """Each its own, as arrays and sparse; of fixed masses nothing."""
+    system = random_mesh(7, 8, 2, anchors=2)
+    own = np.arange(1.0, 9.0)
+    blocks = Blocks(np.zeros((len(system.springs), 2, 2)), own)
+    for sparse in (False, True):
+        matrix: Any = assemble(system, blocks, sparse=sparse)
+        array = matrix.toarray() if sparse else matrix
+        assert array.tolist() == np.diag(-np.repeat(own[2:], 2)).tolist()
 
 
 @pytest.mark.parametrize("size", [1e-30, 1e30])
