@@ -99,6 +99,7 @@ def main() -> None:
     ending = in_one_line(call) or code
     for remark in remarks:
         say(f"springlab: {remark}")
+    remarks.clear()  # they are told: another command of this process has its own
     sys.exit(ending)
 
 

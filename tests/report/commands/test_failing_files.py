@@ -51,3 +51,4 @@ def test_a_file_that_returns_no_numbers_is_a_result_and_told(command: str, tmp_p
     done = springlab(*COMMANDS[command], str(file))
     assert done.code == 0
     assert "own.py returns NaN or infinity" in done.err
+    assert "NaN" not in springlab("list", "--json").err
