@@ -18,7 +18,7 @@ OUT_OF_TIME = (-signal.SIGKILL, -signal.SIGXCPU)
 MEMORY = 8_000_000
 
 #: Tests that for so long use less than a second on a processor wait for ever [s].
-WAITS = 180.0
+WAITS = 60.0
 
 
 @dataclass(frozen=True)
