@@ -19,7 +19,14 @@ from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from reference.springs.angular import AngularSprings
-from reference.springs.angular_law import bends, derivatives, energy_of_bends, forces_on_masses, torques
+from reference.springs.angular_law import (
+    bends,
+    bends_and_torques,
+    derivatives,
+    energy_of_bends,
+    forces_on_masses,
+    torques,
+)
 from reference.springs.bending import with_bending
 from reference.state import Array, State
 from reference.stepper import stepper_named
@@ -112,6 +119,16 @@ def test_jacobians_are_the_derivatives_of_the_forces(corner: list[list[float]], 
     matrix = assemble(system, spring_blocks(system, state)[0], sparse=False)
     assert matrix == pytest.approx(np.stack(columns, axis=1), abs=1e-7 * 4e3)
     assert matrix == pytest.approx(matrix.T, abs=1e-11)
+
+
+def test_a_right_angle_at_rest_straight_is_bent_by_a_quarter_turn() -> None:
+    """-pi/2 from pi, and kappa times that; of none both are empty, for every frame."""
+    corner = np.array([[1.0, 0.0], [0.0, 0.0], [0.0, 2.0]])
+    one = AngularSprings(np.array([[0, 1, 2]]), np.array([3.0]), np.array([np.pi]))
+    bent, torque = bends_and_torques(one, corner)
+    assert bent == pytest.approx([-np.pi / 2], rel=1e-15)
+    assert torque == pytest.approx([-3 * np.pi / 2], rel=1e-15)
+    assert [found.shape for found in bends_and_torques(None, np.zeros((7, 3, 2)))] == [(7, 0), (7, 0)]
 
 
 def test_many_in_space_are_as_each_alone() -> None:

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 
 import pytest
 
+from report.commands.live import _opened
 from tests.report.commands.terminal import springlab
 from tests.report.live.visit import ROOT, command_line, server
 from tests.soak.guests import Guest
@@ -101,3 +102,19 @@ def test_viewers_who_vanish_in_the_middle_of_a_frame_are_no_news(plain: tuple[st
     assert min(stays.messages - before, guest.messages) >= 30
     stays.leave()
     guest.leave(politely=False)
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="elsewhere a browser needs no display by a name")
+@pytest.mark.parametrize("display", ["DISPLAY", "WAYLAND_DISPLAY", None])
+def test_a_browser_is_asked_where_there_is_a_screen_of_either_kind(
+    display: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of X or of Wayland; without one, a browser would take over the terminal."""
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    if display is not None:
+        monkeypatch.setenv(display, ":0")
+    asked: list[str] = []
+    monkeypatch.setattr("webbrowser.open", lambda address: not asked.append(address))
+    assert _opened("http://there") is (display is not None)
+    assert asked == ["http://there"] * (display is not None)
