@@ -250,6 +250,19 @@ def test_which_names_are_files() -> None:
     assert not is_own("heun") and not is_own("sweeps(rounds=3)")  # noqa: PT018
 
 
+def test_of_a_function_those_parameters_count_that_have_no_default() -> None:
+    """Others are its own, and so is what it takes besides by any name."""
+
+    def step(x, v, dt, system, gain=2.0, **more):  # type: ignore[no-untyped-def]
+        return x + dt * v, v + gain / 2 * dt * system.acceleration(x, v)
+
+    run = stepper_of(step).run(STRING, DT, STEPS).trajectory
+    euler = catalogued()["euler"].run(STRING, DT, STEPS).trajectory
+    assert run is not None
+    assert euler is not None
+    assert np.array_equal(run.positions, euler.positions)
+
+
 def test_a_function_of_this_process_is_a_stepper() -> None:
     """As in a notebook, and in the exercises' form: one mass, by its height."""
 

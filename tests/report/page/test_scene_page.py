@@ -12,6 +12,7 @@ from engines.engine import registry
 from engines.process.isolation import EngineStepper
 from experiments.advice import own_scene
 from experiments.advice import wording as advice_words
+from report.page.written import write_scene_page
 from tests.report.commands.terminal import Said, springlab
 from tests.report.html import check_self_contained, page_of
 
@@ -101,3 +102,13 @@ def test_a_comparison_that_fails_leaves_the_advice(scene: Path, monkeypatch: pyt
     words = page_of(html).words
     assert "This experiment did not come to its end: MemoryError: too much" in words
     assert "engine settings with a limit are stable here" in words
+
+
+def test_a_folder_that_is_there_is_written_to_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With folders above it that were not; the page of the last time is replaced."""
+    monkeypatch.setattr("report.page.written.scene_sections", lambda *_: [])
+    folder = tmp_path / "above" / "page"
+    for text in ("<p>one</p>", "<p>two</p>"):
+        monkeypatch.setattr("report.page.written.scene_page", lambda *_, text=text: text)
+        written = write_scene_page("string", folder, lambda _: None)
+        assert written.file.read_text(encoding="utf-8") == text
