@@ -95,6 +95,7 @@ def test_an_oscillator_is_what_it_says() -> None:
     assert (system.rest_lengths.tolist(), system.gravity.tolist()) == ([1.0], [-9.81])
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_what_is_refused_is_told_and_the_rest_is_seen() -> None:
     """Drag alone; damping and drag together; oscillators side by side, where many are needed one by one."""
     found = step_matrix(runs_of(kick_drift, lambda system: "no drag" if np.any(system.drag) else ""))
@@ -136,6 +137,7 @@ def test_a_step_that_cannot_be_halved_is_not_said_to_ask_for_h() -> None:
     assert step_matrix(runs_of(by_h, stiff)).only_at is None
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_matrix_of_few_digits_is_seen_coarsely() -> None:
     """Off by 1e-10, as what is differenced is: its fractions are found all the same, and that it is so is told."""
 
@@ -148,6 +150,7 @@ def test_a_matrix_of_few_digits_is_seen_coarsely() -> None:
         step_matrix(runs_of(lambda a, b, d: (np.sqrt(1 + 40 * a), 1.0, -a, 1.0), resisted), "single")
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_matrix_of_soft_springs_only_is_seen_of_these() -> None:
     """As of iterations that converge there only; but not where its numbers are no fractions there."""
 
@@ -178,6 +181,7 @@ def test_why_there_is_no_matrix(rule: Rule, said: str) -> None:
         step_matrix(runs_of(rule, lambda system: "one axis only" if system.dimension > 1 else resisted(system)))
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_a_true_motion_is_told_as_that() -> None:
     """Of undamped oscillators: cosine and sine of the root of a, to 1e-16."""
 
@@ -247,6 +251,7 @@ def pendulum(rule: Rule, by_stiffness: float = 0.0) -> Runs:
     return lambda asked: [run(each) for each in asked]
 
 
+@pytest.mark.rotating(3, in_turn=True)
 def test_small_swings_have_the_matrix_that_a_pendulum_is_multiplied_by() -> None:
     """Of angles and rates, at a = h^2 g/L and d; who moves by a stiffness is no rod."""
     at = Samples(np.array([0.5, 1.5]), np.zeros(2), np.array([0.25, 0.75]))
