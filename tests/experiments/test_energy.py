@@ -368,3 +368,4 @@ def test_failures_have_their_reasons(mixed: list[Row]) -> None:
     assert "pendulum_kick_drift on the free string: unsupported, expected a string" in said
     (crashed,) = (row for row in result.tables[0].rows if row[0] == "Segfaults")
     assert crashed[1:6] == [None] * 5
+    assert crashed[-1] == "killed by SIGSEGV"  # on both strings, and told once

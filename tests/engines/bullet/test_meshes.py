@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from engines.bullet.mesh import bending_apart, mesh_of, side_by_side, sorted_pairs
+from engines.bullet.mesh import apex_height, bending_apart, mesh_of, side_by_side, sorted_pairs
 from engines.bullet.rest_shape import rest_shape
 from engines.bullet.softbody import in_space
 from engines.capability_cases import for_each_capability
@@ -16,6 +16,7 @@ from reference.changes import Change
 from reference.errors import Unsupported
 from reference.obstacles import Plane, Sphere
 from reference.scenes import find as find_scene
+from reference.system import MassSpringSystem
 from tests.conformance.case import Case
 from tests.conformance.checks import check_follows
 from tests.conformance.runs import outcomes
@@ -233,3 +234,17 @@ def test_a_shape_that_cannot_be_is_not_found() -> None:
     triangle = on_springs(PLACES[:3], [[0, 1], [1, 2], [0, 2]], [0])
     with pytest.raises(Unsupported, match="no shape"):
         rest_shape(replace(triangle, rest_lengths=np.array([0.1, 0.1, 0.3])), triangle.positions)
+
+
+@pytest.mark.parametrize(("length", "power"), [(0.25, 79), (0.3, 80), (0.5, 80), (0.51, 81)])
+def test_the_apex_is_at_the_next_power_of_two(length: float, power: int) -> None:
+    """Above 2^80 times how far the system reaches: here from 0 to its length, and as much as its spring is long."""
+    system = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [length, 0.0]]),
+        springs=np.array([[0, 1]]),
+        masses=np.array(1.0),
+        rest_lengths=np.array(length),
+        stiffness=np.array(1.0),
+        fixed=np.array([True, False]),
+    )
+    assert apex_height(system) == 2.0**power
