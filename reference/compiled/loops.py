@@ -267,7 +267,8 @@ class Loops:
                 return self._at(f"{name}{axis}", "i")
             if name.startswith("a"):
                 return self._at(f"{name}_{axis}", "i")
-            return self._of_system(name)  # c0, c1, ...
+            # c0, c1, ... or a number that the scheme has written out
+            return self._of_system(name) if name.startswith("c") else name
 
         return expression.text(entry)
 

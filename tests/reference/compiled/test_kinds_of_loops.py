@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from dataclasses import replace
 from typing import Any
 
@@ -18,10 +19,11 @@ from reference.compiled.loops import Loops
 from reference.compiled.mesh_loops import MeshLoops
 from reference.compiled.run_loops import RunLoops
 from reference.compiled.sweep import _in_lanes, _out_of_lanes, _per_system, _use_threads, sweep
-from reference.compiled.tracing import trace
+from reference.compiled.tracing import trace, why_not_compiled
 from reference.errors import Unsupported
 from reference.motion import Motion
-from reference.schemes.catalogue import Scheme, find
+from reference.schemes.catalogue import Scheme, find, schemes
+from reference.simulate import simulate
 from reference.springs.kinds import NonlinearSprings
 from reference.state import State
 from reference.system import MassSpringSystem
@@ -275,3 +277,22 @@ def test_distances_are_measured_from_where_it_is_said_along_every_axis() -> None
     swept = sweep(resting, EULER, np.full(2, 1e-3), 1, still=still, limit=0.4)
     assert swept.distances[0].tolist() == pytest.approx([0.5, 0.0], abs=1e-12)
     assert swept.blown_up.tolist() == [True, False]
+
+
+@pytest.mark.parametrize("lanes", [False, True])
+@pytest.mark.parametrize("scheme", [s for s in schemes().values() if why_not_compiled(s) is None], ids=lambda s: s.name)
+def test_numbers_that_a_scheme_has_written_out_are_numbers_in_its_loops(scheme: Scheme, lanes: bool) -> None:
+    """The 2 of RK4 is no coefficient of dt, of which each system of a sweep has its own: `2[w]` is no program."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # a number with an index is but warned of
+        compile(loops_for(scheme, STRING, lanes=lanes).text(), scheme.name, "exec")
+
+
+def test_a_sweep_by_a_scheme_with_numbers_of_its_own_is_its_function() -> None:
+    """RK4 on two strings with steps of their own, to the last bits."""
+    dt = np.array([1e-3, 3e-3])
+    swept = sweep(STRING, find("rk4"), dt, 3, threads=1)
+    for k, h in enumerate(dt.tolist()):
+        run = simulate(STRING, find("rk4"), h, 3 * h)
+        assert swept.positions[k] == pytest.approx(run.positions[-1], rel=1e-14)
+        assert swept.velocities[k] == pytest.approx(run.velocities[-1], rel=1e-12)
