@@ -20,7 +20,7 @@ from reference.theory.equilibria import Equilibrium
 from reference.theory.first_growth import Search, first_growth
 from reference.theory.large_steps import limit_of_large, relative_of
 from reference.theory.layout import layout_of
-from reference.theory.rates import Rates
+from reference.theory.rates import UNDAMPED, Rates
 from reference.theory.step_increments import growth_of, increments_of_modes, is_exact, step_increments
 from reference.theory.step_map import TORN_APART, Complex, is_resisted, step_jacobian
 from reference.theory.windows import looked_to, windows_of
@@ -82,7 +82,9 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             slowest = float(np.abs(found.values).min())
             start = max(start, min(1e-2 * unit, 4 * float(np.finfo(float).eps) / (LINEAR * slowest)))
         last = FARTHEST / float(np.abs(found.values).min())
-        search = Search(excess, rounding, precision, found.least_decay > 0)
+        # slower decay is never seen in a step
+        decays = found.least_decay > UNDAMPED * found.fastest
+        search = Search(excess, rounding, precision, decays)
         limit = first_growth(search, start, unit, last)
         if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
             return Limit(None, unsolved)
