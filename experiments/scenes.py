@@ -168,12 +168,8 @@ def _table(runs: list[Run]) -> Table:
     rows = [
         [
             *(r.scene.name, r.scene.slides, len(r.system.masses), len(r.system.springs), r.stepper.name),
-            *(
-                steps_of(r.stepper, r.system),
-                r.outcome.ending,
-                r.identification.identified_as,
-                finite(r.identification.error),
-            ),
+            *(steps_of(r.stepper, r.system), r.outcome.ending),
+            *(r.identification.identified_as, finite(r.identification.error)),
             r.identification.compared if r.identification.ranking else None,
             *(", ".join(r.identification.ties), why(r.outcome, r.identification)),
         ]

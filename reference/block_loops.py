@@ -1,6 +1,7 @@
 """The derivatives of springs' forces in a compiled loop, for schemes that ask for them several times in every step.
 
-To the bit what `assembly.spring_blocks` writes for all springs at once, where its formula stands.
+What `assembly.spring_blocks` writes for all springs at once, where the formula stands, but for rounding: in space sums
+of three squares may be taken in another order. That one has no loops; the page in a browser is written from it.
 """
 
 from __future__ import annotations

@@ -155,6 +155,8 @@ def _fitted(at: Samples, rows: Array, back: int, noise: float) -> tuple[Formula,
     if s[-1] < 1e-13 * s[0]:
         return None
     solution = vt.T @ ((u.T @ wanted) / s)
+    if np.abs(terms @ solution - wanted).max() > NOISES * noise:
+        return None
     spread = DEVIATIONS * noise * np.sqrt(((vt.T / s) ** 2).sum(axis=1))
     parts: list[dict[Monomial, Number]] = [{ONE: Fraction(1)}, *({} for _ in range(back))]
     for (kind, j), c, off in zip(unknowns, solution.tolist(), spread.tolist(), strict=True):

@@ -12,7 +12,7 @@ from reference.errors import InputError
 from reference.obstacles import Plane
 from reference.springs.angular import AngularSprings
 from reference.springs.kinds import NonlinearSprings
-from reference.system import MassSpringSystem
+from reference.system import MassSpringSystem, check_parameter
 
 
 def bent_wire() -> MassSpringSystem:
@@ -177,3 +177,35 @@ def test_lengths_of_a_wire_by_hand() -> None:
     assert tall.with_parameter("rest_length", 0.0).shortest == 9.5
     assert tall.off_rest_length.tolist() == [True, True]
     assert not system.slackens.any()
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "said"),
+    [
+        ("mass", 1e-50, None),
+        ("mass", 1e50, None),
+        ("mass", 0.0, "mass = 0: expected a number > 0 [kg]"),
+        ("mass", -1.0, "mass = -1: expected a number > 0 [kg]"),
+        ("mass", 0.99e-50, "mass = 9.9e-51: expected a number of at least 1e-50 [kg]"),
+        ("stiffness", 0.0, None),
+        ("stiffness", 1e-60, None),
+        ("stiffness", -1e-60, "stiffness = -1e-60: expected a number >= 0 [N/m]"),
+        ("rest_length", -0.5, "rest_length = -0.5: expected a number >= 0 [m]"),
+        ("damping", -0.5, "damping = -0.5: expected a number >= 0 [N s/m]"),
+        ("drag", -0.5, "drag = -0.5: expected a number >= 0 [N s/m]"),
+        ("gravity", -9.81, None),
+        ("gravity", np.nan, "gravity = nan: expected a finite number [m/s^2]"),
+        ("gravity", -1e50, None),
+        ("gravity", -1.01e50, "gravity = -1.01e+50: expected a number of at most 1e+50 [m/s^2]"),
+        ("angle", -30.0, None),
+        ("angle", np.inf, "angle = inf: expected a finite number"),
+    ],
+)
+def test_a_number_that_a_parameter_cannot_be_is_refused(name: str, value: float, said: str | None) -> None:
+    """On both sides of every border; what is no parameter takes any finite number."""
+    if said is None:
+        check_parameter(name, value)
+        return
+    with pytest.raises(InputError) as refused:
+        check_parameter(name, value)
+    assert str(refused.value) == said
