@@ -31,7 +31,12 @@ MODE_STEPS = 300
 
 
 def limit_of_engine(
-    engine: Engine, rest: Array, perturbed: MassSpringSystem, dt: float, precision: float
+    engine: Engine,
+    rest: Array,
+    perturbed: MassSpringSystem,
+    dt: float,
+    precision: float,
+    expected: float | None = None,
 ) -> Limit | Outcome:
     """Run an engine again and again until its limit is found; then look at its step there.
 
@@ -40,6 +45,7 @@ def limit_of_engine(
         perturbed: the system with its masses moved a little from there.
         dt: about as long as the fastest mode lasts [s].
         precision: as a part of the limit.
+        expected: the limit [s] of the scheme that the engine was identified with: it is looked at first.
 
     Returns:
         The limit, and whether perturbations grow at BEYOND of it; with the growth factors of the engine's step at BELOW
@@ -50,7 +56,7 @@ def limit_of_engine(
         return growth_of_engine(engine, rest, perturbed, h, steps)
 
     try:
-        limit = measured_limit(growth, dt, precision)
+        limit = measured_limit(growth, dt, precision, expected)
         if limit.dt is None:
             return limit
         found, factors = limit.dt, None

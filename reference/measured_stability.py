@@ -32,6 +32,9 @@ SEEN = float(np.log(2) / (0.75 * STEPS))
 #: How many times as long a run below a limit is: in it, growth is seen that is smaller by the same factor.
 LONGER = 6
 
+#: At these parts of an expected limit runs are made first: between them lies more than what is expected.
+EXPECTED = (0.988, 1.013)
+
 
 def random_growth(offsets: Array) -> float:
     """Growth in a step, from the mean squares of offsets in the first and the last quarter of a run.
@@ -64,18 +67,31 @@ def mode_growth(offsets: Array, mode: Array) -> float:
     return float(np.expm1(slope))
 
 
-def measured_limit(growth: Callable[[float, int], float], dt: float, precision: float) -> Limit:
+def measured_limit(
+    growth: Callable[[float, int], float], dt: float, precision: float, expected: float | None = None
+) -> Limit:
     """Up to which dt a random perturbation does not grow, by doubling, halving and bisection.
+
+    Where it does not a little below an expected limit, and does a little above, the limit is looked for between the two
+    only: that all grows slowly at any dt is then out of the question.
 
     Args:
         growth: of a dt [s] and a number of steps, as random_growth measures it.
         dt: about as long as the fastest mode lasts [s].
         precision: as a part of the limit.
+        expected: the limit [s] of the scheme that this one was identified with.
     """
 
     def unstable(h: float) -> bool:
         return growth(h, STEPS) > SEEN
 
+    def near(low: float, high: float) -> bool:
+        return high - low <= precision * low
+
+    if expected is not None:
+        low, high = (part * expected for part in EXPECTED)
+        if not unstable(low) and unstable(high):
+            return Limit(bisect(unstable, low, high, near)[0])
     low, high = dt, dt
     while unstable(low):
         low, high = low / 2, low
@@ -85,7 +101,7 @@ def measured_limit(growth: Callable[[float, int], float], dt: float, precision: 
         low, high = high, 2 * high
         if low > 50 * dt:
             return Limit(None, f"stable at any dt that was tried, up to {low:.3g} s")
-    low, high = bisect(unstable, low, high, lambda low, high: high - low <= precision * low)
+    low, high = bisect(unstable, low, high, near)
     # Growth that goes as a power of dt is seen late. Below a true limit a longer run has none either.
     if growth(0.9 * low, LONGER * STEPS) > SEEN / LONGER:
         return Limit(None, f"unstable at any dt that was tried: in longer runs at {0.9 * low:.3g} s too")

@@ -55,6 +55,25 @@ class PendulumMotion:
         torque = torque + self._lengths * (below[:, 0] * np.cos(angles) + below[:, 1] * np.sin(angles))
         return np.asarray(np.linalg.solve(self._inertia * np.cos(difference), torque))
 
+    def derivatives_at_rest(self, state: State) -> tuple[Array, Array]:
+        """Of the angular accelerations about a rest, by the angles [1/s^2] and by their rates [1/s], shapes (n, n).
+
+        With all torques in balance the inertia's own derivative drops out, and with all rates zero what is of their
+        second power does:
+
+            sum_k l_i l_k cos(th_i - th_k) [ mu_max(i,k) dth_k'' + drag n_max(i,k) dth_k' ] = -l_i (W_i . r_i) dth_i,
+
+        with r_i along rod i, W_i the weight of all the masses below it, and n_i their number.
+        """
+        angles = state.positions
+        alike = np.cos(angles[:, None] - angles[None, :])
+        below = np.cumsum(self._weight[::-1], axis=0)[::-1]
+        along = below[:, 0] * np.sin(angles) - below[:, 1] * np.cos(angles)
+        number = len(angles) - np.maximum.outer(np.arange(len(angles)), np.arange(len(angles)))
+        slowing = self.system.drag * np.outer(self._lengths, self._lengths) * number * alike
+        to_acceleration = -np.linalg.inv(self._inertia * alike)
+        return np.asarray(to_acceleration * (self._lengths * along)), np.asarray(to_acceleration @ slowing)
+
     def slope(self, state: State) -> Slope:
         """The rate of change of the whole state: angular velocities and accelerations."""
         return Slope(1.0, state.velocities, self.acceleration(state))

@@ -37,8 +37,8 @@ from reference.theory.rates import Rates
 PRECISION = 1e-4
 
 #: The steps at which runs are made are whole powers of 1 + PRECISION, so far from the one below the predicted limit:
-#: where to look is expected, what is found is not.
-LADDER = (-1000, -100, -1, 0, 1, 2, 100, 1000)
+#: where to look is expected, what is found is not. The second are looked at where the first do not tell.
+LADDERS = ((-100, 0, 1, 100), (-1000, -100, 0, 1, 100, 1000))
 
 #: Between two of them that are no neighbours, so many further ones at once are run, evenly spread.
 BETWEEN = 7
@@ -78,23 +78,32 @@ def measure_engine(
     along = _along_modes(stepper, predictions, own_rest, scheme, predicted) if scheme is not None else None
     if along is None and precision_of(stepper.engine) == "single":
         return Limit(None, HIDDEN)
-    return along or measure_at_random(stepper, predictions.system, predictions.rest, predictions.unit)
+    expected = predicted.dt if predicted.exact else None
+    return along or measure_at_random(
+        stepper, predictions.system, predictions.rest, predictions.unit, expected=expected
+    )
 
 
 def measure_at_random(
-    stepper: EngineStepper, system: MassSpringSystem, rest: Equilibrium, dt: float, precision: float = PRECISION
+    stepper: EngineStepper,
+    system: MassSpringSystem,
+    rest: Equilibrium,
+    dt: float,
+    precision: float = PRECISION,
+    expected: float | None = None,
 ) -> Limit | Outcome:
-    """The same from random perturbations and from short steps on, with nothing of the theory in it but the rest.
+    """The same from random perturbations, from short steps on; where nothing is expected, with no theory but the rest.
 
     Args:
         rest: of the system's springs.
         dt: about as long as the fastest mode lasts [s].
         precision: as a part of the limit.
+        expected: the limit [s] of the scheme that the engine was identified with: it is looked at first.
     """
     own_rest = rest_of_engine(stepper.engine, system, rest)
     if isinstance(own_rest, Outcome):
         return own_rest
-    asked = (stepper.engine, *perturbed(system, own_rest), dt, precision)
+    asked = (stepper.engine, *perturbed(system, own_rest), dt, precision, expected)
     return stepper.isolate(limit_of_engine, *asked, time_limit=2 * stepper.time_limit)
 
 
@@ -127,19 +136,20 @@ def _along_modes(
     def growths_at(rungs: Sequence[int]) -> list[float] | Outcome | None:
         return watched.growths([(1 + PRECISION) ** (below + rung) for rung in rungs])
 
-    rungs: Sequence[int] = LADDER
-    growths = growths_at(rungs)
-    if growths is None or isinstance(growths, Outcome):
-        return growths
-    factors = (1 + growths[LADDER.index(-100)], 1 + growths[LADDER.index(100)])
-    while (first := _first_unstable(growths, margin)) is not None:
-        low, high = rungs[first - 1], rungs[first]
-        if high - low == 1:
-            return Limit((1 + PRECISION) ** (below + low + 0.5), factors=factors, grows_beyond=True)
-        rungs = sorted({round(rung) for rung in np.linspace(low, high, BETWEEN + 2)})
+    factors, ladders = None, list(LADDERS)
+    while ladders:
+        rungs = ladders.pop(0)
         growths = growths_at(rungs)
         if growths is None or isinstance(growths, Outcome):
             return growths
+        factors = factors or (1 + growths[rungs.index(-100)], 1 + growths[rungs.index(100)])
+        first = _first_unstable(growths, margin)
+        if first is None:
+            continue
+        low, high = rungs[first - 1], rungs[first]
+        if high - low == 1:
+            return Limit((1 + PRECISION) ** (below + low + 0.5), factors=factors, grows_beyond=True)
+        ladders = [tuple(sorted({round(rung) for rung in np.linspace(low, high, BETWEEN + 2)}))]
     return slow
 
 

@@ -19,6 +19,7 @@ from reference.state import State
 from reference.system import BoolArray, MassSpringSystem
 from reference.theory.contacts import ContactLinearisation, Contacts
 from reference.theory.equilibrium import equilibrium
+from reference.theory.linear_motion import LinearMotion, LinearPendulum
 from reference.theory.linearisation import Linearisation
 from reference.theory.rest_on_obstacles import rest_on_obstacles
 
@@ -64,6 +65,13 @@ class Equilibrium:
         if self.contacts is None:
             return Linearisation(self.motion.system, self.state)
         return ContactLinearisation(self.motion.system, self.state, contacts=self.contacts)
+
+    @cached_property
+    def linear_motion(self) -> LinearMotion | LinearPendulum | None:
+        """The same for schemes to step, of springs that rest on nothing, or of a pendulum; None of others."""
+        if isinstance(self.motion, PendulumMotion):
+            return LinearPendulum(self.motion, self.state)
+        return None if self.linear is None or self.contacts is not None else self.linear.motion
 
 
 def spring_equilibrium(system: MassSpringSystem) -> Equilibrium:

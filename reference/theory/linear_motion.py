@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from reference.assembly import DENSE_UP_TO, Blocks, assemble, spring_blocks
+from reference.pendulum import PendulumMotion
 from reference.state import Array, Slope, State
 from reference.system import MassSpringSystem
 
@@ -49,6 +50,21 @@ class LinearMotion:
         x, v = (q.reshape(self._by_position.shape[0], -1) for q in (state.positions, state.velocities))
         rows = np.asarray(self._by_position[of_mass] @ x + self._by_velocity[of_mass] @ v)
         return rows if state.positions.ndim == 3 else rows[:, 0]
+
+    def slope(self, state: State) -> Slope:
+        """(1, x', x'')."""
+        return Slope(1.0, state.velocities, self.acceleration(state))
+
+
+class LinearPendulum:
+    """Small swings of a pendulum about its rest, linearised: of many at once, one per column. States are of angles."""
+
+    def __init__(self, motion: PendulumMotion, equilibrium: State) -> None:
+        self._by_position, self._by_velocity = motion.derivatives_at_rest(equilibrium)
+
+    def acceleration(self, state: State) -> Array:
+        """Of all rods."""
+        return np.asarray(self._by_position @ state.positions + self._by_velocity @ state.velocities)
 
     def slope(self, state: State) -> Slope:
         """(1, x', x'')."""

@@ -7,8 +7,9 @@ between. In one mode alone growth of a millionth in a step shows within some hun
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from math import floor, log, log1p
 
 import numpy as np
 
@@ -35,8 +36,15 @@ MARGIN = 1e-8
 #: Growth that is told from none for certain.
 SEEN = 3 * MARGIN
 
-#: How far from a predicted limit it is looked first, as a part of it, and by what that widens; the measured precision.
-NEAR, WIDER, WIDEST, PRECISION = 1e-4, 10.0, 0.5, 4e-5
+#: Limits are found to this part of themselves.
+PRECISION = 4e-5
+
+#: Runs are made at powers of 1 + PRECISION, so far below and above the whole one below the predicted limit: where to
+#: look is expected, what is found is not. The widest two are near half the limit and twice.
+AROUND = ((0, 1), (-25, 25), (-250, 250), (-2500, 2500), (-17000, 17000))
+
+#: So much above a predicted limit growth is to be fast enough to be seen.
+NEAR = 1e-4
 
 #: Where no limit is predicted a run is made at these parts of the fastest mode's 1/w.
 TRIED = (0.1, 1.0, 10.0)
@@ -85,27 +93,31 @@ def measured_mode_limit(scheme: Scheme, rest: Equilibrium, predicted: Limit, fou
     if mode is not None and mode.growth < SEEN:
         beyond = f"growth at {1 + NEAR:g} of the predicted limit is {mode.growth:.1g} a step"
         return Limit(None, f"not measured: {beyond}, too slow for a run of {STEPS} steps")
-    low, high = _around(unstable, predicted.dt)
-    if low is None or high is None:
-        where = f"{(1 - WIDEST) * predicted.dt:.4g} and {(1 + WIDEST) * predicted.dt:.4g} s"
-        return Limit(None, f"no limit between {where}: runs are {'stable' if high is None else 'unstable'} at both")
+    between = _around(unstable, predicted.dt)
+    if isinstance(between, str):
+        return Limit(None, between)
     measured = (_window(unstable, *window, predicted.looked_to) for window in predicted.windows)
     windows = tuple(window for window in measured if window is not None)
-    return Limit((low + high) / 2, windows=windows, looked_to=predicted.looked_to)
+    return Limit(float(np.mean(between)), windows=windows, looked_to=predicted.looked_to)
 
 
-def _around(unstable: Callable[[float], bool], dt: float) -> tuple[float | None, float | None]:
-    """A stable dt and an unstable one above it, PRECISION apart, around an expected limit; None for a missing one."""
-    part = NEAR
-    low: float | None = None
-    high: float | None = None
-    while part <= WIDEST and (low is None or high is None):
-        low = low or (None if unstable((1 - part) * dt) else (1 - part) * dt)
-        high = high or ((1 + part) * dt if unstable((1 + part) * dt) else None)
-        part *= WIDER if part * WIDER <= WIDEST or part == WIDEST else WIDEST / part
+def _around(unstable: Callable[[float], bool], dt: float) -> tuple[float, float] | str:
+    """A stable dt and an unstable one above it, PRECISION apart, around an expected limit; or why there are none."""
+    whole = floor(log(dt) / log1p(PRECISION))
+
+    def at(power: float) -> float:
+        return float((1 + PRECISION) ** (whole + power))
+
+    def is_beyond(power: float) -> bool:
+        return unstable(at(power))
+
+    low = next((below for below, _ in AROUND if not is_beyond(below)), None)
+    high = next((above for _, above in AROUND if is_beyond(above)), None)
     if low is None or high is None:
-        return low, high
-    return bisect(unstable, low, high, lambda low, high: high - low <= PRECISION * low)
+        (below, above), at_both = AROUND[-1], "stable" if high is None else "unstable"
+        return f"no limit between {at(below):.4g} and {at(above):.4g} s: runs are {at_both} at both"
+    first, last = bisect(is_beyond, low, high, lambda low, high: high - low <= 1)
+    return at(first), at(last)
 
 
 def _window(unstable: Callable[[float], bool], low: float, high: float, looked_to: float) -> tuple[float, float] | None:
@@ -172,7 +184,7 @@ def _growth_of_run(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -
     """The same; raises SolverError where the scheme's equations are not solved."""
     try:
         mode = fastest_mode_of_step(scheme, rest, dt, found)
-        return np.inf if mode is None else mode_growth(np.array([*offsets(scheme, rest, dt, mode.shape)]), mode.left)
+        return np.inf if mode is None else mode_growth(offsets(scheme, rest, dt, mode.shape), mode.left)
     except np.linalg.LinAlgError:
         return np.inf
 
@@ -205,8 +217,8 @@ def _left_eigenvector(jacobian: Array, value: complex) -> Array:
     return np.asarray(vector)
 
 
-def offsets(scheme: Scheme, rest: Equilibrium, dt: float, shape: Array) -> Iterator[Array]:
-    """How far from rest a run is after every step, the start first, as vectors like the shape it starts in.
+def offsets(scheme: Scheme, rest: Equilibrium, dt: float, shape: Array) -> Array:
+    """How far from rest a run is after every step, the start first, as vectors like the shape it starts in: its rows.
 
     Where something falls, as fast as it does in the long run, from a run that is not perturbed: it falls in both. It
     ends after STEPS, or once the perturbation is GROWN times as large: what comes then says no more.
@@ -221,15 +233,21 @@ def offsets(scheme: Scheme, rest: Equilibrium, dt: float, shape: Array) -> Itera
     def step(state: State, dt: float) -> State:
         return projected(rest.system, free_step(state, dt), 0.0) if rest.contacts else free_step(state, dt)
 
-    still, state = settled, layout.state(shape * (size / np.abs(shape).max()), settled)
+    run, still = [layout.state(shape * (size / np.abs(shape).max()), settled)], [settled]
     falls = np.abs(step(settled, dt).positions - settled.positions).max() > 1e-3 * size
-    base = layout.vector(still)
-    for _ in range(STEPS + 1):
-        offset = (layout.vector(state) - base)[:, 0]
-        yield offset
-        if not np.abs(offset[: layout.block]).max() <= GROWN * size:
-            return
-        state = step(state, dt)
+    while len(run) <= STEPS and np.abs((run[-1].positions - still[-1].positions)[rest.free]).max() <= GROWN * size:
+        run.append(step(run[-1], dt))
         if falls:
-            still = step(still, dt)
-            base = layout.vector(still)
+            still.append(step(still[-1], dt))
+    return (layout.vector(_as_columns(run)) - layout.vector(_as_columns(still))).T
+
+
+def _as_columns(states: Sequence[State]) -> State:
+    """States of one run as one state of columns."""
+    memory = zip(*(state.memory for state in states), strict=True)
+    positions, velocities = ([state.positions for state in states], [state.velocities for state in states])
+    return State(0.0, _stacked(positions), _stacked(velocities), tuple(_stacked(each) for each in memory))
+
+
+def _stacked(arrays: Sequence[Array]) -> Array:
+    return np.stack(arrays, axis=-1)

@@ -62,8 +62,7 @@ def coefficients(scheme: Scheme, dt: float, masses: Array, damping: Array, drag:
     Raises:
         SolverError, Unsupported: as the scheme's step does.
     """
-    soft, stiff = (_leading(scheme, dt, masses, damping, drag, part) for part in (1.0, 2.0))
-    (a2, a0), (stiffer_a2, stiffer_a0) = soft, stiff
+    (a2, stiffer_a2), (a0, stiffer_a0) = _leading(scheme, dt, masses, damping, drag, np.array([1.0, 2.0]))
     damped = np.abs(a2 - a0) / masses
     kappa = _shared((stiffer_a2 - a2) / masses, damped)
     epsilon = _shared(((stiffer_a2 - stiffer_a0) - (a2 - a0)) / masses, damped)
@@ -78,11 +77,17 @@ def _shared(values: Array, damped: Array) -> float:
     return round(float(values[np.argmin(damped)]), 12) if len(values) else 0.0
 
 
-def _leading(scheme: Scheme, dt: float, masses: Array, damping: Array, drag: float, part: float) -> tuple[Array, Array]:
-    """A2 and A0 [kg], shape (s,), with springs of h^2 k = part x m: as soft as positions and velocities are alike."""
-    step = step_matrices(scheme, dt, masses, part * masses / dt**2, damping, drag)
-    trace, determinant = step[:, 0, 0] + step[:, 1, 1], step[:, 0, 0] * step[:, 1, 1] - step[:, 0, 1] * step[:, 1, 0]
-    a2 = part * masses / (1 - trace + determinant)
+def _leading(
+    scheme: Scheme, dt: float, masses: Array, damping: Array, drag: float, parts: Array
+) -> tuple[Array, Array]:
+    """A2 and A0 [kg], shape (p, s), with springs of h^2 k = part x m: as soft as positions and velocities are alike."""
+    shape = len(parts), len(masses)
+    all_masses, all_damping = (np.broadcast_to(each, shape).ravel() for each in (masses, damping))
+    stiffness = (parts[:, None] * masses / dt**2).ravel()
+    step = step_matrices(scheme, dt, all_masses, stiffness, all_damping, drag).reshape(*shape, 2, 2)
+    trace = step[..., 0, 0] + step[..., 1, 1]
+    determinant = step[..., 0, 0] * step[..., 1, 1] - step[..., 0, 1] * step[..., 1, 0]
+    a2 = parts[:, None] * masses / (1 - trace + determinant)
     return a2, determinant * a2
 
 

@@ -13,13 +13,13 @@ from reference.schemes.catalogue import Scheme
 from reference.state import Array, Slope, State
 from reference.theory.equilibria import Equilibrium
 from reference.theory.layout import layout_of
-from reference.theory.linear_motion import LinearMotion
+from reference.theory.linear_motion import LinearMotion, LinearPendulum
 from reference.theory.step_map import Complex, step_jacobian
 
 
 def is_exact(scheme: Scheme, rest: Equilibrium) -> bool:
-    """Whether B is found without J: of a linear scheme that asks for accelerations only, about a rest of springs."""
-    return rest.linear is not None and rest.contacts is None and scheme.linear and "accelerations" in scheme.needs
+    """Whether B is found without J: of a linear scheme that asks for accelerations only, and motion linearised."""
+    return rest.linear_motion is not None and scheme.linear and "accelerations" in scheme.needs
 
 
 def step_increments(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
@@ -31,12 +31,12 @@ def step_increments(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     if not is_exact(scheme, rest):
         jacobian = step_jacobian(scheme, rest, dt)
         return jacobian - np.eye(len(jacobian))
-    assert rest.linear is not None
+    assert rest.linear_motion is not None
     layout, _ = layout_of(scheme, rest, dt)
     n, nothing = layout.size, np.zeros((*rest.state.positions.shape, 2 * layout.size))
     given = np.concatenate([np.eye(n), np.zeros((n, n))], axis=1)
     state = layout.state(given, State(0.0, nothing, nothing, (nothing,) * layout.remembered))
-    end = layout.vector(scheme.on(_InTwoParts(rest.linear.motion))(state, dt))
+    end = layout.vector(scheme.on(_InTwoParts(rest.linear_motion))(state, dt))
     # 1 / dt x dt is not 1 at every dt: from what it was, not from the identity matrix
     begin = layout.vector(state)
     return np.asarray((end[:, :n] - begin[:, :n]) + end[:, n:])
@@ -73,7 +73,7 @@ class _InTwoParts:
     A linear scheme adds and multiplies the two alike. So the first never loses what is in the second.
     """
 
-    def __init__(self, motion: LinearMotion) -> None:
+    def __init__(self, motion: LinearMotion | LinearPendulum) -> None:
         self._motion = motion
 
     def acceleration(self, state: State) -> Array:
@@ -83,6 +83,7 @@ class _InTwoParts:
 
     def acceleration_of(self, i: int, state: State) -> Array:
         """Of mass i alone."""
+        assert isinstance(self._motion, LinearMotion)  # no scheme that asks for this steps a pendulum
         added = self._motion.acceleration_of(i, _whole(state))
         return np.concatenate([np.zeros_like(added), added], axis=-1)
 

@@ -26,13 +26,13 @@ TORN_APART = 3e-6
 def step_jacobian(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
     """J over the free positions, dt x velocities, and what a multistep scheme remembers: exactly where it can be.
 
-    About an equilibrium of springs a scheme that is `linear` is given the linearised equations of motion and the
-    identity matrix in place of a state, and its own function returns J. Others are differenced; so is a step from a
-    rest on obstacles (`step_on_obstacles`).
+    About an equilibrium of springs, or of a pendulum, a scheme that is `linear` is given the linearised equations of
+    motion and the identity matrix in place of a state, and its own function returns J. Others are differenced; so is a
+    step from a rest on obstacles (`step_on_obstacles`).
     """
     if rest.contacts is not None:
         return settled_on_obstacles(scheme, rest, dt)[1]
-    if rest.linear is not None and scheme.linear:
+    if rest.linear_motion is not None and scheme.linear:
         return _by_linear_motion(scheme, rest, dt)
     layout, settled = layout_of(scheme, rest, dt)
     return differences(scheme.on(rest.motion), layout, settled)
@@ -71,8 +71,8 @@ def is_resisted(b: Complex, unresisted: int, unit: float) -> npt.NDArray[np.bool
 
 
 def _by_linear_motion(scheme: Scheme, rest: Equilibrium, dt: float) -> Array:
-    assert rest.linear is not None
+    assert rest.linear_motion is not None
     layout, _ = layout_of(scheme, rest, dt)
     nothing = np.zeros((*rest.state.positions.shape, layout.size))
     state = layout.state(np.eye(layout.size), State(0.0, nothing, nothing, (nothing,) * layout.remembered))
-    return layout.vector(scheme.on(rest.linear.motion)(state, dt))
+    return layout.vector(scheme.on(rest.linear_motion)(state, dt))

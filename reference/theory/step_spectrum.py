@@ -56,7 +56,7 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     size = layout_of(scheme, rest, unit)[0].size
     # rounding in an iteration tears motion that nothing resists, which is no growth of it
     torn = scheme.iterated and found.unresisted > 0
-    linear = rest.linear is not None and rest.contacts is None and scheme.linear
+    linear = rest.linear_motion is not None and scheme.linear
     exact, precision = is_exact(scheme, rest) and not torn, PRECISION if linear else ROUGH
     margin = DIFFERENCED if torn or not linear else EXACT if exact else LINEAR
 

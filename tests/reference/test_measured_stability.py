@@ -125,6 +125,23 @@ def test_random_perturbations_find_a_limit_known_in_closed_form() -> None:
     assert limit.dt == pytest.approx(2, rel=1e-3)
 
 
+@pytest.mark.parametrize(("expected", "runs"), [(2.0, 12), (1.99, 12), (1.9, 25), (5.0, 25)])
+def test_a_limit_is_found_wherever_it_is_expected_and_sooner_where_it_is(expected: float, runs: int) -> None:
+    """Of that map, to 1e-3; from fewer runs where it is within a hundredth of what is expected."""
+    asked = []
+
+    def growth(h: float, steps: int) -> float:
+        asked.append(steps)
+        return growth_of_map(np.array([[1 - h * h, h], [-h, 1.0]]), steps)
+
+    limit = measured_limit(growth, 1.0, 1e-4, expected)
+    assert limit.dt == pytest.approx(2, rel=1e-3)
+    assert limit.dt != expected
+    assert len(asked) <= runs
+    # what is expected and found needs no longer run; what is not expected does
+    assert (max(asked) == LONGER * STEPS) == (runs > 12)
+
+
 def test_random_perturbations_find_no_limit_where_there_is_none() -> None:
     """Euler of x'' = -x, z -> [[1, h], [-h, 1]] z, grows by sqrt(1 + h^2) in a step at any h."""
     limit = measured_limit(lambda h, n: growth_of_map(np.array([[1, h], [-h, 1.0]]), n), 1.0, 1e-4)

@@ -42,7 +42,12 @@ class Case:
         monkeypatch.setattr(engine_limit, "rest_of_engine", lambda engine, system, rest: rest)
         monkeypatch.setattr(engine_limit, "layout_of", lambda *_: (SimpleNamespace(size=self.size), None))
         monkeypatch.setattr(engine_limit, "fastest_mode", lambda *_: SimpleNamespace(growth=beyond))
-        monkeypatch.setattr(engine_limit, "measure_at_random", lambda *_: "at random")
+        monkeypatch.setattr(engine_limit, "measure_at_random", self.at_random)
+
+    def at_random(self, *_: object, expected: float | None) -> str:
+        """As measured from a random perturbation, where a limit is expected."""
+        self.expected = expected
+        return "at random"
 
     def limit(self, predicted: Limit, scheme: bool = True) -> Any:
         """What is measured."""
@@ -52,7 +57,7 @@ class Case:
 
 @pytest.mark.parametrize("true", [1.0, 1.00005, 0.9999, 1.0042, 0.98, 1.03, 0.92])
 def test_a_limit_is_found_to_a_ten_thousandth_wherever_it_is_near(true: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A tenth below and above what is predicted; what growth is a hundredth off it is told, too."""
+    """As far as a tenth from what is predicted, by four runs where it is right there; and what growth is beside it."""
     limit = 0.02 * true
     case = Case(monkeypatch, lambda dt: max(0.0, 3 * (dt / limit - 1) - 1e-12) + 1e-12)
     found = case.limit(Limit(0.02))
@@ -60,9 +65,10 @@ def test_a_limit_is_found_to_a_ten_thousandth_wherever_it_is_near(true: float, m
     assert found.grows_beyond is True
     below, above = (max(0.0, 3 * (0.02 * (1 + PRECISION) ** n / limit - 1)) for n in (-100, 100))
     assert found.factors == (pytest.approx(1 + below, abs=1e-3), pytest.approx(1 + above, abs=1e-3))
-    assert 0.9 < min(case.asked) / 0.02 < 0.91
-    assert 1.09 < max(case.asked) / 0.02 < 1.11
-    assert len(case.asked) < 40
+    near = 0.99 < true < 1.01
+    assert min(case.asked) / 0.02 == pytest.approx(0.99 if near else 0.905, abs=2e-3)
+    assert max(case.asked) / 0.02 == pytest.approx(1.01 if near else 1.105, abs=2e-3)
+    assert len(case.asked) == 4 if true == 1 else 4 < len(case.asked) < 50
 
 
 def test_where_runs_along_the_mode_do_not_tell_it_is_looked_for_at_random(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -73,7 +79,9 @@ def test_where_runs_along_the_mode_do_not_tell_it_is_looked_for_at_random(monkey
     assert good.limit(Limit(0.02), scheme=False) == "at random"
     assert good.limit(Limit(None, "stable at any dt")) == "at random"
     assert good.limit(Limit(0.02, note="of springs alone")) == "at random"
+    assert good.expected == 0.02
     assert good.limit(Limit(0.02, certainty="between", at_most=0.03)) == "at random"
+    assert good.expected is None
     good.scheme.on_rods = True
     assert good.limit(Limit(0.02)) == "at random"
     good.scheme.on_rods = False
