@@ -84,7 +84,7 @@ def _leading(
     shape = len(parts), len(masses)
     all_masses, all_damping = (np.broadcast_to(each, shape).ravel() for each in (masses, damping))
     stiffness = (parts[:, None] * masses / dt**2).ravel()
-    step = step_matrices(scheme, dt, all_masses, stiffness, all_damping, drag).reshape(*shape, 2, 2)
+    step = step_matrices(scheme, dt, all_masses, stiffness, all_damping, drag)[:, :2, :2].reshape(*shape, 2, 2)
     trace = step[..., 0, 0] + step[..., 1, 1]
     determinant = step[..., 0, 0] * step[..., 1, 1] - step[..., 0, 1] * step[..., 1, 0]
     a2 = parts[:, None] * masses / (1 - trace + determinant)
