@@ -63,7 +63,8 @@ def loads(system: MassSpringSystem, parts: Parts) -> Array:
     whole part, so that mass i is left with (m_i - mean m) g. Without drag all masses fall alike, and nothing is left.
 
     Raises:
-        SolverError: where a damper without stiffness joins two parts, or one to a fixed mass: it creeps for ever.
+        SolverError: where a damper without stiffness joins what hangs on nothing else to what falls otherwise, or not:
+            it creeps for ever.
     """
     _refuse_creep(system, parts)
     carried = system.masses.copy()
@@ -106,7 +107,9 @@ def _refuse_creep(system: MassSpringSystem, parts: Parts) -> None:
     """A damper alone between what falls and what does not turns as it creeps: nothing comes to rest."""
     dampers = (system.stiffness == 0) & (system.damping > 0)
     a, b = parts.of_mass[system.springs[dampers]].T
-    apart = np.flatnonzero(a != b)
+    held = np.append(parts.held, True)  # the part of fixed masses, -1, is the last
+    # two that fall alike do not move apart
+    apart = np.flatnonzero((a != b) & ((held[a] != held[b]) | (~held[a] & (system.drag > 0))))
     if len(apart) and system.gravity.any():
         j = int(np.flatnonzero(dampers)[apart[0]])
         raise SolverError(

@@ -12,10 +12,13 @@ from hypothesis import strategies as st
 from reference.errors import InputError, SolverError
 from reference.forces import SpringMotion
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find
 from reference.springs.bending import with_bending
 from reference.state import State
 from reference.system import MassSpringSystem
+from reference.theory.equilibria import spring_equilibrium
 from reference.theory.equilibrium import equilibrium, hanging_string
+from reference.theory.limits import stability_limit
 from tests import wrong
 from tests.reference.systems import label, moving_string, property_test, random_mesh, seeds, with_fields
 
@@ -107,6 +110,37 @@ def test_a_damper_that_holds_nothing_creeps() -> None:
     """A mass that hangs on a spring with damping and no stiffness never comes to rest."""
     with pytest.raises(SolverError, match="spring 1 has damping and no stiffness"):
         equilibrium(find_scene("string").system({"masses": 3, "stiffness": [200.0, 0.0, 200.0], "damping": 0.1}))
+
+
+def dashpot(damping: float) -> MassSpringSystem:
+    """A mass of 0.02 kg on a spring of 200 N/m, and between it and the ground a damper without stiffness."""
+    return MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.0, -0.125], [0.0, -0.5]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array(0.02),
+        rest_lengths=np.array(0.125),
+        stiffness=np.array([200.0, 0.0]),
+        damping=np.array([0.0, damping]),
+        fixed=np.array([True, False, True]),
+    )
+
+
+def check_dashpot(damping: float) -> None:
+    """It hangs at L0 + m g/k; kick-drift is stable while h^2 k/m + 2 h c/m < 4, c = 0.5 N s/m, found to 1e-8."""
+    rest = spring_equilibrium(dashpot(damping))
+    assert rest.state.positions[1] == pytest.approx([0.0, -0.125 - 0.02 * 9.81 / 200], abs=1e-12)
+    assert stability_limit(find("kick_drift"), rest).dt == pytest.approx((np.sqrt(25**2 + 4e4) - 25) / 1e4, rel=1e-7)
+
+
+def test_a_dashpot_beside_a_spring_is_its_damping() -> None:
+    """A damper without stiffness from a mass that a spring holds to the ground."""
+    check_dashpot(0.5)
+
+
+def test_another_dashpot_is_told_from_it() -> None:
+    """Of a hundredth less damping."""
+    with pytest.raises(AssertionError):
+        check_dashpot(0.495)
 
 
 @pytest.mark.parametrize("seed", range(8))

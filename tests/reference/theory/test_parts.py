@@ -82,3 +82,17 @@ def test_a_damper_alone_between_parts_creeps(damper: list[int]) -> None:
         loads(creeping, parts_of(creeping))
     for fine in (masses([[0, 1], [1, 3], [3, 1]], **fields), masses([[0, 1], [1, 3], damper], gravity=0.0, **fields)):
         assert loads(fine, parts_of(fine))[0].tolist() == [0.0, 0.0]
+
+
+def test_a_damper_alone_between_what_is_held_lets_it_come_to_rest() -> None:
+    """Between two parts that hang on the fixed mass by springs of their own, or from one to the fixed mass itself."""
+    fields = {"stiffness": np.array([1.0, 1.0, 0.0]), "damping": np.array([0.0, 0.5, 0.5])}
+    for damper in ([1, 2], [2, 1], [0, 2], [1, 0]):
+        hung = masses([[0, 1], [0, 2], damper], **fields)
+        assert loads(hung, parts_of(hung))[1:3].tolist() == [[2.0, -20.0], [3.0, -30.0]]
+    for damper, drag in (([1, 4], 0.0), ([4, 0], 0.0), ([3, 4], 0.1)):
+        creeping = masses([[0, 1], [0, 2], damper], drag=drag, **fields)
+        with pytest.raises(SolverError, match="spring 2 has damping and no stiffness"):
+            loads(creeping, parts_of(creeping))
+    falling = masses([[0, 1], [0, 2], [3, 4]], **fields)
+    assert not loads(falling, parts_of(falling))[3:].any()
