@@ -2,8 +2,9 @@
 
     python -m pytest --all-cases --numprocesses auto --dist loadfile -p tests.mutants.calls
 
-What a mutant changes is first shown to the quickest tests that call the function it is in. What runs in other
-processes, or is compiled, is not seen here; the tests near the file are for that.
+What a mutant changes is first shown to the tests of its own file that call the function it is in, then to others that
+do, the quickest first. What runs in other processes, or is compiled, is not seen here; the tests near the file are for
+that.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import threading
 from collections import defaultdict
 from collections.abc import Generator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from types import CodeType, FrameType
 
 import pytest
@@ -27,7 +28,7 @@ from tests.mutants.mutations import Mutant
 ROOT = Path(__file__).parents[2]
 ROOMS = tuple(f"{ROOT / room}{os.sep}" for room in ("reference", "engines", "experiments", "report"))
 
-#: So many of the quickest tests of a function are kept of each process.
+#: So many quick tests of a function are kept of each process: of its file's own, of its folder's, and of others.
 KEPT = 30
 
 #: Tests, by name, with how long they take [s].
@@ -54,10 +55,10 @@ class Calls:
         return cls(found)
 
     def of(self, mutant: Mutant, source: str) -> list[tuple[str, float]]:
-        """Tests that call the function a mutant is in, or where it is in none, any of its file; the quickest first."""
+        """Tests that call the function a mutant is in, or where it is in none, any of its file; its own first."""
         name = function_at(source, mutant.line)
         called = self.tests.get(f"{mutant.file}::{name}", {}) if name else self._of_file(mutant.file)
-        return sorted(called.items(), key=_quickness)
+        return sorted(called.items(), key=lambda entry: (away(mutant.file, entry[0]), _quickness(entry)))
 
     def _of_file(self, file: str) -> Tests:
         found: Tests = {}
@@ -67,9 +68,20 @@ class Calls:
         return found
 
 
-def quickest(tests: Mapping[str, float]) -> list[tuple[str, float]]:
-    """KEPT of them, the quickest first."""
-    return sorted(tests.items(), key=_quickness)[:KEPT]
+def kept(file: str, tests: Mapping[str, float]) -> Tests:
+    """KEPT of the tests of a function in a file, the quickest: of the file's own, of its folder's, and of others."""
+    groups: dict[int, list[tuple[str, float]]] = defaultdict(list)
+    for test, seconds in sorted(tests.items(), key=_quickness):
+        groups[away(file, test)].append((test, seconds))
+    return dict(entry for group in groups.values() for entry in group[:KEPT])
+
+
+def away(file: str, test: str) -> int:
+    """How far a test is from a file: 0 in a test file named after it, 1 in the folder that mirrors its own, else 2."""
+    source, tests = PurePosixPath(file), PurePosixPath(test.partition("::")[0])
+    if tests.parent != "tests" / source.parent:
+        return 2
+    return 0 if tests.stem.startswith(f"test_{source.stem}") else 1
 
 
 def _quickness(entry: tuple[str, float]) -> tuple[float, str]:
@@ -129,7 +141,7 @@ class Recorder:
 
     def pytest_sessionfinish(self) -> None:
         """What was seen, into a file."""
-        calls = {function: dict(quickest(tests)) for function, tests in self._calls.items()}
+        calls = {function: kept(function.partition("::")[0], tests) for function, tests in self._calls.items()}
         (cache_folder("calls") / f"{self._worker}.json").write_text(json.dumps(calls), encoding="utf-8")
 
     def _called(self, frame: FrameType, event: str, arg: object) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.mutants.calls import KEPT, ROOT, Calls, function_at, quickest
+from tests.mutants.calls import KEPT, ROOT, Calls, away, function_at, kept
 from tests.mutants.mutations import mutants
 from tests.mutants.test_mutants import SOURCE, project
 from tests.mutants.verdicts import Judge
@@ -68,9 +68,24 @@ def test_the_function_at_a_line_is_the_innermost(line: str, name: str) -> None:
 
 
 def test_the_quickest_are_kept() -> None:
-    """Of equally quick ones those that come first by name."""
-    tests = {f"t{i:03}": 0.5 for i in range(2 * KEPT)} | {"z": 0.1}
-    assert [name for name, _ in quickest(tests)] == ["z", *(f"t{i:03}" for i in range(KEPT - 1))]
+    """Of equally quick ones those that come first by name; of a file's own tests and of others as many."""
+    tests = {f"tests/far/test_t.py::t{i:03}": 0.5 for i in range(2 * KEPT)} | {"tests/far/test_t.py::z": 0.1}
+    own = {"tests/a/test_b.py::slow": 9.0, "tests/a/test_b_more.py::slow": 8.0, "tests/a/test_c.py::slow": 7.0}
+    found = [name.partition("::")[2] for name in kept("a/b.py", tests | own)]
+    assert found == ["z", *(f"t{i:03}" for i in range(KEPT - 1)), "slow", "slow", "slow"]
+
+
+@pytest.mark.parametrize(
+    ("test", "steps"),
+    [("tests/a/test_b.py", 0), ("tests/a/test_b_more.py", 0), ("tests/a/test_c.py", 1), ("tests/test_b.py", 2)],
+)
+def test_tests_of_a_files_own_come_first(test: str, steps: int) -> None:
+    """Those in files named after it, then those of its folder."""
+    assert away("a/b.py", f"{test}::test_anything[a::b]") == steps
+    calls = Calls({"a/b.py::f": {"tests/x/test_y.py::one": 0.1, f"{test}::two": 0.2}})
+    (mutant, *_) = mutants("a/b.py", "def f(a, b):\n    return a + b\n")
+    names = [name.partition("::")[2] for name, _ in calls.of(mutant, "def f(a, b):\n    return a + b\n")]
+    assert names == (["two", "one"] if steps < 2 else ["one", "two"])
 
 
 @pytest.mark.rotating(3, in_turn=True)

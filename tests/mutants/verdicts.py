@@ -76,7 +76,7 @@ class Judge:
                     raise
 
     def _by_calls(self, copy: ProjectCopy, mutant: Mutant, calling: Sequence[tuple[str, float]]) -> Verdict:
-        """By the quickest tests that call the function, all at once; those that fail without the mutant judge none."""
+        """By tests that call the function, all at once; those that fail without the mutant judge none."""
         tests: list[str] = []
         left = ALL
         for test, seconds in calling:
