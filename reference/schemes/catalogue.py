@@ -106,8 +106,8 @@ class Scheme:
             InputError: where that is none of the protocols of `motion`.
         """
         first = next(iter(inspect.signature(self.step).parameters), "")
-        asked = get_type_hints(self.step).get(first)
-        if asked is None or asked not in NEEDS:
+        asked: Any = get_type_hints(self.step).get(first)
+        if asked not in NEEDS:
             names = ", ".join(protocol.__name__ for protocol in NEEDS)
             raise InputError(f"scheme {self.step.__name__!r}: expected its first parameter annotated as one of {names}")
         return NEEDS[asked]

@@ -117,7 +117,7 @@ def soft_constraints_relaxed(
     bias_rate = np.divide(omega, a1, out=np.zeros_like(a1), where=a1 > 0)
     given = (bias_rate, a2 * kept_part, kept_part, effective)
     moved, impulses = np.zeros_like(it.x), kept(state, it)
-    room, one = np.zeros_like(it.x[0]), it.number(1)
+    room, one = np.zeros(it.x.shape[1], it.x.dtype), it.number(1)
     springs = (it.x, it.ends, it.order, it.inverse, it.rest)
     for _ in range(substeps):
         it.v[:] = h * it.weight + it.v * (1 / (1 + h * it.drag))

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
+from dataclasses import fields, replace
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,10 @@ from reference.scenes import find as find_scene
 from reference.schemes import catalogue
 from reference.schemes.catalogue import Scheme, constraint_schemes, find, scheme, schemes, wide_schemes
 from reference.state import State
+from reference.theory.differences import differences
+from reference.theory.equilibria import spring_equilibrium
+from reference.theory.layout import layout_of
+from reference.theory.step_map import _by_linear_motion
 from tests.reference.systems import label
 
 
@@ -71,11 +76,16 @@ def test_a_scheme_is_found_by_its_other_names(alias: str, name: str) -> None:
 #: Each so large that an explicit step of 1 ms multiplies what it acts on by 300: c dt/m, Cd dt/m, k dt^2/m.
 STIFF = {"damping": 6e3, "drag": 6e3, "stiffness": 6e6}
 
-#: It takes of each spring's rate what decays in a step, by an exponential: that is bounded too, and solves nothing.
-BOUNDED_ALL_THE_SAME = find("drift_kick_sequential_damping")
+#: They take of a velocity, or of each spring's rate, what decays in a step, by an exponential: that is bounded too, and
+#: solves nothing.
+BOUNDED_ALL_THE_SAME = ("drift_kick_sequential_damping", "kick_drift_exponential_drag")
 
 
-@pytest.mark.parametrize("known", schemes().values(), ids=label)
+#: Every scheme there is.
+ALL = [*schemes().values(), *wide_schemes().values(), *constraint_schemes().values()]
+
+
+@pytest.mark.parametrize("known", ALL, ids=label)
 def test_a_scheme_is_implicit_if_something_stiff_does_not_throw_it_far(known: Scheme) -> None:
     """Explicit, v1 = (1 - 300) v0 or v0 - 300 x0/dt; implicit, |v1| <= v0 + 2 x0/dt = 21 m/s of what is solved for.
 
@@ -86,7 +96,33 @@ def test_a_scheme_is_implicit_if_something_stiff_does_not_throw_it_far(known: Sc
         system = find_scene("spring").system({"stretch": 0.01, "velocity": 1.0, "gravity": 0.0, name: value})
         end = known.on(SpringMotion(system))(system.start, 1e-3)
         reached.append(float(np.abs(end.velocities).max()))
-    assert (min(reached) < 25.0) == (known.implicit or known == BOUNDED_ALL_THE_SAME), reached
+    assert (min(reached) < 25.0) == (known.implicit or known.name in BOUNDED_ALL_THE_SAME), reached
+
+
+@pytest.mark.parametrize("known", ALL, ids=label)
+def test_a_scheme_is_linear_if_it_steps_all_perturbations_at_once(known: Scheme) -> None:
+    """Given as columns, linearised about a string at rest: then it has the step map that differences of steps have.
+
+    Others refuse so many at once. Three unequal masses in the plane, damped and dragged; differences to 1e-6 of 1.
+    """
+    system = find_scene("string").system({"masses": 3, "damping": 0.3, "drag": 0.02})
+    rest = spring_equilibrium(replace(system, masses=np.array([1.0, 0.02, 0.03, 0.01])))
+    try:
+        at_once = _by_linear_motion(known, rest, 1e-3)
+    except (ValueError, IndexError):
+        assert not known.linear
+        return
+    differenced = differences(known.on(rest.motion), *layout_of(known, rest, 1e-3))
+    assert (np.abs(at_once - differenced).max() < 1e-6) == known.linear
+
+
+def test_solvers_of_constraints_come_to_no_end_and_others_do() -> None:
+    """They stop after so many sweeps; of the others those do that solve for damping as an engine does."""
+    assert {each.name for each in ALL if each.iterated} == {
+        *constraint_schemes(),
+        "drift_kick_sequential_damping",
+        "kick_drift_truncated_damping",
+    }
 
 
 def test_a_parameter_that_is_none_is_refused_by_name() -> None:
@@ -115,6 +151,48 @@ def test_a_parameter_out_of_its_range_is_refused(name: str, expected: str) -> No
     scheme, parameter = name.rstrip(")").split("(")
     with pytest.raises(InputError, match=f"^{parameter.partition('=')[0]} = .* of scheme '{scheme}': .* {expected}$"):
         find(name)
+
+
+@pytest.mark.parametrize(
+    ("asks", "hint"),
+    [
+        ("jacobians", "annotate its first parameter with MotionOfSprings"),
+        ("acceleration_of", "annotate its first parameter with MotionByMass"),
+        ("temperature", "it is given acceleration, slope"),
+    ],
+)
+def test_what_a_scheme_asks_for_beyond_its_needs_is_refused_with_the_way(asks: str, hint: str) -> None:
+    """By which annotation it would be given that; or what it is given, where there is none."""
+
+    def curious(motion: Motion, state: State, dt: float) -> State:
+        """Ask for what a type checker would not let it."""
+        getattr(motion, asks)
+        return state
+
+    system = find_scene("string").system({"masses": 1})
+    expected = f"scheme 'curious' asks for motion.{asks}, but says it needs accelerations: {hint}"
+    with pytest.raises(InputError, match=f"^{expected}$"):
+        Scheme(curious, 1).on(SpringMotion(system))(system.start, 1e-3)
+
+
+def test_what_is_expected_of_a_parameter_is_said_by_its_kind() -> None:
+    """A count with a last value, one without, a number without bounds: each is refused in its own words."""
+    with catalogue._SCHEMES.as_it_is():
+
+        @scheme(order=1, ranges={"few": (2, 3)})
+        def on_trial(motion: Motion, state: State, dt: float, *, few: int = 2, many: int = 9, a: float = 0.5) -> State:
+            """Go nowhere, for the time being."""
+            return state
+
+        trial = find("on_trial")
+    assert trial.with_parameters(few=3, many=1, a=-1e300).name == "on_trial(a=-1e+300, few=3, many=1)"
+    for name, value, expected in (
+        ("few", 4, "a number from 2 to 3"),
+        ("many", 0, "1 or more"),
+        ("a", inf, "a finite number"),
+    ):
+        with pytest.raises(InputError, match=f"^{name} = {value} of scheme 'on_trial': expected {expected}$"):
+            trial.with_parameters(**{name: value})
 
 
 def test_a_parameter_may_be_the_ends_of_its_range() -> None:

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from reference.conserved import momentum
-from reference.errors import InputError
+from reference.errors import InputError, SolverError
 from reference.forces import SpringMotion
 from reference.scenes import find as find_scene
+from reference.schemes.block_descent import inverted
 from reference.schemes.catalogue import Scheme, constraint_schemes, find, schemes
 from reference.state import Array, State
 from reference.stepper import SchemeStepper, stepper_named
@@ -303,3 +304,19 @@ def test_damping_that_brakes_slows_free_fall() -> None:
     for name, expected in (("braked=True, ", h * g / (1 + c * k * h / m)), ("", h * g)):
         end = find(f"vertex_block_descent({name}iterations=60)").on(SpringMotion(system))(system.start, h)
         assert end.velocities == pytest.approx(np.array([[0.0, expected]] * 2), rel=1e-12)
+
+
+def test_blocks_are_inverted_by_cofactors() -> None:
+    """With their determinants, sign and all, as NumPy has them; one of determinant 0 has no finite inverse."""
+    matrices = np.random.default_rng(2).normal(size=(5, 3, 3))
+    inverse, determinants = inverted(matrices)
+    np.testing.assert_allclose(determinants, np.linalg.det(matrices), rtol=1e-12)
+    np.testing.assert_allclose(inverse @ matrices, np.broadcast_to(np.eye(3), (5, 3, 3)), atol=1e-12)
+    assert not np.isfinite(inverted(np.ones((1, 3, 3)))[0]).any()
+
+
+def test_a_block_of_one_mass_that_is_infinite_is_no_step() -> None:
+    """In single precision, where a spring is as stiff as 1e35 N/m; the block of the mass below is as it should be."""
+    string = find_scene("string").system({"masses": 2, "stiffness": "1e35,200"})
+    with pytest.raises(SolverError, match="infinite"), np.errstate(over="ignore", invalid="ignore"):
+        find("vertex_block_descent(single=True)").on(SpringMotion(string))(string.start, 1e-3)

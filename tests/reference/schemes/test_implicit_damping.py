@@ -163,8 +163,9 @@ def check_implicit(scheme: Scheme, system: MassSpringSystem, drag_too: bool) -> 
 @property_test
 @given(system=meshes)
 def test_implicit_damping_solves_its_equations_on_any_mesh(name: str, drag_too: bool, system: MassSpringSystem) -> None:
-    """In 2D and 3D, with fixed masses."""
-    check_implicit(find(name), system, drag_too)
+    """In 2D and 3D, with fixed masses; every other spring has no damping."""
+    undamped = np.arange(len(system.springs)) % 2 == 1
+    check_implicit(find(name), with_fields(system, damping=np.where(undamped, 0.0, system.damping)), drag_too)
 
 
 @pytest.mark.parametrize(
