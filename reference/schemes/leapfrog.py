@@ -52,7 +52,7 @@ def stormer_verlet(motion: Motion, state: State, dt: float) -> State:
 def beeman(motion: Motion, state: State, dt: float) -> State:
     """Beeman: the positions of Verlet with more accurate velocities (Beeman, J. Comput. Phys. 20, 1976)."""
     here = motion.acceleration(state)
-    (before,) = state.memory or (here,)
+    before = state.memory[0] if state.memory else here
     x = state.positions + dt * state.velocities + dt**2 / 6 * (4 * here - before)
     guess = state.velocities + dt / 2 * (3 * here - before)
     there = motion.acceleration(State(state.time + dt, x, guess))

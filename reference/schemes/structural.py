@@ -40,7 +40,7 @@ def hht(motion: MotionOfSprings, state: State, dt: float, *, alpha: float = -0.1
         SolverError: if Newton's method finds no solution at this dt.
     """
     force = motion.acceleration(state)
-    (before,) = state.memory or (force,)
+    before = state.memory[0] if state.memory else force
 
     def missing(end: State, a: Array) -> tuple[State, Array, float]:
         return end, (1 + alpha) * motion.acceleration(end) - alpha * force - a, 1 + alpha
@@ -60,7 +60,7 @@ def generalised_alpha(motion: MotionOfSprings, state: State, dt: float, *, radiu
         SolverError: if Newton's method finds no solution at this dt.
     """
     m, f = (2 * radius - 1) / (radius + 1), radius / (radius + 1)
-    (before,) = state.memory or (motion.acceleration(state),)
+    before = state.memory[0] if state.memory else motion.acceleration(state)
 
     def missing(end: State, a: Array) -> tuple[State, Array, float]:
         x = (1 - f) * end.positions + f * state.positions
