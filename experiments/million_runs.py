@@ -201,7 +201,7 @@ def in_words(seconds: float) -> str:
 def _findings(kinds: Sequence[Kind], hands: Sequence[Hand], size: float) -> list[str]:
     few, many = min(CORES), max(CORES)
     fastest, slowest = min(kinds, key=lambda k: k.seconds), max(kinds, key=lambda k: k.seconds)
-    helping = {kind.name: round(kind.seconds / serial(kind, hands, many)) for kind in (fastest, slowest)}
+    helping = [round(kind.seconds / serial(kind, hands, many)) for kind in (fastest, slowest)]
     most = max((hand for hand in hands if hand.where == "always"), key=lambda hand: hand.seconds)
     return [
         f"Measured here, a run takes from {1e3 * fastest.seconds:.0f} ms ({fastest.name}) to "
@@ -209,8 +209,8 @@ def _findings(kinds: Sequence[Kind], hands: Sequence[Hand], size: float) -> list
         f"{in_words(predicted(fastest, hands, few))} to {in_words(predicted(slowest, hands, few))} on {few} cores, and "
         f"{in_words(predicted(fastest, hands, many))} to {in_words(predicted(slowest, hands, many))} on {many:,}.",
         f"The bottleneck is then the one process that hands out tasks and keeps answers: it needs "
-        f"{1e3 * serial(fastest, hands, many):.2g} ms for each, so that beyond {helping[fastest.name]} cores for the "
-        f"quickest kind of run, and {helping[slowest.name]} for the slowest, more are predicted to help no more. The "
+        f"{1e3 * serial(fastest, hands, many):.2g} ms for each, so that beyond {helping[0]} cores for the "
+        f"quickest kind of run, and {helping[1]} for the slowest, more are predicted to help no more. The "
         f"largest part of that is {most.name}.",
         f"A run takes {size / 1e3:.2g} kB in the store, a million {RUNS * size / 1e9:.2g} GB, without trajectories.",
     ]

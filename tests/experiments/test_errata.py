@@ -63,3 +63,11 @@ def test_the_distance_is_that_between_the_two_listings(monkeypatch: pytest.Monke
     assert apart == pytest.approx(np.linalg.norm(heun - euler, axis=2).max(), rel=1e-9)
     assert itself == 0.0
     assert DURATION < 0.5
+
+
+def test_what_is_left_is_read_off_at_its_angle(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At 0, 45 and 90 degrees, the first, tenth and nineteenth of those 5 degrees apart; and the least of all."""
+    angles = np.arange(73.0)
+    monkeypatch.setattr(errata, "_barrier", lambda: (angles, 100 + angles, 0.9 - np.sin(angles / 23)))
+    left = [value for *_, value, _ in _barrier_remarks()]
+    assert left == [100.0, 109.0, 118.0, (0.9 - np.sin(angles / 23)).min()]

@@ -52,3 +52,12 @@ def test_where_only_a_part_has_a_limit_each_row_is_by_its_own() -> None:
 def test_where_nothing_is_predicted_nothing_agrees() -> None:
     """No boundary."""
     assert agreement(replace(made_up(0.0), boundary=np.empty((0, 2)))) is None
+
+
+def test_only_points_that_are_surely_one_or_the_other_count() -> None:
+    """Growth of a third of a percent is neither: the rest of the field agrees; where all is unsure, nothing does."""
+    found = made_up(0.0)
+    unsure = found.growth.copy()
+    unsure[:4] = 3e-3
+    assert agreement(replace(found, growth=unsure)) == 1.0
+    assert agreement(replace(found, growth=np.full_like(unsure, 3e-3))) is None

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
+
 import pytest
 
 from experiments.cost import ANCHOR, DT, DURATION, GOAL, MASSES, result_of
@@ -82,3 +85,26 @@ def test_without_engines_that_is_said() -> None:
     assert "No engine ran." in said
     assert not [sentence for sentence in said if "cheapest engine" in sentence]
     assert processor() in records(result_of(ours))[0]["processor"]
+
+
+def test_the_largest_difference_from_a_scheme_is_told_as_a_part_of_its_error() -> None:
+    """Half as much again with one dt, a tenth more and less with others; with one the engine alone has blown up."""
+    ours = cost.priced("mujoco_tendons", "engine", 30.0, ANCHOR)
+    factors = (1.0, math.inf, 1.5, 1.1, 0.9)
+    points = [replace(point, error=f * point.error) for f, point in zip(factors, ours.points, strict=True)]
+    result = result_of([cost.costs()[0], replace(ours, points=points)])
+    assert numbers(finding(result, "claims to step by")) == [0.5, 3]
+
+
+def test_an_engine_whose_scheme_could_not_run_is_compared_with_nothing() -> None:
+    """Nor is one that is compared with itself, as another engine's name is no scheme's."""
+    anchor, ours = cost.costs()[0], cost.priced("mujoco_tendons", "engine", 30.0, "rk4")
+    failed = replace(cost.priced("rk4", "kernel", 4.0, "rk4"), points=[])
+    own = replace(cost.priced("bullet_softbody", "engine", 90.0, None), identified_as="mujoco_tendons")
+    assert not [said for said in result_of([anchor, failed, ours, own]).findings if "claims to step by" in said]
+
+
+def test_the_smallest_string_comes_first() -> None:
+    """Then the largest that all engines came to."""
+    said = [numbers(sentence)[0] for sentence in cost.usual().findings if sentence.startswith("With ")]
+    assert said == [MASSES[0], MASSES[2]]

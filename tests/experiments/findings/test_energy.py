@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from experiments.energy import EVERY
+from experiments.energy import EVERY, Row, result_of
 from tests.experiments.canned import energy
 from tests.experiments.canned.reading import finding, in_order, numbers, records
 
@@ -71,3 +71,10 @@ def test_without_a_stepper_there_is_a_sentence() -> None:
     """And no row."""
     assert len(energy.nobody().findings) == 1
     assert records(energy.nobody()) == []
+
+
+def test_who_was_not_measured_is_not_counted() -> None:
+    """Its energy was predicted, and it crashed."""
+    lost = Row(**{**vars(energy.crashed()), "predicted": "growing"})
+    first = finding(result_of([*energy.rows(), lost]), "as predicted in")
+    assert numbers(first) == [20, 2, 3, 1, 5, 6]

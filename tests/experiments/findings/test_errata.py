@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
-from experiments.errata import stability_remark
+from experiments.errata import result_of, stability_remark
 from reference.limit import Limit
 from tests.experiments.canned import errata
 from tests.experiments.canned.errata import LIMITS, ORDERS
 from tests.experiments.canned.reading import finding, in_order, numbers, records
+
+ANGLES = np.zeros(1)
 
 
 def test_the_table_has_the_remarks() -> None:
@@ -35,3 +38,12 @@ def test_without_a_limit_it_is_growth_that_is_told() -> None:
     said, value, unit = stability_remark("euler", Limit(None, "unstable at any dt: grows by 0.02 in a step", 0.02))
     assert said == "growth in a step of euler, unstable at any dt: grows by 0.02 in a step"
     assert (value, unit) == (0.02, "1")
+
+
+@pytest.mark.parametrize("name", ["heun", "heun_link_by_link"])
+def test_where_one_has_no_limit_nothing_is_said_of_it(name: str) -> None:
+    """Then there is nothing to compare with."""
+    (table,) = errata.usual().tables
+    kept = [row for row in table.rows if row[2] != f"largest stable dt, {name}"]
+    assert len(kept) == len(table.rows) - 1
+    assert "stable" not in finding(result_of(kept, {}, (ANGLES, ANGLES, ANGLES)), "What the slide warns of")  # type: ignore[arg-type]

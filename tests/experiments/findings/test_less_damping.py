@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 
-from experiments.less_damping import DRAGS, DURATION
+from experiments.less_damping import DRAGS, DURATION, result_of
 from tests.experiments.canned import less_damping
 from tests.experiments.canned.less_damping import FITTED, MASS, SLOWER, START
 from tests.experiments.canned.reading import finding, numbers, records
@@ -52,3 +53,16 @@ def test_the_last_sentences_have_the_largest_differences() -> None:
     """A tenth in the decay times, a hundredth in the balance."""
     assert numbers(finding(less_damping.usual(), "differs from it by"))[0] == pytest.approx(10)
     assert numbers(finding(less_damping.usual(), "What is missing")) == pytest.approx([0.01])
+
+
+def test_the_largest_difference_is_told_whichever_swing_it_is_of() -> None:
+    """Fitted times differ by 10, 30 and 20 %, balances by 1, 2 and 5 %."""
+    swings = [
+        replace(swing, fitted=off * swing.predicted, taken=swing.energies[0] * (1 - missing) - swing.energies[-1])
+        for swing, off, missing in zip(
+            map(less_damping.swing, DRAGS), (1.1, 0.7, 1.2), (0.01, 0.02, 0.05), strict=False
+        )
+    ]
+    result = result_of(swings)
+    assert numbers(finding(result, "differs from it by"))[0] == pytest.approx(30)
+    assert numbers(finding(result, "What is missing")) == pytest.approx([0.05])

@@ -6,7 +6,7 @@ import os
 
 import pytest
 
-from experiments.million_runs import CORES, RUNS, in_words, predicted
+from experiments.million_runs import CORES, RUNS, in_words, predicted, serial
 from experiments.runs.cluster import BATCH_SECONDS
 from tests.experiments.canned import million_runs
 from tests.experiments.canned.million_runs import HANDS, KINDS, SIZE
@@ -65,3 +65,12 @@ def test_the_store_s_size_is_of_one_and_of_all() -> None:
 def test_times_are_said_in_units_that_suit_them(seconds: float, words: str) -> None:
     """From two of a unit on."""
     assert in_words(seconds) == words
+
+
+def test_beyond_this_machines_cores_runs_go_to_a_cluster(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On four cores: up to those a task goes to a process, beyond it goes with its batch; on who knows how many, one."""
+    here, there = 1e-3 + 2e-3, AT_THE_TOP[0]
+    monkeypatch.setattr(os, "cpu_count", lambda: 4)
+    assert [serial(KINDS[0], HANDS, n) for n in (1, 4, 5)] == pytest.approx([here, here, there])
+    monkeypatch.setattr(os, "cpu_count", lambda: None)
+    assert [serial(KINDS[0], HANDS, n) for n in (1, 2)] == pytest.approx([here, there])

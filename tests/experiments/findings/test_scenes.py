@@ -83,3 +83,14 @@ def test_what_is_unsupported_is_counted_by_its_reason_and_no_failure() -> None:
 def test_without_engines_there_is_a_sentence() -> None:
     """Nothing ran."""
     assert len(scenes.nothing().findings) == 1
+
+
+def test_the_worst_is_told_wherever_it_stands() -> None:
+    """Between better ones, of those with a whole trajectory and of those with single steps."""
+    scene = find("string")
+    whole = [scenes.run(scene, *ran) for ran in (("a", "heun", 3e-15), ("b", "rk4", 2e-14), ("c", "euler", 1e-14))]
+    single = [scenes.run(scene, "d", "heun", error, "single steps") for error in (1e-13, 4e-13, 2e-13)]
+    said = finding(result_of([*whole, *single], {}), "whole trajectory")
+    assert numbers(said) == pytest.approx([3, 2e-14])
+    assert in_order(said, "b on string", "from rk4")
+    assert numbers(finding(result_of([*whole, *single], {}), "single steps")) == pytest.approx([3, 4e-13])

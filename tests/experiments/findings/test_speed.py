@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
+from experiments.benchmark.meshes import LARGE
+from experiments.speed import result_of
 from tests.experiments.canned import speed
 from tests.experiments.canned.reading import finding, in_order, numbers, records
 from tests.experiments.canned.speed import MESHES, TUNED
@@ -68,3 +72,14 @@ def test_without_a_compiler_there_are_no_ratios() -> None:
     """And that is said; nobody is the worst."""
     assert "no C compiler" in speed.no_compiler().findings[0]
     assert records(speed.no_compiler())[0]["time / tuned C"] is None
+
+
+def test_the_largest_mesh_is_the_one_with_most_springs_that_has_a_bound() -> None:
+    """Of two large ones; another has more, and no bound; one that is not large has none to be told."""
+    small, *_, large = (row for row in speed.timings() if row.threads == 1 and row.bound is not None)
+    assert small.masses < LARGE <= large.masses
+    fewer, unbounded = replace(large, what="fewer", springs=10), replace(large, springs=10**7, bound=None)
+    for rows in ([large, fewer, unbounded], [fewer, unbounded, large]):
+        assert in_order(finding(result_of(rows, []), "On the largest mesh"), "jello 50^3")
+    for rows in ([small], [unbounded], [small, unbounded]):
+        assert not [said for said in result_of(rows, []).findings if "On the largest mesh" in said]
