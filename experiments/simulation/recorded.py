@@ -79,7 +79,8 @@ def identify_recording(file: Path, setup: Setup, dt: float | None) -> Identifica
     run = replace(run, velocities=np.concatenate([start.velocities[None], run.velocities[1:]]))
     stepper: Stepper = Recording(file.name)
     outcome = outcome_of(system, run, setup.changes)
-    return identify_all([(stepper, outcome)], system, step, len(run) - 1, setup.changes).each[0]
+    (found,) = identify_all([(stepper, outcome)], system, step, len(run) - 1, setup.changes).each
+    return found
 
 
 def read(file: Path, system: MassSpringSystem) -> Trajectory:

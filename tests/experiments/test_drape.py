@@ -95,3 +95,24 @@ def test_an_engine_hangs_the_same_cloth() -> None:
     assert len({engine.package for engine in engines}) == len(engines)
     found = hung_in(engines[-1], 0.017, 0.02, 0)
     assert found["coefficient"] == pytest.approx(hung(0.017, 0.02, 0)["coefficient"], abs=1e-3)
+
+
+@pytest.mark.parametrize(("still_after", "looks"), [(3, 3), (1, 1), (10**6, round(drape.PATIENCE / drape.LOOK))])
+def test_a_cloth_is_looked_at_until_it_is_at_rest(
+    still_after: int, looks: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Or PATIENCE is over. Its speed is the root of the mean square of its masses': of v and 7 v, 5 v."""
+    seen, shape = 0, (np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]), np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 7.0]]))
+    fast, slow = drape.AT_REST / 5, 0.99 * drape.AT_REST / 5
+
+    def advance() -> None:
+        nonlocal seen
+        seen += 1
+
+    monkeypatch.setattr(drape, "flat_area", lambda *_: 1.0)
+    monkeypatch.setattr(drape, "shadow", lambda positions, *_: {"of": positions})
+    found = drape._at_rest(advance, lambda: (shape[0], (slow if seen >= still_after else fast) * shape[1]), 0.02, 0)
+    assert (seen, found["time"]) == (looks, pytest.approx(looks * drape.LOOK))
+    assert found["speed"] == pytest.approx(5 * (slow if looks == still_after else fast))
+    assert np.array_equal(found["positions"], shape[0])
+    assert np.array_equal(found["of"], shape[0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,11 +18,13 @@ from experiments.ground_motion import (
     shaken_bridge,
 )
 from reference.changes import Driven
+from reference.outcome import Outcome
 from reference.scenes import find as find_scene
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
-from reference.state import Array
+from reference.state import Array, Trajectory
+from reference.stepper import Stepper
 from report.figures import draw
 from tests.reference.scenes.direct_stiffness import deflection
 
@@ -93,3 +96,40 @@ def test_it_is_drawn_where_nothing_ran(monkeypatch: pytest.MonkeyPatch) -> None:
     result = ground_motion.run(lambda _: None)
     assert not result.findings
     assert draw("ground_motion", result).svg().startswith("<svg")
+
+
+@pytest.mark.usefixtures("short")
+def test_who_did_not_come_to_every_end_is_no_row(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that shook and did not cross has failed, with its reason; what it did before is not shown."""
+    system = shaken_bridge().system
+    moved = Trajectory(np.array([0.0, DT]), np.array([system.positions] * 2), np.zeros((2, *system.positions.shape)))
+    ends = {"kick_drift": Outcome("done", "", moved), "mujoco_tendons": Outcome("crashed", "killed")}
+
+    def half(steppers: Sequence[Stepper], *_: object) -> list[tuple[Stepper, list[Outcome]]]:
+        return [(s, [ends["kick_drift"], ends[s.name]]) for s in steppers]
+
+    monkeypatch.setattr(ground_motion, "side_by_side", half)
+    monkeypatch.setattr(ground_motion, "natural_frequencies", lambda: np.array([1.0]))
+    monkeypatch.setattr(ground_motion, "predicted_sway", lambda: np.array([0.0, 1e-3]))
+    monkeypatch.setattr(ground_motion, "influence_line", lambda: (np.array([0.0, 1.0]), np.array([0.0, 1e-3])))
+    result = ground_motion.run(lambda _: None)
+    assert list(result.data["rows"]) == ["kick_drift"]
+    assert result.failures == ["mujoco_tendons: crashed, killed"]
+
+
+@pytest.mark.parametrize("speed", [10.0, 40.0])
+def test_a_truck_is_watched_until_it_has_crossed(speed: float) -> None:
+    """To the last whole step before it leaves."""
+    _, drive, duration = ground_motion.crossed_bridge(speed)
+    left = drive.places[-1] / speed - duration
+    assert 0 <= left < DT
+    assert duration / DT == pytest.approx(round(duration / DT))
+
+
+def test_off_the_line_is_the_largest_distance_from_it() -> None:
+    """As a part of its largest sag: 1 mm off at the end, and nowhere else, of 4 mm; line and sag go with the truck."""
+    places, down = np.array([0.0, 2.0, 4.0]), np.array([0.0, 4e-3, 0.0])
+    speed = 1.0 / DT
+    sag = np.array([0.0, 2e-3, 4e-3, 2e-3, 1e-3])
+    assert ground_motion.off_the_line(sag, speed, (places, down)) == pytest.approx(0.25)
+    assert ground_motion.off_the_line(-sag, speed, (places, down)) == pytest.approx(2.0)

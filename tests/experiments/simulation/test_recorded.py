@@ -11,6 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from experiments.simulation.recorded import read
+from reference.errors import InputError
+from reference.scenes import find
 from tests.report.commands.terminal import springlab
 
 #: A script that knows nothing of the lab: a mass on a spring, stepped by MuJoCo's Euler as it comes.
@@ -66,7 +69,6 @@ def test_what_simulate_wrote_is_identified(name: str, tmp_path: Path) -> None:
 
 def test_without_velocities_positions_alone_are_compared(tmp_path: Path) -> None:
     """A file that does not tell them."""
-    from reference.scenes import find
     from reference.stepper import catalogued
 
     run = catalogued()["heun"].run(find("string").system({}), 1e-3, 60).trajectory
@@ -142,3 +144,47 @@ def test_a_recording_in_more_dimensions_than_the_scene_is_refused(extent: float,
     found = springlab("identify", str(file), "spring")
     assert found.code == code
     assert ("its positions differ along z: expected the scene's axes, x, y, only" in found.err) == (code == 2)
+
+
+def table_of(*frames: tuple[float, float, float], head: str = "time,mass,x,y", more: str = "") -> str:
+    """A file of the spring's two masses: at each time where the second is, and what else stands in each row."""
+    rows = (f"{t},0,0,0{more}\n{t},1,{x},{y}{more}\n" for t, x, y in frames)
+    return f"{head}\n" + "".join(rows)
+
+
+STILL = [(t * 1e-3, 0.0, -0.125) for t in range(4)]
+
+
+def test_velocities_are_taken_where_all_of_them_are_told(tmp_path: Path) -> None:
+    """Of a file that has one of two they are not known; columns may stand in any order."""
+    system, file = find("spring").system({}), tmp_path / "run.csv"
+    file.write_text(table_of(*STILL, head="time,mass,x,y,vy", more=",2"))
+    assert np.isnan(read(file, system).velocities).all()
+    file.write_text(table_of(*STILL, head="time,mass,x,y,vy,vx", more=",2,3"))
+    assert np.array_equal(read(file, system).velocities, np.broadcast_to([3.0, 2.0], (4, 2, 2)))
+
+
+def test_a_recording_may_end_with_what_is_no_number_and_not_begin_with_it(tmp_path: Path) -> None:
+    """A run that blew up is one."""
+    system, file = find("spring").system({}), tmp_path / "run.csv"
+    file.write_text(table_of(*STILL[:-1], (3e-3, np.nan, 0.0)))
+    assert np.isnan(read(file, system).positions[-1]).any()
+    file.write_text(table_of((0.0, np.nan, 0.0), *STILL[1:]))
+    with pytest.raises(InputError, match="it begins with what is not a number"):
+        read(file, system)
+
+
+def test_one_row_that_is_not_in_its_place_is_seen(tmp_path: Path) -> None:
+    """All others are."""
+    file = tmp_path / "run.csv"
+    file.write_text(table_of(*STILL).replace("0.002,1,", "0.002,0,"))
+    with pytest.raises(InputError, match="expected rows for masses 0 to 1 at every time, in this order"):
+        read(file, find("spring").system({}))
+
+
+def test_objects_are_not_unpacked(tmp_path: Path) -> None:
+    """An array of Python's objects is a pickle, which may do anything when it is read."""
+    file = tmp_path / "run.npz"
+    np.savez(file, time_s=np.arange(4) * 1e-3, positions_m=np.zeros((4, 2, 2)).astype(object))
+    with pytest.raises(InputError, match="expected an NPZ file of arrays of numbers: Object arrays"):
+        read(file, find("spring").system({}))
