@@ -68,7 +68,7 @@ def test_times_are_said_in_units_that_suit_them(seconds: float, words: str) -> N
 
 
 def test_beyond_this_machines_cores_runs_go_to_a_cluster(monkeypatch: pytest.MonkeyPatch) -> None:
-    """On four cores: up to those a task goes to a process, beyond it goes with its batch; on who knows how many, one."""
+    """On four cores: up to those a task goes to a process, beyond it goes with its batch; of unknown many, one."""
     here, there = 1e-3 + 2e-3, AT_THE_TOP[0]
     monkeypatch.setattr(os, "cpu_count", lambda: 4)
     assert [serial(KINDS[0], HANDS, n) for n in (1, 4, 5)] == pytest.approx([here, here, there])

@@ -19,6 +19,9 @@ from reference.system import MassSpringSystem
 #: Masses of a triangle with a tail [kg]; the first two are fixed.
 MASSES = (1.0, 2.0, 3.0, 4.0)
 
+#: How engines are stepped, unless that matters.
+MILLISECONDS = Stepping(1e-3)
+
 
 def scene(**changed: Any) -> MassSpringSystem:
     """Springs between all of the first three masses, no two alike, and one to the last like the second."""
@@ -48,7 +51,7 @@ def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("reference.theory.limits.stability_limit", lambda *_: Limit(0.25))
 
 
-def rows(system: MassSpringSystem, name: str = "xpbd", stepping: Stepping = Stepping(1e-3)) -> list[Row]:
+def rows(system: MassSpringSystem, name: str = "xpbd", stepping: Stepping = MILLISECONDS) -> list[Row]:
     """Of one translation, with nothing run."""
     return rows_of_scene(system, stepping, [find(name)], lambda _: None, measure=False)
 
@@ -68,7 +71,7 @@ def test_the_spring_that_has_no_stiffness_is_named() -> None:
     with pytest.raises(InputError, match=r"^stiffness\[2\] = 0: expected > 0 to be translated$"):
         springs_of(scene(stiffness=np.array([10.0, 20.0, 0.0, 40.0])))
     none = dict.fromkeys(("rest_lengths", "stiffness", "damping"), np.zeros(0))
-    with pytest.raises(InputError, match="^the scene has no springs to translate$"):
+    with pytest.raises(InputError, match=r"^the scene has no springs to translate$"):
         springs_of(scene(springs=np.zeros((0, 2), int), **none))
 
 
