@@ -20,13 +20,16 @@ AWAY = (0.6, 1.0, 0.0)
 FLOOR, BAR = Plane((0.0, -3.0), (0.0, 1.0)), Cylinder(AWAY, (0.0, 0.0, 1.0), 0.3)
 DISC, BALL, BLOCK = Circle(AWAY[:2], 0.3), Sphere(AWAY, 0.3), Box(AWAY[:2], (0.3, 0.2))
 
-#: What springs have besides: in a string whose masses are thrown apart and together all of it comes to bear.
+#: Every other one of the string's ten springs, from the second on.
+_SOME = np.arange(10) % 2 == 1
+
+#: What some springs have besides: in a string whose masses are thrown apart and together all of it comes to bear.
 LAWS = {
-    "tension_only": NonlinearSprings(tension_only=np.array(True)),
-    "compression_only": NonlinearSprings(compression_only=np.array(True)),
-    "hardening": NonlinearSprings(hardening=np.array(1e6)),
-    "largest_force": NonlinearSprings(largest_force=np.array(1.0)),
-    "breaking": NonlinearSprings(breaking_force=np.array(1.0)),
+    "tension_only": NonlinearSprings(tension_only=_SOME),
+    "compression_only": NonlinearSprings(compression_only=_SOME),
+    "hardening": NonlinearSprings(hardening=np.where(_SOME, 1e6, 0.0)),
+    "largest_force": NonlinearSprings(largest_force=np.where(_SOME, 1.0, np.inf)),
+    "breaking": NonlinearSprings(breaking_force=np.where(_SOME, 1.0, np.inf)),
 }
 
 
