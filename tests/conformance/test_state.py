@@ -18,8 +18,8 @@ PLACE = np.array([0.3, -0.7, 0.2])
 def test_the_state_at_the_start_is_the_systems_and_every_state_is_arrays_of_its_own(engine: Engine) -> None:
     """To 1e-14 of its largest number, or 1e-7; overwriting one state that was handed out, or a step, changes no other.
 
-    On every system that the engine's capabilities allow: in motion, stretched, in three dimensions, a mesh, free; and on
-    some whose fixed mass is not at the origin.
+    On every system that the engine's capabilities allow: in motion, stretched, in three dimensions, a mesh, free; and
+    on some whose fixed mass is not at the origin.
     """
     asked = for_each_capability()
     apart = [replace(s, positions=s.positions + PLACE[: s.dimension]) for s in map(asked.get, MOVED) if s is not None]

@@ -12,6 +12,7 @@ from engines.measured_limit import (
     ABOVE,
     BELOW,
     ModeRun,
+    falls,
     growth_of_engine,
     growths_along_modes,
     growths_of_engine,
@@ -160,3 +161,20 @@ def test_what_an_engine_cannot_do_is_an_outcome_with_its_reason() -> None:
     assert limit_of_engine(dragless, REST, PERTURBED, 0.01, 1e-2) == outcome
     assert growths_along_modes(dragless, replace(SPRING, positions=REST), [along(LIMIT)]) == outcome
     assert growths_of_engine(dragless, [(REST, PERTURBED, 0.01)], 10) == outcome
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "gravity", "fallen"),
+    [
+        ((200.0, 200.0, 200.0), (0.0, -9.81), False),
+        ((200.0, 0.0, 200.0), (0.0, -9.81), True),
+        ((200.0, 0.0, 200.0), (3.0, 0.0), True),
+        ((200.0, 0.0, 200.0), (0.0, 0.0), False),
+    ],
+)
+def test_what_springs_do_not_hold_falls(stiffness: tuple[float, ...], gravity: tuple[float, ...], fallen: bool) -> None:
+    """A string whose second spring has no stiffness, numbered from either end, where there is weight along any axis."""
+    string = find("string").system({"masses": 3, "stiffness": 1.0})
+    for springs in (string.springs, string.springs[::-1, ::-1].copy()):
+        stiff = np.array(stiffness if springs is string.springs else stiffness[::-1])
+        assert falls(replace(string, springs=springs, stiffness=stiff, gravity=np.array(gravity))) is fallen
