@@ -13,8 +13,6 @@ The answer is the first limit, from short steps on; where a step is stable again
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from reference.errors import SolverError
@@ -136,16 +134,20 @@ def _by_polynomial(polynomial: tuple[float, ...], rest: Equilibrium, found: Rate
     (_, first), *others = stable_steps(polynomial, found.values)
     if first == 0:
         return _never(polynomial, found)
-    if np.isinf(first):
-        return Limit(None, "stable at any dt")
-    limit = Limit(float(first), windows=tuple((float(a), float(b)) for a, b in others))
     if found.all or (found.least_decay == 0 and not found.values.real.any()):
-        return limit
+        if np.isinf(first):
+            return Limit(None, "stable at any dt")
+        return Limit(float(first), windows=tuple((float(a), float(b)) for a, b in others))
     assert rest.linear is not None  # of other equations all eigenvalues are known
     below = limit_from_below(polynomial, rest.linear)
     if below >= (1 - AS_GOOD_AS_ONE) * first:
-        return limit
-    return replace(limit, dt=below, at_most=float(first), certainty="between", windows=())
+        return Limit(float(first))
+    known = f"of {len(rest.linear.mass)} coordinates not all modes are known"
+    if below == 0:
+        return Limit(None, f"not computed: unstable above {first:.4g} s at the latest; {known}")
+    if np.isinf(first):
+        return Limit(below, certainty="between", note=f"at least {below:.4g} s: {known}")
+    return Limit(below, at_most=float(first), certainty="between")
 
 
 def _never(polynomial: tuple[float, ...], found: Rates) -> Limit:

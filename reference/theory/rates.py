@@ -1,12 +1,14 @@
 """The eigenvalues of the equations of motion about an equilibrium, z' = A z: how fast every mode swings and decays.
 
 Without damping they are +- i w with w^2 the eigenvalues of M^-1 K, a symmetric problem. With damping all of a small
-system's are had at once; of a large one those that lie outermost.
+system's are had at once; of a large one some of the fastest and of the slowest, by inverse iteration.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -25,8 +27,8 @@ ALL_UP_TO = 1300
 #: Up to this many coordinates all are as quick as the fastest alone.
 QUICK_UP_TO = 100
 
-#: How many of the outermost are taken of larger systems, in each direction, and in how many rounds of iteration.
-OUTER, MOST_ROUNDS = 6, 100
+#: How many are taken of larger systems, those nearest to either end: to so many times the highest frequency.
+NEAREST, ENDS = 6, (1.001, 1e-3)
 
 #: Parts of the fastest rate below which a real part, a frequency squared is zero but for rounding.
 UNDAMPED, UNRESISTED = 1e-12, 1e-10
@@ -45,17 +47,19 @@ class Rates:
     Attributes:
         values: [1/s], of motion that something resists; a real part that is rounding is zero.
         unresisted: how many eigenvalues are zero: motion that nothing resists goes on as it is begun.
-        all: whether these are all, or the outermost only.
+        all: whether these are all, or only some of the fastest and of the slowest.
+        bound: no eigenvalue is larger [1/s]: what stands for the fastest where iteration has found none.
     """
 
     values: Complex
     unresisted: int
     all: bool
+    bound: float = 0.0
 
     @property
     def fastest(self) -> float:
         """The largest modulus [1/s]."""
-        return float(np.abs(self.values).max(initial=0.0))
+        return float(np.abs(self.values).max()) if len(self.values) else self.bound
 
     @property
     def least_decay(self) -> float:
@@ -70,7 +74,7 @@ def rates(rest: Equilibrium) -> Rates:
         return _by_euler(rest)
     if not linear.damped and not linear.dragged:
         return _undamped(linear)
-    return _damped(linear) if 2 * len(linear.mass) <= ALL_UP_TO else _outermost(linear)
+    return _damped(linear) if 2 * len(linear.mass) <= ALL_UP_TO else _at_both_ends(linear)
 
 
 def fastest_rate(rest: Equilibrium) -> float:
@@ -82,7 +86,7 @@ def fastest_rate(rest: Equilibrium) -> float:
         return rates(rest).fastest
     if not linear.damped and not linear.dragged:
         return float(_top_undamped(linear).item())
-    return float(np.abs(_eigenvalues(linear, "LM")).max())
+    return _at_both_ends(linear, ENDS[:1]).fastest
 
 
 def unresisted_directions(linear: Linearisation) -> int:
@@ -141,24 +145,56 @@ def _with_weak_decay(linear: Linearisation, count: int) -> Complex:
     return values
 
 
-def _outermost(linear: Linearisation) -> Rates:
-    found = [_eigenvalues(linear, which) for which in ("LM", "LI", "SR")]
-    return _without_rounding(np.concatenate(found), 0, False)
+def _at_both_ends(linear: Linearisation, ends: Sequence[float] = ENDS) -> Rates:
+    """Of large systems with damping: some of the fastest and of the slowest; decay that outruns all swings, too."""
+    from scipy.sparse.linalg import eigsh
+
+    slowed = linear.scaled(linear.damping_and_drag)
+    highest, start = float(_top_undamped(linear).item()), np.random.default_rng(0).normal(size=len(linear.mass))
+    decay = float(eigsh(slowed, 1, which="LA", v0=start, return_eigenvectors=False).item())
+    shifts = [1j * part * highest for part in ends]
+    if decay > highest:
+        shifts.append(complex(-ENDS[0] * decay))
+    found = np.concatenate([_nearest_to(shift, linear.scaled_stiffness, slowed) for shift in shifts])
+    bound = highest + decay
+    moving = found[np.abs(found) > 1e-6 * bound]
+    return Rates(np.concatenate([moving, moving[moving.imag > 0].conj()]), 0, False, bound)
 
 
-def _eigenvalues(linear: Linearisation, which: str) -> Complex:
-    """Some of the outermost; those that iteration tells from their neighbours in MOST_ROUNDS."""
-    from scipy.sparse.linalg import ArpackNoConvergence, eigs
+def _nearest_to(shift: complex, stiffness: Any, damping: Any) -> Complex:
+    """The eigenvalues mu of mu^2 + mu C + K that are nearest to a shift, in the upper half: by inverse iteration.
 
-    start = np.random.default_rng(0).normal(size=2 * len(linear.mass))
+    Each from its vector q, as a root of mu^2 + mu q* C q + q* K q with q* q = 1: as exact as these products, of which
+    C's tells a decay that is rounding beside the frequency. (Tisseur and Meerbergen, SIAM Review 43 (2001), 3.3.)
+
+    Args:
+        stiffness, damping: K [1/s^2] and C [1/s], scaled by the roots of masses: sparse, shape (m, m).
+    """
+    from scipy.sparse import csc_array, diags_array
+    from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigs, splu
+
+    size, _ = stiffness.shape
+    shifted = csc_array((stiffness + shift * damping + shift**2 * diags_array(np.ones(size))).astype(complex))
+    factors = splu(shifted, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+
+    def solved(z: Complex) -> Complex:
+        """(A - shift)^-1 z of z' = A z, z = (q, q')."""
+        q = factors.solve(-(z[size:] + damping @ z[:size] + shift * z[:size]))
+        return np.concatenate([q, z[:size] + shift * q])
+
+    operator: Any = LinearOperator((2 * size, 2 * size), solved, dtype=complex)
+    start = np.random.default_rng(0).normal(size=2 * size).astype(complex)
     try:
-        found = eigs(linear.operator, OUTER, which=which, v0=start, maxiter=MOST_ROUNDS, return_eigenvectors=False)
+        inverse, vectors = eigs(operator, NEAREST, v0=start)
     except ArpackNoConvergence as error:
-        found = error.eigenvalues
-    if which == "LM" and not len(found):
-        # a bound in its place: no rate is larger than the highest frequency and the fastest decay together
-        found = -1j * _top_undamped(linear) - float(abs(linear.scaled(linear.damping)).sum(axis=1).max())
-    return np.asarray(found)
+        inverse, vectors = error.eigenvalues, error.eigenvectors
+    q = vectors[:size] / np.linalg.norm(vectors[:size], axis=0)
+    slowed, square = ((q.conj() * (matrix @ q)).sum(axis=0).real for matrix in (damping, stiffness))
+    apart = np.sqrt(slowed.astype(complex) ** 2 - 4 * square)
+    # of the two roots, or their mirror images, the one that was found
+    roots = np.array([-slowed + apart, -slowed - apart]) / 2
+    found = roots[np.argmin(np.abs(roots - (shift + 1 / inverse)), axis=0), np.arange(len(inverse))]
+    return np.asarray(found.real + 1j * np.abs(found.imag))
 
 
 def _top_undamped(linear: Linearisation) -> Array:

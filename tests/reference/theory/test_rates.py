@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from reference.scenes import find as find_scene
+from reference.schemes.catalogue import find
 from reference.system import MassSpringSystem
 from reference.theory import rates as module
 from reference.theory.equilibria import Equilibrium, pendulum_equilibrium, spring_equilibrium
-from reference.theory.rates import fastest_rate, rates
+from reference.theory.limits import stability_limit
+from reference.theory.rates import NEAREST, Rates, fastest_rate, rates
 
 
 def free_chain(**more: Any) -> MassSpringSystem:
@@ -55,9 +57,29 @@ def test_damped_modes_are_roots_of_their_quadratics(c: float, drag: float) -> No
     assert found.fastest == pytest.approx(np.abs(expected).max(), rel=1e-9)
 
 
-@pytest.mark.parametrize("more", [{}, {"damping": np.array(0.6), "drag": 0.4}, {"damping": np.array(30.0)}], ids=str)
-def test_of_large_systems_the_outermost_are_the_same(monkeypatch: pytest.MonkeyPatch, more: dict[str, Any]) -> None:
-    """By iteration, of a chain of thirty masses: the fastest, and where decay matters the largest of real parts."""
+def check_some_of_all(found: Rates, every: Rates) -> None:
+    """Each is one of all, of which there are as many conjugates, and among them is the fastest that swings or decays.
+
+    To 1e-9 of itself; its real part to a thousandth, where it is all but lost beside the frequency: 1e-9 of it.
+    """
+    assert (found.all, found.unresisted, every.all) == (False, 0, True)
+    assert len(found.values) >= NEAREST
+    assert np.abs(every.values).max() == pytest.approx(found.fastest, rel=1e-4)
+    for value in found.values:
+        nearest = every.values[np.argmin(np.abs(every.values - value))]
+        assert value == pytest.approx(nearest, rel=1e-9)
+        assert value.real == pytest.approx(nearest.real, rel=1e-3)
+        assert value.conj() in found.values
+
+
+LARGE = [{}, {"damping": np.array(0.6), "drag": 0.4}, {"damping": np.array(30.0)}]
+
+
+@pytest.mark.parametrize("more", LARGE, ids=str)
+def test_of_large_systems_some_of_the_fastest_and_slowest_are_the_same(
+    monkeypatch: pytest.MonkeyPatch, more: dict[str, Any]
+) -> None:
+    """By iteration, of a chain of thirty masses that nothing holds."""
     n = 30
     chain = free_chain(
         positions=np.arange(n)[:, None] * 1.0,
@@ -68,13 +90,49 @@ def test_of_large_systems_the_outermost_are_the_same(monkeypatch: pytest.MonkeyP
     every = rates(rest(chain))
     monkeypatch.setattr(module, "ALL_UP_TO", 10)
     monkeypatch.setattr(module, "QUICK_UP_TO", 10)
-    outermost = rates(rest(chain))
-    assert (every.all, outermost.all, outermost.unresisted) == (True, False, 0)
-    assert outermost.fastest == pytest.approx(every.fastest, rel=1e-6)
-    assert fastest_rate(rest(chain)) == pytest.approx(every.fastest, rel=1e-6)
     if more:
-        assert outermost.values.real.min() == pytest.approx(every.values.real.min(), rel=1e-6)
-        assert np.abs(outermost.values.imag).max() == pytest.approx(np.abs(every.values.imag).max(), rel=1e-6)
+        check_some_of_all(rates(rest(chain)), every)
+    assert fastest_rate(rest(chain)) == pytest.approx(every.fastest, rel=1e-6)
+
+
+@pytest.mark.parametrize("damping", [1e-9, 1e-3, 0.1, 5.0])
+def test_of_a_large_cloth_rates_and_limits_are_true(monkeypatch: pytest.MonkeyPatch, damping: float) -> None:
+    """Damped weakly or strongly along its springs, hardly across them: no limit is above the one of all modes."""
+    at_rest = rest(find_scene("cloth").system({"rows": 6, "columns": 7, "damping": damping}))
+    every = rates(at_rest)
+    true = {name: stability_limit(find(name), at_rest, every) for name in ("euler", "heun", "rk4")}
+    monkeypatch.setattr(module, "ALL_UP_TO", 10)
+    some = rates(at_rest)
+    check_some_of_all(some, every)
+    for name, expected in true.items():
+        found = stability_limit(find(name), at_rest, some)
+        assert expected.dt is not None
+        assert found.stable_steps in ("up to a limit", "unknown")
+        if found.dt is not None:
+            assert found.dt <= (1 + 1e-8) * expected.dt <= (1 + 2e-8) * (found.at_most or found.dt)
+        else:
+            assert expected.dt <= float(found.reason.partition("unstable above ")[2].partition(" s")[0]) * (1 + 1e-3)
+
+
+def test_where_iteration_finds_nothing_a_bound_stands_for_the_fastest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As with the chain above, of which no eigenvalue is found; no limit is then said not to be there."""
+    import scipy.sparse.linalg as sparse
+
+    def none(*_: object, **__: object) -> None:
+        raise sparse.ArpackNoConvergence("none of %d", np.zeros(0), np.zeros((120, 0)))
+
+    at_rest = rest(find_scene("cloth").system({"rows": 6, "columns": 7, "damping": 0.01}))
+    fastest = rates(at_rest).fastest
+    monkeypatch.setattr(module, "ALL_UP_TO", 10)
+    monkeypatch.setattr(sparse, "eigs", none)
+    found = rates(at_rest)
+    assert len(found.values) == 0
+    assert fastest <= found.fastest < 1.5 * fastest
+    assert stability_limit(find("euler"), at_rest, found).stable_steps == "unknown"
+    limit = stability_limit(find("rk4"), at_rest, found)
+    assert (limit.certainty, limit.at_most) == ("between", None)
+    assert limit.note.startswith("at least ")
+    assert limit.dt == pytest.approx(2 * np.sqrt(2) / fastest, rel=0.1)
 
 
 def test_of_other_equations_by_eulers_step() -> None:
