@@ -135,7 +135,7 @@ def compiled(exercise: int, source: str, exposed: bool) -> Compiled:
         return Compiled((folder / "library.so").read_bytes(), tuple(lines), tuple(_warnings(said[0][2])))
 
 
-def with_variants(exercise: int, variants: Variants, exposed: bool = False) -> Compiled | None:
+def with_variants(exercise: int, variants: Variants, exposed: bool) -> Compiled | None:
     """A program with all its variants, compiled quickly; those that the compiler refuses are left out.
 
     None where it is the program itself that is refused.

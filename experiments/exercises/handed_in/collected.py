@@ -88,7 +88,7 @@ def collect(folder: Path, unpacked: Path) -> list[HandedIn]:
         if path.suffix.lower() == ".zip":
             # the whole class in one zip has students inside; a student's own zip is the student's
             prefix = "" if path == folder else f"{PurePosixPath(name).with_suffix('')}/"
-            found += _of_zip(path, name, prefix, unpacked / f"zip{len(found)}")
+            found += _of_zip(path, name, prefix, unpacked / f"zip{len(found)}", inner=False)
         elif path.suffix.lower() in SUFFIXES or _is_a_students(name):
             to = found if path.suffix.lower() in SUFFIXES else others
             to.append(HandedIn(path, name, student_of(name), datetime.fromtimestamp(path.stat().st_mtime)))
@@ -146,7 +146,7 @@ def _without_programs(folder: Path, unpacked: Path) -> list[tuple[Path, str]]:
     return [(file.path, file.name) for file in collect(folder, unpacked) if file.path.suffix.lower() not in SUFFIXES]
 
 
-def _of_zip(path: Path, name: str, prefix: str, into: Path, inner: bool = False) -> list[HandedIn]:
+def _of_zip(path: Path, name: str, prefix: str, into: Path, inner: bool) -> list[HandedIn]:
     """What is in a zip. A student's own that cannot be read, or has no program in it, stands for itself: it is told.
 
     Args:

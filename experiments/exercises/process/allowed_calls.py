@@ -151,7 +151,7 @@ CALL, MACHINE, ARGUMENTS = 0, 4, 16
 Line = tuple[int, int, int, int]
 
 
-def filter_of(machine: str, own_pid: int, code: bool = False) -> bytes | None:
+def filter_of(machine: str, own_pid: int, code: bool) -> bytes | None:
     """The filter for a machine, as struct sock_filter; None for one whose numbers are not known here.
 
     Args:
@@ -163,7 +163,7 @@ def filter_of(machine: str, own_pid: int, code: bool = False) -> bytes | None:
     return b"".join(struct.pack("=HBBI", *line) for line in program(machine, own_pid, code))
 
 
-def program(machine: str, own_pid: int, code: bool = False) -> list[Line]:
+def program(machine: str, own_pid: int, code: bool) -> list[Line]:
     """The filter, line by line: (code, how far to jump if true, if false, number)."""
     which, architecture = MACHINES[machine]
     lines: list[Line] = [(LOAD, 0, 0, MACHINE), (EQUAL, 1, 0, architecture), (GIVE, 0, 0, KILL), (LOAD, 0, 0, CALL)]

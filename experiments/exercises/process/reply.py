@@ -116,7 +116,7 @@ def _is_answer(answer: Any) -> None:
     _expect(isinstance(answer["values"], list) and all(map(_are_arrays, answer["values"])))
     _expect("again" not in answer or _are_arrays(answer["again"]))
     _expect("again" in answer or "error" in answer)
-    _expect(all(isinstance(answer.get(flag, False), bool) for flag in FLAGS))
+    _expect(all(isinstance(answer[flag], bool) for flag in FLAGS if flag in answer))
     if "error" in answer:
         _is_error(answer["error"])
 

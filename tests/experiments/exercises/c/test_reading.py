@@ -73,3 +73,25 @@ def test_what_cannot_be_read_is_told(text: str) -> None:
     """No other error comes of it: not C, a macro for a piece of a statement, a text that is too long."""
     with pytest.raises(UnreadableError):
         read(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("0", 0), ("12", 12), ("12u", 12), ("12UL", 12),
+        ("1.5", 1.5), ("2.f", 2.0), ("1e-3L", 1e-3),
+        ("012", None), ("0x1F", None), ("0x1p3", None), ("'a'", None), ("'1'", None),
+    ],
+)  # fmt: skip
+def test_decimal_numbers_are_numbers(text: str, value: float | None) -> None:
+    """With their endings; others, whose text has another value in Python, are only copied."""
+    (own,) = functions_in(read(function(f"dt = {text};")).tree)
+    (statement,) = own.body
+    assert isinstance(statement, ast.Assign)
+    found = statement.value
+    assert text_of(read(function(f"dt = {text};"))).count(f"dt = {text};") == 1
+    if value is None:
+        assert not isinstance(found, ast.Constant)
+    else:
+        assert isinstance(found, ast.Constant)
+        assert (found.value, type(found.value)) == (value, type(value))

@@ -230,7 +230,7 @@ def test_whatever_a_variant_does_the_next_call_is_as_before(tmp_path: Path, chan
         "    local[0] = own[0] + asked[1] * 0;\n    x[0][0] += 2 * dt;\n    v[0][0] = dt;\n}\n"
     ).replace("HERE", change)
     variants = Variants(read(text), [])
-    library = compiler.with_variants(4, variants)
+    library = compiler.with_variants(4, variants, False)
     assert library is not None
     (tmp_path / "variants.so").write_bytes(library.library)
     program = SwitchedProgram(str(tmp_path / "variants.so"), 4, variants.places)

@@ -128,9 +128,10 @@ def test_bytes_of_other_kinds_are_refused(data: bytes) -> None:
     assert read(MARK, data, 2).ended == "crashed"
 
 
-def test_letters_that_are_none_are_refused() -> None:
-    """An array of words whose numbers are no code points."""
-    bad = np.frombuffer(struct.pack("<2I", 0xD800, 0x110000), "<U1")
+@pytest.mark.parametrize("numbers", [(65, 0xD800), (0xDFFF, 65), (65, 0x110000), (0x110000, 65)])
+def test_letters_that_are_none_are_refused(numbers: tuple[int, int]) -> None:
+    """An array of words one of whose numbers is no code point."""
+    bad = np.frombuffer(struct.pack("<2I", *numbers), "<U1")
     assert read(MARK, packed(answers(again=[bad, bad])), 2).ended == "crashed"
 
 

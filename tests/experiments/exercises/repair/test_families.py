@@ -56,6 +56,8 @@ CHANGES: list[tuple[str, str, str]] = [
     *(("factor", "return 3", f"return {other}") for other in ("4", "2", "6", "1.5", "-3", "0", "1")),
     ("factor", "return 0.5", "return 1.0"),
     ("factor", "return d * a1", "return d ** 2 * a1"),
+    ("factor", "return d.sum()", "return (d ** 2).sum()"),
+    ("factor", "return f(np.sqrt(d))", "return f(np.sqrt(d * a1))"),
     ("factor", "return d", "return d * 2"),
     ("factor", "return d", "return d * 0.5"),
     ("factor", "f(s.masses)\nreturn d", "f(s.masses)\nreturn d / s.masses"),
@@ -113,6 +115,7 @@ CHANGES: list[tuple[str, str, str]] = [
     ("index", "return x[0]", "return x[:, None]"),
     *(("index", "return x[3]", f"return x[{other}]") for other in ("0", "1", "-1", "4", "2")),
     ("index", "for i in r:\n    f(x[1])", "for i in r:\n    f(x[i])"),
+    ("index", "x[3] = d", "x[4] = d"),
     ("index", "return x[d + 1]", "return x[d]"),
     ("sign", "return x[d + 1]", "return x[d - 1]"),
     ("index", "return x[d]", "return x[d + 1]"),
@@ -136,6 +139,8 @@ CHANGES: list[tuple[str, str, str]] = [
     # items
     ("order", "return x, v", "return v, x"),
     ("order", "return x, v, d, a1", "return a1, v, d, x"),
+    ("order", "return x, v, d, a1", "return x, d, v, a1"),
+    ("order", "x, v = f(d)", "v, x = f(d)"),
     ("too much", "return [x, v]", "return [x]"),
     # statements
     ("copy", "return d", "x = x.copy()\nreturn d"),
@@ -272,6 +277,7 @@ def test_what_is_changed_together_costs_a_little_more() -> None:
         ("return np.sin() + eigvalsh()", "return eigvals()"),
         ("f(s.centre)\nreturn g(d)", "f(s.centre)\nreturn s.centre"),
         ("return 2000000.0", "return 4000000.0"),
+        ("a1 = d\nreturn a1", "v = d\nreturn a1"),
         ("return d * a1", "return -d * a1"),
     ],
 )

@@ -312,6 +312,49 @@ def test_the_worked_examples_are_true(module: Any) -> None:
     assert doctest.testmod(module).failed == 0
 
 
+@pytest.mark.parametrize(
+    ("when", "late"), [((3, 12), "0"), ((3, 11), "0"), ((3, 13), "1"), ((4, 12), "1"), ((4, 13), "2"), ((1, 12), "0")]
+)
+def test_a_day_that_has_begun_is_a_day_late(when: tuple[int, int], late: str) -> None:
+    """By the hour it was due; without one nobody is late."""
+    file = HandedIn(Path("none.py"), "none.py", "ada", datetime(2026, 11, *when))
+    graded = [{"file": "none.py", "exercise": "1", "score": "1.0"}]
+    (row,) = book(graded, [file], due=datetime(2026, 11, 3, 12))
+    assert row["days_late"] == late
+    assert book(graded, [file])[0]["days_late"] == ""
+
+
+def test_a_file_of_no_exercise_has_a_row_where_its_student_has_no_other() -> None:
+    """Ada has one of an exercise too, Bob has not; and what Eve has handed in says nothing of them."""
+    named = {"a1.py": ("ada", "1"), "a2.py": ("ada", ""), "b.py": ("bob", ""), "e.py": ("eve", "3")}
+    files = [HandedIn(Path(name), name, who, datetime(2026, 11, 3)) for name, (who, _) in named.items()]
+    rows = book([{"file": name, "exercise": e, "score": "1.0"} for name, (_, e) in named.items()], files)
+    assert [(row["student"], row["exercise"]) for row in rows] == [("ada", "1"), ("bob", ""), ("eve", "3")]
+
+
+@pytest.mark.parametrize(
+    ("name", "one", "other", "same"),
+    [
+        ("py", 'SEED = "a"\ndef f(x):\n    "Mine."\n    return 2 * x', 'SEED = "b"\ndef f(x): return 2*x  # so', True),
+        ("py", "def f(x):\n    return 2 * x", "def f(x):\n    return 3 * x", False),
+        ("py", "EXERCISE = 1\nRATE = 2", "EXERCISE = 1\nRATE = 3", False),
+        ("py", "def f(:", "def f(:", False),
+        ("c", "int f(void) { return 1; } // mine", "int f(void) {\n  return 1;\n}", True),
+        ("c", "int f(void) { return 1; }", "int f(void) { return 2; }", False),
+    ],
+)
+def test_programs_are_the_same_whatever_words_and_seeds_they_have(
+    name: str, one: str, other: str, same: bool, tmp_path: Path
+) -> None:
+    """By their syntax, in C by their text without comments; of what cannot be read nothing is said."""
+    files = []
+    for who, text in (("ada", one), ("bob", other)):
+        (tmp_path / f"{who}.{name}").write_text(text + "\n")
+        files.append(HandedIn(tmp_path / f"{who}.{name}", f"{who}.{name}", who, datetime(2026, 11, 3)))
+    rows = book([{"file": file.name, "exercise": "1", "score": "1.0"} for file in files], files)
+    assert [row["same_program_as"] for row in rows] == (["bob", "ada"] if same else ["", ""])
+
+
 def test_a_seed_is_anothers_where_another_has_it_too() -> None:
     """In the same exercise; by the class list in any; and of who has none nothing is said."""
     file = HandedIn(Path("a.py"), "a.py", "ada", datetime(2026, 11, 3))
