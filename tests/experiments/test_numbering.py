@@ -15,6 +15,7 @@ from experiments import numbering
 from experiments.runs.permutation import CHANGES, permutation_effects, permutations
 from reference.forces import SpringMotion
 from reference.motion import MotionOfSprings
+from reference.outcome import Outcome
 from reference.schemes.catalogue import Scheme, find
 from reference.schemes.implicit_damping import spring_directions
 from reference.state import State
@@ -131,3 +132,20 @@ def test_an_engine_of_no_known_scheme_has_no_prediction() -> None:
     assert numbering.predicted(EngineStepper(Doctored()), 5.0) == NONE
     assert numbering.predicted(EngineStepper(PymunkSprings()), 5.0) == SPRINGS
     assert numbering.predicted(EngineStepper(PymunkSprings()), 0.0) == NONE
+
+
+def test_a_run_that_is_not_done_is_compared_with_nothing() -> None:
+    """Though it left a trajectory: of the system itself nothing can be said, of a change its reason is."""
+    system = moving_string(4)
+    done = SchemeStepper(find("heun")).run(system, 1e-3, 5)
+    diverged = replace(done, ending="diverged", reason="spring 1 is torn")
+    lost = Outcome("done", "no trajectory")
+    for original in (diverged, lost):
+        effects = permutation_effects(lambda _, original=original: original, system)  # type: ignore[misc]
+        assert effects.distances == {}
+        assert effects.reasons == dict.fromkeys(CHANGES, f"{original.ending}, {original.reason}")
+    for other in (diverged, lost):
+        answers = iter([done, other, done, done])
+        effects = permutation_effects(lambda _, answers=answers: next(answers), system)  # type: ignore[misc]
+        assert list(effects.reasons.items()) == [("masses renumbered", f"{other.ending}, {other.reason}")]
+        assert list(effects.distances) == ["springs reversed", "ends swapped"]

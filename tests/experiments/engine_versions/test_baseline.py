@@ -111,3 +111,23 @@ def test_a_package_without_a_baseline_says_so(tmp_path: Path) -> None:
     """And which have one."""
     with pytest.raises(InputError, match="spring has no baseline"):
         baseline.kept_versions(subject(), [], tmp_path)
+
+
+def test_all_that_is_kept_is_measured_unless_some_is_asked_for(tmp_path: Path) -> None:
+    """In its order; words are kept as they are, for people to read."""
+    baseline.write(MEASURED, tmp_path)
+    assert baseline.kept_versions(subject(), [], tmp_path) == ["1.9.0", "1.10.0", "2.0.0"]
+    assert baseline.kept_versions(subject(), ["2.0.0"], tmp_path) == ["2.0.0"]
+    rows = made_up()
+    rows["1.9.0"]["springs"]["can: mesh"] = "refused: für Netze"
+    file = baseline.write(VersionMeasurements("spring", rows), tmp_path)
+    assert "refused: für Netze" in file.read_text(encoding="utf-8")
+
+
+def test_a_package_is_asked_about_as_a_whole_and_an_engine_is_not() -> None:
+    """Only with a package is its list of crashes looked at."""
+    whole, one = find_subject("mujoco"), find_subject("mujoco_tendons")
+    assert (whole.whole, one.whole) == (True, False)
+    assert (one.package, [engine.name for engine in one.engines]) == ("mujoco", ["mujoco_tendons"])
+    assert {engine.package for engine in whole.engines} == {"mujoco"}
+    assert len(whole.engines) > 1

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -112,3 +113,12 @@ def test_many_points_are_swept_by_all_threads_and_progress_is_told(monkeypatch: 
     asked.clear()
     swept_growth("scheme", plane(), [*points, points[0]], told.append)  # type: ignore[arg-type]
     assert asked == [(2, None), (2, None)]
+
+
+def test_a_fixed_mass_says_nothing_of_the_others() -> None:
+    """What is varied is the mass of those that move, whatever holds them."""
+    system = find("string").system({"masses": 2})
+    held = [replace(system, masses=np.array([9.0, m, m])) for m in (0.02, 0.03)]
+    assert {name: values.tolist() for name, values in _varied(held).items()} == {"mass": [0.02, 0.03]}
+    held = [replace(system, masses=np.array([m, 0.02, 0.02])) for m in (8.0, 9.0)]
+    assert _varied(held) == {}
