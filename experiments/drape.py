@@ -218,9 +218,9 @@ def _findings(cloths: Sequence[Mapping[str, Any]]) -> list[str]:
     if not rows:
         return [f"No cloth of {1e3 * SPACING:g} mm between masses came to an end."]
     (limp, low, _), (stiff, high, _) = rows[0], rows[-1]
-    falls = [(a, b) for a, b in pairwise(rows) if b[1] < a[1]]
+    falls = sum(after < before for (_, before, _), (_, after, _) in pairwise(rows))
     scatter = max(spread for _, _, spread in rows)
-    always = "at every step between" if not falls else f"but for {len(falls)} of {len(rows) - 1} steps between"
+    always = "at every step between" if not falls else f"but for {falls} of {len(rows) - 1} steps between"
     sentences = [
         f"The drape coefficient rises from {low:.2f} to {high:.2f} as the bending length does from {1e3 * limp:g} to "
         f"{1e3 * stiff:g} mm, {always}; pieces cut of the same cloth differ by up to {2 * scatter:.2f}."

@@ -33,7 +33,7 @@ from reference.pendulum import PendulumMotion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
 from reference.simulate import simulate
-from reference.state import Array, State
+from reference.state import Array, State, Trajectory
 from reference.stepper import SchemeStepper, Stepper, catalogued
 from reference.system import MassSpringSystem
 from reference.theory.energy_trend import predicted_energy_trend
@@ -369,3 +369,17 @@ def test_failures_have_their_reasons(mixed: list[Row]) -> None:
     (crashed,) = (row for row in result.tables[0].rows if row[0] == "Segfaults")
     assert crashed[1:6] == [None] * 5
     assert crashed[-1] == "killed by SIGSEGV"  # on both strings, and told once
+
+
+def test_a_change_is_the_largest_since_the_start() -> None:
+    """Up by 3 and back to 1: 3, over sum m |v| of the start, 2 x 5 + 3 x 1 by hand."""
+    system = replace(
+        find_scene("string").system({"masses": 2}),
+        masses=np.array([7.0, 2.0, 3.0]),
+        velocities=np.array([[0.0, 0.0], [3.0, 4.0], [0.0, 1.0]]),
+    )
+    times = np.arange(3.0)
+    still = Trajectory(times, np.zeros((3, 3, 2)), np.zeros((3, 3, 2)))
+    there_and_back = {0.0: 0.0, 1.0: 3.0, 2.0: 1.0}
+    found = change(system, still, lambda _, state: np.array([there_and_back[state.time], 0.0]))
+    assert found == pytest.approx(3 / 13)

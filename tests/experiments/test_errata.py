@@ -53,8 +53,8 @@ def test_the_acceleration_without_the_second_spring() -> None:
 
 def test_the_distance_is_that_between_the_two_listings(monkeypatch: pytest.MonkeyPatch) -> None:
     """None, as they are; and with Euler in the place of one, that of Heun and Euler after 500 steps of 1 ms."""
-    apart, itself = (value for *_, value, _ in errata._incorrect_listing())
-    assert (apart, itself) == (0.0, 0.0)
+    apart, itself = ((value, unit) for *_, value, unit in errata._incorrect_listing())
+    assert (apart, itself) == ((0.0, "m"), (0.0, "m"))
     doctored = {**listings(), "lecture_heun_loops": catalogued()["euler"]}
     monkeypatch.setattr(errata, "listings", lambda: doctored)
     apart, itself = (value for *_, value, _ in errata._incorrect_listing())

@@ -203,3 +203,20 @@ def test_findings_and_figure_are_made_from_the_fates(monkeypatch: pytest.MonkeyP
     gone = replace(only, distance=np.where(np.arange(len(only.distance)) > 200, np.inf, only.distance))
     lost = replace(result, data={**result.data, "fates": [gone]})
     assert "rk4 not a finite number" in draw("first_order_instability", lost).alt
+
+
+def test_the_string_is_held_by_a_mass_that_says_nothing() -> None:
+    """The frequency is that of the masses that move."""
+    system = find_scene("string").system({"masses": 3})
+    held = replace(system, masses=np.array([50.0, *system.masses[1:]]))
+    assert fastest_mode(held)[1] == fastest_mode(system)[1]
+
+
+def test_growth_is_fitted_to_the_last_rise_before_it_is_large() -> None:
+    """By a twentieth in a step, after it was small twice, up to where it is large first; and not what comes after."""
+    low, high = instability.GROWING
+    rise = low * 1.05 ** np.arange(round(np.log(high / low) / np.log(1.05)) + 3)
+    before = np.array([0.1 * low, 3 * low, 0.5 * low])
+    sizes = np.concatenate([before, rise[1:], [0.1 * low, 9 * high, 5 * high]])
+    assert instability._fit(sizes) == pytest.approx(1.05, rel=1e-9)
+    assert instability._fit(sizes[:20]) is None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -13,11 +14,13 @@ import pytest
 from engines.engine import registry
 from engines.measured_limit import growths_along_modes, limit_of_engine
 from engines.process.isolation import EngineStepper, run_engine
+from experiments.advice import advice as advice_module
 from experiments.advice.advice import ADVISED, REFUTED, Advice, _left_out, advise, rest_of, rounded_down
 from experiments.advice.wording import result_of
 from experiments.limits.perturbed import perturbed
 from reference.limit import Limit
 from reference.measured_stability import random_growth
+from reference.outcome import Outcome
 from reference.scenes import Setup, find
 from reference.system import MassSpringSystem
 from tests.conformance.doctored import Doctored, KickDrift
@@ -208,3 +211,27 @@ def test_a_rope_is_asked_on_any_mesh_and_a_pendulum_on_strings_only() -> None:
     left_out = _left_out(EngineStepper(registry()["mujoco_cable"]), triangle)
     assert left_out is not None
     assert "expected a string in 2D" in left_out.reason
+
+
+@pytest.mark.parametrize(("scheme", "reasoned"), [("kick_drift", True), ("pendulum_rk4", False), (None, False)])
+def test_reasons_are_of_schemes_that_step_the_scenes_own_springs(
+    scheme: str | None, reasoned: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Not of rods, nor of nobody."""
+    setup = setup_of("stiff rope")
+    predictions = SimpleNamespace(of_engine=lambda _: Limit(None, "none"))
+    found = SimpleNamespace(identified_as=scheme, ties=["other"])
+    monkeypatch.setattr(advice_module, "measure_engine", lambda *_: Limit(None, "not measured"))
+    monkeypatch.setattr(advice_module, "reasons_of", lambda *_: "reasons")
+    told = advice_module._advice(EngineStepper(Doctored()), setup, predictions, found, Outcome("done"))  # type: ignore[arg-type]
+    assert told.reasons == ("reasons" if reasoned else None)
+    assert (told.scheme, told.ties, told.advised) == (scheme, ("other",), None)
+
+
+def test_who_takes_long_is_left_out_with_the_reason_and_no_way_around() -> None:
+    """The report has no --stepper."""
+    slow = EngineStepper(Doctored())
+    object.__setattr__(slow.engine, "interactive_up_to", 2)
+    left_out = _left_out(slow, find("string").system({"masses": 3}))
+    assert left_out is not None
+    assert left_out.reason == "left out: with more than 2 masses it takes long, here are 4"

@@ -75,3 +75,18 @@ def test_memory_is_what_linux_says_in_bytes(tmp_path: Path, monkeypatch: pytest.
     assert [meshes._memory(line) for line in ("VmHWM", "VmRSS", "VmSwap")] == [2048 * 1024, 1000 * 1024, 0]
     monkeypatch.setattr(meshes, "STATUS", tmp_path / "nowhere")
     assert meshes.peak_per_mass("string 20") is None
+
+
+def test_triangles_are_measured_in_both_numberings(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By rows, unless at random is said."""
+    monkeypatch.setattr(meshes, "triangles", lambda masses, at_random=False: (masses, at_random))
+    found = {name: made() for name, made in cases().items() if name.startswith("triangles")}
+    assert found == {
+        "triangles 300,000": (300_000, False),
+        "triangles 300,000, numbered at random": (300_000, True),
+    }
+    monkeypatch.undo()
+    by_rows, strewn = triangles(400), triangles(400, at_random=True)
+    assert np.array_equal(by_rows.positions, triangles(400, False).positions)
+    apart = [np.abs(np.diff(found.positions[:, 0])).mean() for found in (by_rows, strewn)]
+    assert apart[0] < 0.5 * apart[1]

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import cycle
 
+import numpy as np
 import pytest
 
 from experiments.benchmark import timing
@@ -143,3 +145,81 @@ def test_what_an_engine_cannot_do_is_an_outcome_with_its_reason() -> None:
     assert timing.engine_cost(Refuses(), STRINGS[0], [(1e-3, 5)], STRINGS, 1e-3) == Outcome(
         "unsupported", "no strings today"
     )
+
+
+def taking(clock: Clock, *seconds: float) -> Callable[[], Timing]:
+    """A run whose tries take so long [s], each, and then again from the first; its masses end where its number says."""
+    tries = cycle(enumerate(seconds))
+
+    def run() -> Timing:
+        which, takes = next(tries)
+        clock.now += takes
+        return Timing(takes, np.full((1, 2), float(which)))
+
+    return run
+
+
+def test_the_quickest_try_of_each_run_is_kept_with_its_end(clock: Clock) -> None:
+    """The third of one, the second of the other."""
+    one, other = timing.least([taking(clock, 3e-4, 2e-4, 1e-4, 4e-4), taking(clock, 8e-4, 6e-4, 7e-4)])
+    assert (one.seconds, other.seconds) == (1e-4, 6e-4)
+    assert (one.positions[0, 0], other.positions[0, 0]) == (2.0, 1.0)
+
+
+def test_a_run_that_has_had_its_time_is_not_tried_again(clock: Clock) -> None:
+    """Others are: the first takes all of it, the second a third, the last is tried as often as any may be."""
+    calls = [0, 0, 0]
+
+    def counted(i: int, takes: float) -> Callable[[], Timing]:
+        def run() -> Timing:
+            calls[i] += 1
+            return Timing(takes, np.zeros((1, 2)))
+
+        return run
+
+    timing.least([counted(i, takes) for i, takes in enumerate((timing.BUDGET, 0.34 * timing.BUDGET, 1e-9))])
+    assert calls == [1, 3, timing.TRIES]
+
+
+@pytest.mark.parametrize(("takes", "tries"), [(0.2, 1), (4e-3, 4), (1.1e-3, timing.TRIES)])
+def test_a_step_is_timed_some_times_and_not_for_ever(takes: float, tries: int, clock: Clock) -> None:
+    """One step alone is long enough here: after two calls that do not count, until TRIES or the BUDGET is used up."""
+    calls = 0
+
+    def advance(steps: int) -> None:
+        nonlocal calls
+        calls += 1
+        clock.now += takes * steps
+
+    assert timing.seconds_per_step(advance) == pytest.approx(takes)
+    assert calls == 2 + tries
+
+
+def test_a_run_ends_where_its_masses_are(clock: Clock) -> None:
+    """Not with their velocities; after as many steps as are asked for."""
+    found = timing._engine_run(Clocked(clock=clock), STRINGS[0], 1e-3, 5)
+    simulation = KickDrift(STRINGS[0], 1e-3)
+    for _ in range(5):
+        simulation.step()
+    assert np.array_equal(found.positions, simulation.state()[0])
+
+
+def test_what_interrupts_a_step_is_no_part_of_it(clock: Clock) -> None:
+    """Every third call is interrupted for a millisecond, which is a tenth of a try."""
+    calls = 0
+
+    class Interrupted(KickDrift):
+        def step(self) -> None:
+            nonlocal calls
+            calls += 1
+            clock.now += 3e-3 + (1e-3 if calls % 30 == 0 else 0.0)
+
+        def bare_step(self) -> Callable[[], object]:
+            return lambda: clock.__setattr__("now", clock.now + 2e-3)
+
+    class Adapter(Doctored):
+        def start(self, system: MassSpringSystem, dt: float) -> KickDrift:
+            return Interrupted(system, dt)
+
+    assert timing.adapter_overhead(Adapter(), STRINGS[0], 1e-3) == pytest.approx((3e-3, 2e-3), rel=1e-9)
+    assert calls == 25 * 10

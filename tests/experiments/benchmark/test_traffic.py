@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
+import numba
 import numpy as np
 import pytest
 
+from experiments.benchmark import traffic
 from experiments.benchmark.meshes import CLOTH, lattice, string
 from experiments.benchmark.traffic import bytes_per_step, seconds_to_copy
 from reference.compiled import runs
 from reference.compiled.kernels import Kernel
 from reference.schemes.catalogue import find
+from reference.state import Array
 
 #: Of both stages and each axis, for each mass: x, v and weight read, guess (two) and acceleration written; then x, v,
 #: guess, weight and acceleration read, x and v written. One divisor for all axes in each stage.
@@ -58,3 +63,17 @@ def test_runs_move_a_rest_length_of_each_spring_and_little_else(monkeypatch: pyt
 def test_a_copy_takes_time(threads: int) -> None:
     """Whatever the number of threads; how much is the machine's affair."""
     assert seconds_to_copy(160_000, threads) > 0
+
+
+@pytest.mark.parametrize(("count", "numbers"), [(160_000, 10_000), (8, 1)])
+def test_half_of_the_bytes_are_read_and_half_written(count: int, numbers: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of numbers of 8 bytes, one at least, twice: the first time is for the cache."""
+    copied: list[tuple[int, int]] = []
+
+    def copy(source: Array, target: Array) -> None:
+        copied.append((len(source), len(target)))
+
+    monkeypatch.setattr(traffic, "module", lambda _: SimpleNamespace(copy=copy))
+    seconds_to_copy(count, 1)
+    assert copied == [(numbers, numbers)] * 2
+    assert numba.get_num_threads() == 1

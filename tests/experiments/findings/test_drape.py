@@ -87,3 +87,11 @@ def test_cloths_that_still_move_are_counted() -> None:
 def test_without_a_cloth_there_is_a_sentence() -> None:
     """And no traceback."""
     assert len(result_of([], ["kick_drift: crashed"]).findings) == 1
+
+
+def test_the_widest_scatter_is_told_whichever_cloth_it_is_of() -> None:
+    """Of the second stiffest, in the middle of the table."""
+    cloths = [dict(one) for one in drape.usual().data["cloths"]]
+    wide = [one for one in cloths if one["length"] == LENGTHS[1] and one["spacing"] == SPACING]
+    wide[0]["coefficient"] -= 0.02
+    assert numbers(finding(result_of(cloths), "rises from"))[-1] == pytest.approx(0.03)

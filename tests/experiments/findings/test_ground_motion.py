@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from experiments.ground_motion import SPEEDS, peak, result_of
+from experiments.ground_motion import DT, SPEEDS, peak, result_of
 from tests.experiments.canned import ground_motion
 from tests.experiments.canned.ground_motion import HIGH, NATURAL, PEAK, sway
 from tests.experiments.canned.reading import finding, in_order, numbers, records
@@ -81,3 +83,13 @@ def test_the_engine_that_goes_farthest_from_its_scheme_is_named() -> None:
     said = finding(result_of(far, *predicted), "with the schemes that they are")
     assert (numbers(said), "pymunk_springs goes" in said) == ([2, pytest.approx(3e-9)], True)
     assert ground_motion.nobody().findings == []
+
+
+def test_sways_are_told_up_to_where_the_first_run_ends() -> None:
+    """Of an engine that diverged there are fewer."""
+    usual = ground_motion.usual().data
+    rows = dict(usual["rows"])
+    name, last = [*rows][-1], 35
+    rows[name] = replace(rows[name], shaken=rows[name].shaken[: last + 1])
+    table = records(result_of(rows, usual["natural"], usual["linear"], usual["line"]), "ground_motion_sway")
+    assert [round(row["time [s]"] / DT) for row in table] == [0, 10, 20, 30]

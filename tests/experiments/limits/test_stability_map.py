@@ -121,3 +121,15 @@ def test_the_usual_steps_are_from_short_ones_to_where_most_schemes_have_given_up
     limit = stability_limit(catalogue.find("kick_drift"), spring_equilibrium(system)).dt
     assert limit is not None
     assert (x.low, x.high) == pytest.approx((limit / 40, 1.75 * limit), rel=1e-6)
+
+
+@pytest.mark.parametrize("dt_first", [True, False])
+def test_the_boundary_is_a_list_of_points_whichever_axis_is_dt(dt_first: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Kick-drift of one mass: dt = 2 (m/k)^(1/2) at each stiffness."""
+    monkeypatch.setattr(predicted_limits, "BOUNDARY", 3)
+    dt, stiffness = Axis("dt", 1e-3, 1e-2), Axis("stiffness", 100.0, 400.0)
+    plane = one_mass(*((dt, stiffness) if dt_first else (stiffness, dt)), 5e-3)
+    boundary = predicted_limits.predicted_boundary(SchemeStepper(catalogue.find("kick_drift")), plane)
+    k = np.array([100.0, 250.0, 400.0])
+    limit = 2 * np.sqrt(float(plane.system({}).masses[-1]) / k)
+    assert boundary == pytest.approx(np.column_stack([limit, k] if dt_first else [k, limit]), rel=1e-6)

@@ -6,15 +6,17 @@ import json
 import random
 import re
 import sqlite3
+from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
+from typing import Any, cast
 
 import pytest
 
 from experiments.runs.results import rows
-from experiments.runs.salvage import salvage
+from experiments.runs.salvage import _texts, salvage
 from experiments.runs.store import Store, StoreError
-from experiments.runs.stored_rows import COLUMN_TYPES
+from experiments.runs.stored_rows import COLUMN_TYPES, LEAST_ROW, _one_by_one
 from tests.experiments.runs.tasks import alike, ended, endings, kept, task
 from tests.report.commands.terminal import springlab
 
@@ -200,3 +202,35 @@ def test_a_page_of_zeros_costs_the_rows_that_are_in_it(store: Store, store_file:
     new = store_file.parent / "new" / "store.sqlite"
     assert salvage(store_file, new).kept == len(found)
     assert len(rows(new, {})) == len(found)
+
+
+def test_salvage_takes_over_environments_that_are_words() -> None:
+    """A digest and a document, both texts that can be shown."""
+    rows_found: list[Any] = [("a1", "{}"), ("a1", 3), (3, "{}"), ("a1", b"{}"), ("a\x00", "{}"), ("a1", "{\x07}")]
+    assert [_texts(row) for row in rows_found] == [True, False, False, False, False, False]
+
+
+def test_salvage_goes_on_in_folders_that_are_there(three: Path) -> None:
+    """As those of arrays are, from the second on that begins with the same letters."""
+    (file,) = (three.parent / "arrays").rglob("*.npz")
+    new = three.parent / "new" / "store.sqlite"
+    (new.parent / file.relative_to(three.parent)).parent.mkdir(parents=True)
+    assert salvage(three, new).kept == 3
+    assert (new.parent / file.relative_to(three.parent)).read_bytes() == file.read_bytes()
+
+
+@pytest.mark.parametrize(("last", "asked"), [(10**15, 10), (4, 4), (None, 0)])
+def test_no_more_rows_are_looked_for_than_a_file_can_have(last: int | None, asked: int) -> None:
+    """Nor than there are, one by one: a number of a damaged file may be anything."""
+    places: list[int] = []
+
+    class Sql:
+        def execute(self, _: str, place: Sequence[int] = ()) -> Sql:
+            places.extend(place)
+            return self
+
+        def fetchone(self) -> tuple[int | None]:
+            return (last,)
+
+    list(_one_by_one(cast(sqlite3.Connection, Sql()), 10 * LEAST_ROW, []))
+    assert places == [*range(1, asked + 1)]

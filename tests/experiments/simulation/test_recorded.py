@@ -87,6 +87,7 @@ def test_without_velocities_positions_alone_are_compared(tmp_path: Path) -> None
         ("time,mass,x,y\n0,0,0,0\n", "expected rows for masses 0 to 1"),
         ("time,mass,x,y\n0,0,0,0\n0,1,0,-1\n", "expected three at least"),
         ("time,mass,x,y\n" + "".join(f"{t},0,0,0\n{t},1,0,-1\n" for t in (0, 1, 3)), "not even"),
+        ("time,mass,x,y\n" + "".join(f"{t},0,0,0\n{t},1,0,-1\n" for t in (0, 1, 3, 6)), "not even"),
         ("time,mass,x,y\n" + "".join(f"{t},0,0,0\n{t},1,0,-1\n" for t in (0, 1, 2)), "its steps are 1 s"),
     ],
 )
