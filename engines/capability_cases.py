@@ -37,6 +37,7 @@ def for_each_capability() -> Mapping[str, MassSpringSystem]:
     """By each name of engines.engine.CAPABILITIES, a system that asks for it, and for little else."""
     string = find("string").system
     plain, bent = string({}), np.linspace(-0.3, 0.3, 5)
+    plain = replace(plain, masses=np.where(plain.fixed, 0.5, plain.masses))  # what is held has no say
     thrown = 0.5 * np.random.default_rng(0).normal(size=plain.positions.shape) * ~plain.fixed[:, None]
     off_the_plane = np.outer(0.125 * np.arange(11), [0.6, 0.0, 0.8])
     triangles = MassSpringSystem(

@@ -143,8 +143,8 @@ def growth_of_engine(engine: Engine, rest: Array, perturbed: MassSpringSystem, d
     """What becomes of a perturbation in an engine, per step."""
     simulation = started(engine, perturbed, dt)
     still = started(engine, replace(perturbed, positions=rest), dt) if falls(perturbed) else None
-    offsets = [perturbed.positions - rest]
-    far = GROWN * np.linalg.norm(offsets[0])
+    begun = perturbed.positions - rest
+    offsets, far = [begun], GROWN * np.linalg.norm(begun)
     for _ in range(steps):
         simulation.step()
         if still is not None:
