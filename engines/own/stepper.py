@@ -119,7 +119,7 @@ class OwnSimulation:
         self._engine, self._system, self._dt = engine, system, dt
         self._function, self._count = function, 0
         self._step = OwnStep(engine.name, function, engine.roles, system)
-        self._x, self._v = system.positions.copy(), system.velocities.copy()
+        self._x, self._v = system.positions, system.velocities
 
     def step(self) -> None:
         """One; then masses inside obstacles or one another are put out."""

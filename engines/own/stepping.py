@@ -97,7 +97,8 @@ class OwnStep:
         if len(arrays) != 1 or len(times) > 1 or len(arguments) != len(arrays) + len(times):
             raise TypeError(f"f is called with {len(arguments)} arguments: expected y of shape {shape}, and t")
         self.tells_time |= bool(times)
-        return (times[0] if times else time), arrays[0].copy()
+        (where,), (when,) = arrays, times or [time]
+        return when, where.copy()
 
     def _by_arrays(self, x: Array, v: Array, time: float, dt: float) -> tuple[Array, Array]:
         return self.after_pair(x, v, time, dt, self.given.acceleration, self.given)

@@ -81,8 +81,8 @@ def exercise_spring(system: MassSpringSystem) -> Any:
         raise Unsupported("a step of exercises 1 and 2 knows one mass that hangs on one spring, without drag")
     return SimpleNamespace(
         mass=float(system.masses[1]),
-        stiffness=float(system.stiffness[0]),
-        rest_length=float(system.rest_lengths[0]),
-        damping=float(system.damping[0]),
+        stiffness=system.stiffness.item(),
+        rest_length=system.rest_lengths.item(),
+        damping=system.damping.item(),
         gravity=-float(system.gravity[up]),
     )

@@ -223,6 +223,8 @@ def test_who_writes_into_what_it_is_given_is_told_in_every_form(form: str, writt
         ),
         ("def step(:\n", "", "line 1: expected Python"),
         ("def step(foo, bar):\n    pass\n", "", "expected step(x, v, dt, system)"),
+        (FORMS["euler"] + FORMS["rk4"], ":stp", "unknown function of mine.py 'stp': did you mean 'step'?"),
+        (FORMS["rk4"] + FORMS["rk4"].replace("def rk4", "def two"), "", "unknown function of mine.py 'step'"),
         (FORMS["euler"], ":stp", "unknown function of mine.py 'stp': did you mean 'step'?"),
     ],
 )
