@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -71,3 +73,25 @@ def test_what_is_left_is_read_off_at_its_angle(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(errata, "_barrier", lambda: (angles, 100 + angles, 0.9 - np.sin(angles / 23)))
     left = [value for *_, value, _ in _barrier_remarks()]
     assert left == [100.0, 109.0, 118.0, (0.9 - np.sin(angles / 23)).min()]
+
+
+def test_an_order_is_told_by_the_two_smallest_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of errors of (f + 1)^-3 with a step of DT/f, at all of the true times: 3 log2(9/5) from 4 to 8, by hand."""
+    system = find("string").system({"drag": 0.02})
+    true = SimpleNamespace(positions=np.zeros((5, len(system.masses), 2)))
+
+    def run(_: object, scheme: object, dt: float, duration: float) -> SimpleNamespace:
+        finer = round(errata.DT / dt)
+        positions = np.full((4 * finer + 1, len(system.masses), 2), 9.0)
+        positions[::finer] = 0.0
+        positions[2 * finer, 1] = [(finer + 1) ** -3.0, 0.0]
+        return SimpleNamespace(positions=positions)
+
+    monkeypatch.setattr(errata, "simulate", run)
+    monkeypatch.setattr(errata, "exact", lambda *_: true)
+    orders = errata._orders(lambda _: None)
+    assert list(orders) == ["euler", "euler_in_place", "heun", "heun_link_by_link", "heun_aliased"]
+    for steps, errors, order in orders.values():
+        assert steps == [errata.DT / f for f in (1, 2, 4, 8)]
+        assert errors == pytest.approx([1 / 8, 1 / 27, 1 / 125, 1 / 729])
+        assert order == pytest.approx(3 * np.log2(9 / 5))

@@ -12,6 +12,7 @@ from experiments.first_order_instability import DT, Fate, fastest_mode, fate, mo
 from reference.motion import Motion
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find
+from reference.simulate import simulate
 from reference.state import State, Trajectory
 from reference.system import MassSpringSystem
 from reference.theory.equilibria import spring_equilibrium
@@ -220,3 +221,13 @@ def test_growth_is_fitted_to_the_last_rise_before_it_is_large() -> None:
     sizes = np.concatenate([before, rise[1:], [0.1 * low, 9 * high, 5 * high]])
     assert instability._fit(sizes) == pytest.approx(1.05, rel=1e-9)
     assert instability._fit(sizes[:20]) is None
+
+
+def test_a_mode_is_measured_as_far_as_the_motion_goes() -> None:
+    """One that blew up ends before the true motion does."""
+    system = find_scene("string").system({"masses": 3})
+    whole = simulate(system, find("heun"), DT, 10 * DT)
+    sizes = mode_sizes(system, whole.frames(slice(4)), simulate(system, find("euler"), DT, 10 * DT))
+    assert len(sizes) == 4
+    assert sizes[0] == 0.0
+    assert (sizes[1:] > 0).all()

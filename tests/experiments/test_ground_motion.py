@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 import numpy as np
 import pytest
 
+from engines.process.isolation import EngineStepper
 from experiments import ground_motion
 from experiments.ground_motion import (
     DT,
@@ -17,7 +19,7 @@ from experiments.ground_motion import (
     predicted_sway,
     shaken_bridge,
 )
-from reference.changes import Driven
+from reference.changes import Change, Driven
 from reference.outcome import Outcome
 from reference.scenes import find as find_scene
 from reference.scenes.ground_motion import FrequencySweep, GroundMotion
@@ -25,7 +27,9 @@ from reference.schemes.catalogue import find
 from reference.simulate import simulate
 from reference.state import Array, Trajectory
 from reference.stepper import Stepper
+from reference.system import MassSpringSystem
 from report.figures import draw
+from tests.conformance.doctored import Doctored
 from tests.reference.scenes.direct_stiffness import deflection
 
 
@@ -133,3 +137,62 @@ def test_off_the_line_is_the_largest_distance_from_it() -> None:
     sag = np.array([0.0, 2e-3, 4e-3, 2e-3, 1e-3])
     assert ground_motion.off_the_line(sag, speed, (places, down)) == pytest.approx(0.25)
     assert ground_motion.off_the_line(-sag, speed, (places, down)) == pytest.approx(2.0)
+
+
+def moved(by: float, frames: int = 2) -> Outcome:
+    """The bridge, whose every mass is down by so much [m] in the end, and to the side by twice as much."""
+    start = shaken_bridge().system.positions
+    positions = np.array([start] * (frames - 1) + [start - by * np.array([2.0, 1.0])])
+    return Outcome("done", "", Trajectory(DT * np.arange(frames), positions, np.zeros_like(positions)))
+
+
+def test_the_middle_goes_up_in_the_sweep_and_sags_under_a_truck(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A millimetre down: -1 mm of sway, 1 mm of sag; each truck by its speed."""
+    monkeypatch.setattr(ground_motion, "SPEEDS", (10.0, 40.0))
+    ran = ground_motion._ran([moved(1e-3), moved(2e-3), moved(3e-3)])
+    assert ran.shaken == pytest.approx([0.0, -1e-3])
+    assert {speed: sag.tolist() for speed, sag in ran.crossed.items()} == {
+        10.0: pytest.approx([0.0, 2e-3]),
+        40.0: pytest.approx([0.0, 3e-3]),
+    }
+    assert ran.distance is None
+
+
+def test_an_engine_is_compared_with_the_scheme_of_each_bridge() -> None:
+    """With damping the shaken one, without the trucks': the largest distance, where both have a motion."""
+
+    class Claims(Doctored):
+        identified_as = MappingProxyType({"plain": "rk4", "damping": "heun", "drag": "rk4"})
+
+    engine = EngineStepper(Claims())
+    assert ground_motion.claims(engine) == ("heun", "rk4")
+    ran = ground_motion.Ran(np.zeros(2), {})
+    ends = {
+        engine.name: [moved(1e-3), moved(2e-3), moved(5e-3)],
+        "heun": [moved(1e-3), moved(0.5), moved(0.5)],
+        "rk4": [moved(0.5), moved(5e-3), moved(6e-3)],
+    }
+    assert ground_motion._with_distance(engine, ran, ends).distance == pytest.approx(3e-3 * 5**0.5)
+    lost = {**ends, engine.name: [moved(2e-3), Outcome("crashed", "killed"), moved(6e-3)]}
+    assert ground_motion._with_distance(engine, ran, lost).distance == pytest.approx(1e-3 * 5**0.5)
+
+
+def test_every_run_is_as_long_as_what_it_is_driven_by(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The sweep, then a truck at each speed until it has crossed."""
+    asked: list[tuple[int, float, int]] = []
+
+    class Asked:
+        def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change]) -> Outcome:
+            asked.append((len(system.masses), dt, steps))
+            return Outcome("done", str(len(changes)))
+
+    monkeypatch.setattr(ground_motion, "SPEEDS", (10.0, 40.0))
+    monkeypatch.setattr(ground_motion, "SWEEP", replace(SWEEP, duration=0.4))
+    ends = ground_motion.outcomes(Asked())  # type: ignore[arg-type]
+    assert [steps for *_, steps in asked] == [
+        round(0.4 / DT),
+        *(round(ground_motion.crossed_bridge(v)[2] / DT) for v in (10.0, 40.0)),
+    ]
+    assert {dt for _, dt, _ in asked} == {DT}
+    assert len(ends) == 3
+    assert all(int(end.reason) > 0 for end in ends)

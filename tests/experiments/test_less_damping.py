@@ -133,3 +133,16 @@ def test_findings_are_made_from_the_swings(monkeypatch: pytest.MonkeyPatch) -> N
     assert f"{found.energies[-1] / found.energies[0]:.1e} of the energy is left" in picture.alt
     weaker = replace(found, energies=np.geomspace(1.0, 0.5, len(found.energies)))
     assert "5.0e-01 of the energy is left" in draw("less_damping", replace(result, data={"swings": [weaker]})).alt
+
+
+def test_a_swing_s_decay_is_predicted_from_the_masses_that_move() -> None:
+    """M/Cd, whatever holds the string; drag takes Cd times the square of all velocities over time, by hand."""
+    system = find_scene("string").system({"masses": 2, "drag": 0.05})
+    held = replace(system, masses=np.array([50.0, *system.masses[1:]]))
+    positions = np.array([system.positions] * 3)
+    velocities = np.zeros_like(positions)
+    velocities[:, 1:] = np.array([3.0, 2.0, 1.0])[:, None, None]
+    found = swing(held, Trajectory(np.array([0.0, 0.1, 0.2]), positions, velocities))
+    assert found.predicted == pytest.approx(system.masses[1] / 0.05)
+    squares = np.array([36.0, 16.0, 4.0])
+    assert found.taken == pytest.approx(0.05 * 0.1 * (squares[0] / 2 + squares[1] + squares[2] / 2))

@@ -149,3 +149,43 @@ def test_who_is_not_there_or_has_no_rest_is_told(monkeypatch: pytest.MonkeyPatch
 def test_a_limit_is_between_none_that_grew_and_all_that_did(growths: list[float], first: int | None) -> None:
     """More than 0.5 is growth here; so is what is no number."""
     assert _first_unstable(growths, 0.5) == first
+
+
+def test_what_is_measured_at_random_is_asked_in_this_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Engine, rest, what is perturbed, about how long a mode lasts, how precisely, and what is expected."""
+    asked: list[Any] = []
+
+    def isolate(function: object, *arguments: Any, time_limit: float) -> Limit:
+        asked.extend([function, *arguments, time_limit])
+        return Limit(0.02)
+
+    stepper = cast(Any, SimpleNamespace(engine=Doctored(), time_limit=10.0, isolate=isolate))
+    monkeypatch.setattr(engine_limit, "rest_of_engine", lambda engine, system, rest: rest)
+    monkeypatch.setattr(engine_limit, "perturbed", lambda system, rest: ("at rest", "moved"))
+    found = engine_limit.measure_at_random(stepper, SYSTEM, cast(Any, None), UNIT, 1e-3, 0.03)
+    assert found == Limit(0.02)
+    assert asked == [engine_limit.limit_of_engine, stepper.engine, "at rest", "moved", UNIT, 1e-3, 0.03, 20.0]
+
+
+@pytest.mark.parametrize("lacks", ["stretched", "velocities"])
+def test_an_engine_that_cannot_be_started_along_a_mode_is_looked_at_at_random(
+    lacks: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It has to start with stretched springs, and in motion; or is about another rest than springs have."""
+    case = Case(monkeypatch, lambda dt: float(dt > 0.02))
+    assert case.limit(Limit(0.02)).dt == pytest.approx(0.02, rel=PRECISION)
+    case.stepper.engine = Doctored(capabilities=Doctored().capabilities - {lacks})
+    assert case.limit(Limit(0.02)) == "at random"
+    case.stepper.engine = Doctored()
+    case.predictions.rest.motion = "of rods"
+    assert case.limit(Limit(0.02)) == "at random"
+
+
+@pytest.mark.parametrize("answer", [None, Outcome("crashed", "killed")])
+def test_a_ladder_that_has_no_growth_is_told_or_looked_at_at_random(
+    answer: Outcome | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What crashed has crashed; where there is no mode at one of the steps, nothing is known."""
+    case = Case(monkeypatch, lambda dt: 0.0)
+    monkeypatch.setattr(engine_limit._Watched, "growths", lambda *_: answer)
+    assert case.limit(Limit(0.02)) == (answer or "at random")
