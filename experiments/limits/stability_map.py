@@ -87,7 +87,7 @@ def stability_map(
     elif scheme is not None:
         progress("predicted limits")
         limits = predicted_field(scheme, plane)
-    named = scheme.scheme.name if scheme else "no scheme it is identified with"
+    named = scheme.name if scheme else "no scheme it is identified with"
     return StabilityMap(stepper.name, x, y, x_values, y_values, growth, boundary, limits, named)
 
 

@@ -149,3 +149,17 @@ def test_a_run_that_is_not_done_is_compared_with_nothing() -> None:
         effects = permutation_effects(lambda _, answers=answers: next(answers), system)  # type: ignore[misc]
         assert list(effects.reasons.items()) == [("masses renumbered", f"{other.ending}, {other.reason}")]
         assert list(effects.distances) == ["springs reversed", "ends swapped"]
+
+
+def test_what_a_round_leaves_is_fitted_where_it_can_be_seen() -> None:
+    """From as many rounds on as there are springs, and as long as it is more than rounding: 0.8 here, by hand."""
+    springs = len(numbering.string(5.0).springs)
+    many = [1e-3 * 0.8**n if n >= springs else 1.0 for n in numbering.ROUNDS]
+    distances = [d if d > numbering.rounding() else 0.0 for d in many]
+    assert distances[-1] == 0.0
+    found = numbering.convergence(5.0, distances)
+    assert found.measured == pytest.approx(0.8)
+    assert found.predicted == pytest.approx(convergence_factor(numbering.string(5.0), numbering.DT))
+    assert (found.damping, found.distances) == (5.0, distances)
+    one = [d if n == springs else np.nan for n, d in zip(numbering.ROUNDS, many, strict=True)]
+    assert numbering.convergence(5.0, one).measured is None
