@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import webbrowser
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -36,3 +38,25 @@ def test_what_cannot_be_is_refused_by_name(scene: str, said: str, tmp_path: Path
     with pytest.raises(InputError, match=said):
         CliRunner().invoke(page_command, [str(given), "--out", str(out)], catch_exceptions=False)
     assert not out.exists()
+
+
+def test_the_file_is_opened_where_that_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """And only there; each engine and each recording that is named is on the page, a scene that is named twice once."""
+    opened: list[str] = []
+    asked: list[tuple[list[str], list[str], tuple[str, ...]]] = []
+
+    def lab_page(presets: Any, engines: tuple[str, ...]) -> str:
+        asked.append(([p.scene for p in presets], [r.stepper for p in presets[:1] for r in p.recordings], engines))
+        return "page"
+
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    monkeypatch.setattr("report.browser.lab_page.lab_page", lab_page)
+    out = tmp_path / "lab.html"
+    words = ["spring", "chain", "spring", "--out", str(out)]
+    words += ["--record", "pymunk_springs", "--record", "heun", "--with", "one", "--with", "two"]
+    for more in ([], ["--open"]):
+        CliRunner().invoke(page_command, [*words, *more], catch_exceptions=False)
+    assert asked == [(["spring", "chain"], ["pymunk_springs", "heun"], ("one", "two"))] * 2
+    assert opened == [out.resolve().as_uri()]
+    with pytest.raises(InputError, match="expected a SCENE with it"):
+        CliRunner().invoke(page_command, ["--record", "heun", "--out", str(out)], catch_exceptions=False)

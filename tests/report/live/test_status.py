@@ -11,7 +11,7 @@ import pytest
 from report.live import status as module
 from report.live.lane import notice_of
 from report.live.prediction import Prediction, percent
-from report.live.status import status
+from report.live.status import status, suggestion
 
 
 def lab(*predictions: Prediction, grabbed: int | None = None, why_not: str = "", playing: bool = True) -> Any:
@@ -102,3 +102,26 @@ def test_a_prediction_says_what_it_says_of_a_step(prediction: Prediction, says: 
 def test_growth_is_told_as_people_say_it(part: float, said: str) -> None:
     """From a doubling on as a factor."""
     assert percent(part) == said
+
+
+@pytest.mark.parametrize(
+    ("blown", "limits", "dt"),
+    [
+        ({"a"}, {"a": 1e-3, "b": 3e-3}, 9e-4),
+        ({"b"}, {"a": 1e-3, "b": 3e-3}, 9e-4),
+        ({"a", "b"}, {"a": 1e-3, "b": None}, None),
+        ({"b"}, {"a": 1e-3, "b": None}, None),
+        ({"a"}, {"a": 1e-3, "b": None}, 9e-4),
+        ({"a", "c"}, {"a": 1e-3}, None),
+        ({"a"}, {"a": 5e-3}, None),
+        (set(), {"a": 1e-3}, None),
+    ],
+)
+def test_after_a_blow_up_a_step_is_offered_that_is_stable_for_all(
+    blown: set[str], limits: dict[str, float | None], dt: float | None
+) -> None:
+    """Nine tenths of the least limit; none where a lane that blew up has no limit, or a step of 2 ms is below it."""
+    made = lab()
+    made.timeline.lanes = [SimpleNamespace(name=name, blown_up=name in blown) for name in "abc"]
+    made.predictions = {name: Prediction(limit, "", 1.0, name) for name, limit in limits.items()}
+    assert suggestion(made) == (None if dt is None else pytest.approx(dt, rel=0.05, abs=0.0))

@@ -1,0 +1,77 @@
+"""Widths of columns, exit codes, and what is wrong in one line."""
+
+from __future__ import annotations
+
+import pytest
+
+from reference.errors import InputError, SolverError
+from report.commands.terminal import FOLDED, GAP, _widths, exit_if_files_failed, in_one_line
+
+
+def test_columns_that_are_folded_share_the_room_that_is_left() -> None:
+    """In proportion to their longest texts; names and numbers are whole, and nothing is wider than it need be."""
+    columns = ["stepper", "reason", "remark", "dt [s]"]
+    cells = [["euler", "a " * 60, "b", "0.001"], ["backward_euler", "c", "d " * 30, "0.0125"]]
+    part, room = [0, 1, 2, 3], 150
+    widths = _widths(columns, cells, part, room)
+    assert (widths[0], widths[3]) == (len("backward_euler"), len("0.0125"))
+    assert sum(widths.values()) + GAP * len(part) == room
+    assert widths[1] / 120 == pytest.approx(widths[2] / 60, abs=1 / 60)
+    assert widths[2] > FOLDED
+    wide = _widths(columns, cells, part, 400)
+    assert [wide[i] for i in part] == [len("backward_euler"), 120, 60, len("0.0125")]
+    assert _widths(columns, cells, [0, 2], 0) == {0: len("backward_euler"), 2: FOLDED}
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "line"),
+    [
+        (None, 0, ""),
+        (InputError("dt = 0"), 2, "springlab: dt = 0\n"),
+        (SolverError("no rest"), 1, "springlab: no rest\n"),
+        (OSError(28, "No space left", "a.csv"), 2, "springlab: a.csv: No space left\n"),
+        (OSError(28, "No space left"), 2, "springlab: input or output: No space left\n"),
+        (OSError("odd"), 2, "springlab: odd\n"),
+    ],
+)
+def test_what_is_wrong_is_one_line_and_a_code(
+    error: Exception | None, code: int, line: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """With the file where one is known."""
+
+    def command() -> None:
+        if error is not None:
+            raise error
+
+    assert in_one_line(command) == code
+    assert capsys.readouterr().err == line
+
+
+def test_too_little_memory_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    """And what to do."""
+
+    def command() -> None:
+        raise MemoryError
+
+    assert in_one_line(command) == 2
+    assert "expected fewer masses" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("ended", "fails"),
+    [
+        ([("own", "crashed")], True),
+        ([("own", "done"), ("own", "timed out")], True),
+        ([("own", "diverged"), ("scheme", "done")], False),
+        ([("engine", "crashed"), ("own", "done")], False),
+        ([], False),
+    ],
+)
+def test_only_a_file_of_the_users_that_raised_is_an_error(ended: list[tuple[str, str]], fails: bool) -> None:
+    """An engine that does is a result."""
+    if not fails:
+        exit_if_files_failed(ended)
+        return
+    with pytest.raises(SystemExit) as ending:
+        exit_if_files_failed(ended)
+    assert ending.value.code == 1
