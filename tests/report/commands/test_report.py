@@ -75,7 +75,7 @@ def test_one_experiment_that_failed_is_told_and_the_code_is_1(asked: list[dict[s
         "order",
         "--only",
         "cost",
-        "--resume",
+        "--fresh",
     )
     code, said = run(*words, "--full")
     assert (code, "COST: it failed" in said) == (1, True)
