@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
 import pytest
 
 from experiments.cost import DURATION, MASSES
+from report.figures.cost import Group
 from tests.experiments.canned.reading import records
 from tests.report.figures.artists import data, legend, line, lines, looks
 from tests.report.figures.shown import result, shown
@@ -89,3 +93,31 @@ def test_the_words_for_it_have_errors_and_ratios() -> None:
         error, slower = row["error, dt 1 ms [m]"], row["step / anchor's"]
         assert f"{row['stepper']} ({row['runs as']}) {error:.1e} m, {slower:.0f}" in alt
     assert "Segfaults" not in alt
+
+
+def cost(seconds: list[float], errors: list[float], speeds: list[tuple[int, float]]) -> Any:
+    """Of one stepper."""
+    points = [SimpleNamespace(seconds=s, error=e) for s, e in zip(seconds, errors, strict=True)]
+    return SimpleNamespace(points=points, steps_per_second=speeds)
+
+
+def test_a_group_has_the_largest_error_and_the_least_and_most_of_times_and_speeds() -> None:
+    """Not a number where one of them has none, or did not come so far."""
+    one = cost([1.0, 4.0, 2.0], [0.25, 0.5, np.inf], [(10, 900.0), (100, 80.0), (1000, 7.0)])
+    other = cost([3.0, 2.0, 1.0], [0.125, 0.75, 0.5], [(10, 700.0), (100, 90.0)])
+    group = Group("heun", "engine", [one, other])
+    least, most, errors = group.errors
+    assert (least.tolist(), most.tolist()) == ([1.0, 2.0, 1.0], [3.0, 4.0, 2.0])
+    assert errors == pytest.approx([0.25, 0.75, np.nan], nan_ok=True)
+    masses, slowest, fastest = group.speeds
+    assert (masses.tolist(), fastest.tolist()) == ([10, 100, 1000], [900.0, 90.0, 7.0])
+    assert slowest == pytest.approx([700.0, 80.0, np.nan], nan_ok=True)
+
+
+def test_axes_are_open_above_and_to_the_right_and_the_legend_has_no_frame() -> None:
+    """As all of the report's."""
+    figure = shown("cost").figure
+    for axes in figure.axes:
+        assert {side for side, spine in axes.spines.items() if spine.get_visible()} == {"left", "bottom"}
+        assert any(line.get_visible() for line in axes.get_xgridlines())
+    assert not figure.legends[0].get_frame_on()
