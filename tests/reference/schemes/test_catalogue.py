@@ -20,7 +20,7 @@ from reference.theory.differences import differences
 from reference.theory.equilibria import spring_equilibrium
 from reference.theory.layout import layout_of
 from reference.theory.step_map import _by_linear_motion
-from tests.reference.systems import label
+from tests.reference.systems import label, moving_string
 
 
 def entered(**said: Any) -> Scheme:
@@ -114,6 +114,17 @@ def test_a_scheme_is_linear_if_it_steps_all_perturbations_at_once(known: Scheme)
         return
     differenced = differences(known.on(rest.motion), *layout_of(known, rest, 1e-3))
     assert (np.abs(at_once - differenced).max() < 1e-6) == known.linear
+
+
+@pytest.mark.parametrize("known", ALL, ids=label)
+def test_a_scheme_is_of_one_step_if_it_steps_alike_without_its_past(known: Scheme) -> None:
+    """The second step from what the first remembers, and from its positions and velocities alone, to the bit."""
+    system = moving_string(3, damping=0.3, drag=0.02)
+    advance = known.on(SpringMotion(system))
+    first = advance(system.start, 1e-3)
+    after, without = advance(first, 1e-3), advance(replace(first, memory=()), 1e-3)
+    assert np.array_equal(after.velocities, without.velocities) == known.one_step
+    assert bool(first.memory) != known.one_step
 
 
 def test_solvers_of_constraints_come_to_no_end_and_others_do() -> None:
