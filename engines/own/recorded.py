@@ -27,19 +27,21 @@ def recording_of(make: Callable[[], OwnStep]) -> Recording | None:
     step = make()
     if step.form not in ("slope", "acceleration", "system"):
         return None
-    timed = step.form == "slope" and "time" in step.roles
     made: list[OwnStep] = []
 
     def advance() -> Advance:
-        made.append(make())
-        return _advance(made[-1])
+        another = make()
+        made.append(another)
+        return _advance(another)
 
     try:
-        found = record(advance, timed)
+        found = record(advance)
     except (Fault, TooManyCalls):
         return None
     asked = found.solved is not None or any(s.points for row in found.unit for s in row)
-    return replace(found, timed=timed and any(step.tells_time for step in made)) if asked else None
+    if not asked:
+        return None
+    return replace(found, timed="time" in step.roles and any(other.tells_time for other in made))
 
 
 def _advance(step: OwnStep) -> Advance:
