@@ -263,7 +263,8 @@ def contact_meaning(typed: Settings, masses: Spring, stepping: Stepping) -> Spri
 def contact(system: MassSpringSystem, stepping: Stepping, steps: int, settings: list[Settings]) -> str:
     """The calls: Bullet's Python has erp and cfm of contacts only, as stiffness and damping."""
     _one_spring("bullet_constraint", system)
-    erp, cfm = settings[0]["erp"], settings[0]["cfm"]
+    (typed,) = settings
+    erp, cfm = typed["erp"], typed["cfm"]
     stiffness, damping = erp / (stepping.dt * cfm), (1 - erp) / cfm
     return (
         f"// C++, a constraint of axis i\nconstraint->setParam(BT_CONSTRAINT_STOP_ERP, {erp!r}, i);\n"

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from engines.capability_cases import for_each_capability
 from engines.engine import find, version
 from engines.process.isolation import EngineStepper, isolated
-from reference.obstacles import Circle
+from reference.obstacles import Circle, Plane, Sphere
+from reference.scenes import find as find_scene
 from reference.system import MassSpringSystem
 from tests.conformance.test_obstacles import falling
 
@@ -51,3 +54,15 @@ def test_a_circle_within_the_margin_is_refused() -> None:
     case = falling(Circle((0.0, -0.01), 0.01), 0.0)
     outcome = EngineStepper(BULLET).run(case.system, case.dt, 1)
     assert (outcome.ending, "margin" in outcome.reason) == ("unsupported", True)
+
+
+def test_a_sphere_is_taken_beside_other_obstacles_where_the_mesh_has_no_apex() -> None:
+    """By a cloth of triangles, with a plane or without; a string in space needs the apex, and is refused the sphere."""
+    sphere, plane = Sphere((0.0, 0.0, -5.0), 1.0), Plane((0.0, 0.0, -9.0), (0.0, 0.0, 1.0))
+    cloth = find_scene("cloth").system({"rows": 3, "columns": 3})
+    string = replace(for_each_capability()["3d"], obstacles=(sphere,))
+    for obstacles in ((sphere,), (sphere, plane), (plane, sphere)):
+        system = replace(cloth, obstacles=obstacles)
+        assert EngineStepper(BULLET).run(system, DT, 1).ending == "done"
+    refused = EngineStepper(BULLET).run(string, DT, 1)
+    assert (refused.ending, "a sphere" in refused.reason) == ("unsupported", True)

@@ -10,7 +10,6 @@ import pytest
 from engines.bullet.rest_shape import rest_shape
 from engines.engine import Unsupported
 from reference.scenes import find
-from reference.state import Array
 from reference.system import MassSpringSystem
 
 
@@ -49,11 +48,12 @@ def test_a_mesh_off_its_rest_lengths_is_given_a_shape_that_has_them() -> None:
     assert rest_shape(system, shape) is shape
 
 
-@pytest.mark.parametrize("guess", [TRIANGLE[[0, 0, 2]], np.where(TRIANGLE == 0.9, np.inf, TRIANGLE)])
-def test_from_a_guess_that_has_no_directions_there_is_no_shape(guess: Array) -> None:
-    """Two masses in one place, or one at infinity: no springs are told how to get longer."""
+def test_from_a_guess_that_has_no_directions_there_is_no_shape() -> None:
+    """Two masses in one place, or one at infinity: no spring is told how to get longer, and nothing is divided by 0."""
+    with pytest.raises(Unsupported, match="no shape of the mesh has them all"):
+        rest_shape(triangle(1.3, 0.8, 0.9), TRIANGLE[[0, 0, 2]])
     with pytest.raises(Unsupported, match="no shape of the mesh has them all"), np.errstate(invalid="ignore"):
-        rest_shape(triangle(1.3, 0.8, 0.9), guess)
+        rest_shape(triangle(1.3, 0.8, 0.9), np.where(TRIANGLE == 0.9, np.inf, TRIANGLE))
 
 
 def test_a_triangle_of_impossible_sides_has_no_shape() -> None:

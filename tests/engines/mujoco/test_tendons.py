@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from engines.engine import find, version
+from engines.engine import Unsupported, find, version
 from engines.mujoco.common import mujoco_module
 from engines.mujoco.obstacles import BEAD
-from engines.mujoco.tendons import ENGINES, tendon_spec
+from engines.mujoco.tendons import ENGINES, _write_law, tendon_spec
 from engines.process.isolation import isolated
 from reference.collisions.round_masses import Collisions
 from reference.scenes import find as find_scene
+from reference.springs.kinds import NonlinearSprings
 
 pytestmark = pytest.mark.skipif(version(find("mujoco_tendons")) is None, reason="mujoco is not installed")
 
@@ -49,3 +51,20 @@ def test_nested_tendons_alone_are_slow_on_large_systems() -> None:
     bounds = {engine.name: engine.interactive_up_to is not None for engine in ENGINES}
     assert bounds == {engine.name: engine.settings["nested"] for engine in ENGINES}
     assert set(bounds.values()) == {True, False}
+
+
+def test_one_spring_that_hardens_is_too_much_for_an_old_mujoco() -> None:
+    """Its models have no numbers for it; springs that go slack they have. Later ones have k3 of each spring."""
+    string = find_scene("string").system({"masses": 3})
+    hardening = replace(string, nonlinear=NonlinearSprings(hardening=np.array([0.0, 5.0, 0.0])))
+    slack = replace(string, nonlinear=NonlinearSprings(tension_only=np.array([False, True, False])))
+    old = SimpleNamespace(tendon_lengthspring=np.ones((3, 2)))
+    with pytest.raises(Unsupported, match="hardening needs 3"):
+        _write_law(old, hardening)
+    _write_law(old, slack)
+    assert old.tendon_lengthspring.tolist() == [[1.0, 1.0], [0.0, 1.0], [1.0, 1.0]]
+    new = SimpleNamespace(tendon_lengthspring=np.ones((3, 2)), tendon_stiffnesspoly=np.full((3, 2), 7.0))
+    _write_law(new, hardening)
+    assert new.tendon_stiffnesspoly.tolist() == [[7.0, 0.0], [7.0, 5.0], [7.0, 0.0]]
+    _write_law(new, string)
+    assert not new.tendon_stiffnesspoly[:, 1].any()
