@@ -231,3 +231,12 @@ def test_a_mode_is_measured_as_far_as_the_motion_goes() -> None:
     assert len(sizes) == 4
     assert sizes[0] == 0.0
     assert (sizes[1:] > 0).all()
+
+
+def test_of_a_mode_that_creeps_the_larger_of_two_factors_is_predicted() -> None:
+    """Euler's are 1 + dt u, with u of u^2 + (Cd/m) u + w^2 = 0: here two real ones, far from one another."""
+    system = find_scene("string").system({"masses": 2, "drag": 20.0})
+    rates = np.roots([1.0, 20.0 / system.masses[-1], fastest_mode(system)[1] ** 2])
+    factors = np.abs(1 + DT * rates)
+    assert factors.max() > 1.5 * factors.min()
+    assert predicted_factor(system, find("euler")) == pytest.approx(factors.max(), rel=1e-5)

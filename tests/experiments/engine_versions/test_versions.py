@@ -296,3 +296,19 @@ def test_what_only_one_version_was_asked_has_not_changed() -> None:
     after = {"engine": {"runs": "yes", "new": 2.0, "both": 3.0}}
     assert [(c.measure, c.before, c.after) for c in changes(before, after)] == [("both", 1.0, 3.0)]
     assert [c.measure for c in differences(before, after)] == ["old", "both", "new"]
+
+
+def test_both_versions_beside_a_change_have_rows_of_their_own() -> None:
+    """The last that does as the first, and the next."""
+    order = [f"1.{i}" for i in range(9)]
+    measured = {
+        v: VersionMeasurements("spring", {v: {"springs": {"runs": f"since {i // 5}, {v}"}}})
+        for i, v in enumerate(order)
+    }
+    found = where_it_changed(
+        Subject("spring", [], whole=True),
+        order[::-1],
+        measured.__getitem__,
+        lambda a, b: str(a["springs"]["runs"])[:7] != str(b["springs"]["runs"])[:7],
+    )
+    assert found.rows == {"1.4": {"springs": {"runs": "since 0, 1.4"}}, "1.5": {"springs": {"runs": "since 1, 1.5"}}}

@@ -133,3 +133,9 @@ def test_the_boundary_is_a_list_of_points_whichever_axis_is_dt(dt_first: bool, m
     k = np.array([100.0, 250.0, 400.0])
     limit = 2 * np.sqrt(float(plane.system({}).masses[-1]) / k)
     assert boundary == pytest.approx(np.column_stack([limit, k] if dt_first else [k, limit]), rel=1e-6)
+
+
+def test_of_two_axes_that_make_no_sense_the_first_is_told() -> None:
+    """That along x."""
+    with pytest.raises(InputError, match="map axis drag from 2 to 1"):
+        Plane(Axis("drag", 2.0, 1.0), Axis("mass", 4.0, 3.0), lambda _: find_scene("string").system({}), 1e-3)
