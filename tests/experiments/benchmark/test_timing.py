@@ -204,22 +204,23 @@ def test_a_run_ends_where_its_masses_are(clock: Clock) -> None:
     assert np.array_equal(found.positions, simulation.state()[0])
 
 
-def test_what_interrupts_a_step_is_no_part_of_it(clock: Clock) -> None:
-    """Every third call is interrupted for a millisecond, which is a tenth of a try."""
+@pytest.mark.parametrize(("takes", "steps"), [(2e-4, 100), (8e-3, 10)])
+def test_what_interrupts_a_step_is_no_part_of_it(takes: float, steps: int, clock: Clock) -> None:
+    """Every third try is interrupted; a try is of 20 ms of the engine's own steps, ten of them at least."""
     calls = 0
 
     class Interrupted(KickDrift):
         def step(self) -> None:
             nonlocal calls
             calls += 1
-            clock.now += 3e-3 + (1e-3 if calls % 30 == 0 else 0.0)
+            clock.now += 3e-3 + (1e-3 if calls % (3 * steps) == 0 else 0.0)
 
         def bare_step(self) -> Callable[[], object]:
-            return lambda: clock.__setattr__("now", clock.now + 2e-3)
+            return lambda: clock.__setattr__("now", clock.now + takes)
 
     class Adapter(Doctored):
         def start(self, system: MassSpringSystem, dt: float) -> KickDrift:
             return Interrupted(system, dt)
 
-    assert timing.adapter_overhead(Adapter(), STRINGS[0], 1e-3) == pytest.approx((3e-3, 2e-3), rel=1e-9)
-    assert calls == 25 * 10
+    assert timing.adapter_overhead(Adapter(), STRINGS[0], 1e-3) == pytest.approx((3e-3, takes), rel=1e-9)
+    assert calls == 25 * steps

@@ -126,3 +126,19 @@ def test_a_scheme_s_row_has_its_limits_in_their_places(monkeypatch: pytest.Monke
     none: Any = SimpleNamespace(about=lambda _: Limit(None, "no rest"), of=lambda _: Limit(0.3))
     row = limit_rows._scheme_row(heun, SYSTEM, none)
     assert (row.predicted, row.measured) == (Limit(None, "no rest"), Limit(None, "no rest"))
+
+
+@pytest.mark.parametrize(
+    ("predicted", "measured", "apart"),
+    [
+        (Limit(0.2), Limit(0.3), 0.5),
+        (Limit(0.2), Limit(None, "none"), None),
+        (Limit(None, "none"), Limit(0.3), None),
+        (Limit(0.2, certainty="between", at_most=0.4), Limit(0.3), None),
+        (Limit(0.2), Limit(0.3, certainty="between", at_most=0.4), None),
+    ],
+)
+def test_limits_that_are_known_exactly_are_compared(predicted: Limit, measured: Limit, apart: float | None) -> None:
+    """As a part of what was predicted."""
+    found = Row("heun", "scheme", SYSTEM, predicted, measured).relative_difference
+    assert found == (None if apart is None else pytest.approx(apart))

@@ -11,6 +11,7 @@ from engines.translation.translation import Spring, Stepping, find, translations
 from experiments.translation import scene_rows
 from experiments.translation.rows import Row, fitting
 from experiments.translation.scene_rows import SOLVERS_UP_TO, rows_of_scene, springs_of
+from reference.collisions.round_masses import Collisions
 from reference.errors import InputError
 from reference.limit import Limit
 from reference.obstacles import Circle
@@ -91,6 +92,7 @@ def test_springs_of_one_kind_share_a_row() -> None:
     ("changed", "said"),
     [
         ({"drag": 0.1}, "snippets have neither obstacles nor drag"),
+        ({"collisions": Collisions(np.full(4, 0.01))}, "snippets have linear springs, and masses that do not collide"),
         ({"obstacles": (Circle((0.0, -5.0), 1.0),)}, "snippets have neither obstacles nor drag"),
         ({"pulls": np.array([[0.0, 0.0], [0.0, 0.0], [0.0, 1.0], [0.0, 0.0]])}, "no force that pulls on a mass"),
     ],
