@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from experiments.runs import comparison
 from experiments.runs.comparison import Comparison, Run, finite, remarks, told, too_slow, why
+from reference.changes import Change
 from reference.identification import Identification, Match
 from reference.outcome import Outcome
 from reference.scenes import Setup, find
+from reference.state import Trajectory
+from reference.system import MassSpringSystem
 from tests.experiments.canned.steppers import Named
 
 SETUP = Setup("string", find("string").system({"masses": 3}), 1e-3, 0.0025)
@@ -133,3 +139,60 @@ def test_the_document_has_what_was_asked_and_why_there_is_no_true_motion() -> No
     assert document["run_duration_s"] == pytest.approx(SETUP.steps * 1e-3)
     assert made.times == pytest.approx(1e-3 * np.arange(SETUP.steps + 1))
     assert document["runs"] == [run().row]
+
+
+class Runs(Interactive):
+    """One that is told what it did, and remembers that it was asked."""
+
+    def __init__(self, name: str, outcome: Outcome) -> None:
+        super().__init__(name)
+        object.__setattr__(self, "outcome", outcome)
+        object.__setattr__(self, "asked", [])
+
+    def run(self, system: MassSpringSystem, dt: float, steps: int, changes: Sequence[Change] = ()) -> Outcome:
+        """See Stepper."""
+        self.asked.append((dt, steps))  # type: ignore[attr-defined]
+        return self.outcome  # type: ignore[attr-defined,no-any-return]
+
+
+def at(height: float) -> Trajectory:
+    """All masses are so high [m] at both times."""
+    positions = np.full((2, 4, 2), [0.0, height])
+    return Trajectory(np.array([0.0, 1e-3]), positions, np.zeros_like(positions))
+
+
+@pytest.mark.parametrize("patient", [True, False])
+def test_runs_are_compared_with_the_true_motion_and_with_their_schemes(
+    patient: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where there are both; who takes long is asked by the patient only, and room is looked for for those who run."""
+    setup = Setup("string", find("string").system({"masses": 3}), 1e-3, 1e-3)
+    steppers = [
+        Runs("named", Outcome("done", "", at(3.0))),
+        Runs("stranger", Outcome("done", "", at(5.0))),
+        Runs("lost", Outcome("crashed", "killed")),
+        Runs("slow", Outcome("done", "", at(7.0))),
+    ]
+    for stepper in steppers[:3]:
+        object.__setattr__(stepper, "interactive_up_to", 4)
+    object.__setattr__(steppers[3], "interactive_up_to", 3)
+    room: list[list[str]] = []
+    names = [found("heun"), found(), found(), found("rk4")]
+    known = SimpleNamespace(each=names, known={"heun": at(1.0)})
+    monkeypatch.setattr(comparison, "check_room", lambda kept, *_, beside: room.append([s.name for s in kept]))
+    monkeypatch.setattr(comparison, "elsewhere", lambda *_: (at(2.0), "why not"))
+    monkeypatch.setattr(comparison, "identify_all", lambda *_: known)
+    made = comparison.compare(setup, steppers, patient=patient)  # type: ignore[arg-type]
+    assert room == [["named", "stranger", "lost", "slow"] if patient else ["named", "stranger", "lost"]]
+    assert [bool(s.asked) for s in steppers] == [True, True, True, patient]  # type: ignore[attr-defined]
+    assert steppers[0].asked == [(1e-3, 1)]  # type: ignore[attr-defined]
+    errors = [None if one.error is None else one.error.max() for one in made.runs]
+    assert errors == [1.0, 3.0, None, 5.0 if patient else None]
+    deviations = [None if one.deviation is None else one.deviation.max() for one in made.runs]
+    assert deviations == [2.0, None, None, None]
+    assert made.runs[3].outcome.ending == ("done" if patient else "unsupported")
+    monkeypatch.setattr(comparison, "elsewhere", lambda *_: (None, "why not"))
+    known.each = names[:1]
+    without = comparison.compare(setup, steppers[:1])  # type: ignore[arg-type]
+    assert (without.runs[0].error, without.why_no_true_motion) == (None, "why not")
+    assert without.runs[0].deviation is not None
