@@ -79,7 +79,7 @@ def _range(lines: Lines) -> tuple[float, float]:
     low, high = float(lines.right.min()), float(lines.right.max())
     # where nothing but zeros is right, all that was given is shown
     given = np.abs(lines.given[np.isfinite(lines.given)]).max(initial=1e-12)
-    reach = max(high - low, 1e-3 * max(abs(low), abs(high))) or float(given)
+    reach = max(high - low, 1e-3 * abs(high)) or float(given)
     near = lines.given[np.isfinite(lines.given) & (np.abs(lines.given - (low + high) / 2) < 10 * reach)]
     low, high = min([low, *near.tolist()]), max([high, *near.tolist()])
     return (low, high) if high > low else (low - reach, high + reach)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from typing import Any
+
+import numpy as np
 import pytest
 
 from experiments.exercises.behaviour import derived_step
+from experiments.exercises.behaviour.derived_step import _ends, _matrices
 from experiments.exercises.closer_look import Effort, look_closer
-from experiments.exercises.exercise import find
+from experiments.exercises.exercise import Question, find
 from experiments.exercises.process import sandbox
 from experiments.exercises.verdict.answer_catalogue import catalogue_of
 from experiments.exercises.verdict.judge import judge
@@ -79,3 +83,37 @@ def test_it_is_part_of_the_closer_look() -> None:
     verdict = judge(exercise, text, "example")
     closer = look_closer(exercise, text, "example", verdict, effort=Effort(0.0, 0.0))
     assert "derived_step" in [finding.name for finding in closer.findings]
+
+
+@pytest.mark.parametrize(
+    ("x", "v", "end"),
+    [
+        (-1.25, 0.5, (0.25, -0.5)),
+        (np.array([-3.0]), np.array([2.0]), (2.0, -2.0)),
+        (np.array([[7.0, -1.5]]), np.array([[9.0, 4.0]]), (0.5, -4.0)),
+        (np.array([[7, -2]]), np.array([[9, 4]]), (1.0, -4.0)),
+        (np.array([[7.0, -1.5]]), np.array([4.0]), None),
+        (np.ones((2, 2)), np.ones((2, 2)), None),
+        (np.array("down"), 1.0, None),
+        (-1.0, np.array("fast"), None),
+    ],
+)
+def test_an_end_is_how_far_below_its_rest_the_mass_is_and_how_fast_it_goes_down(x: Any, v: Any, end: object) -> None:
+    """Of a number, or of the height of one mass in the plane; nothing else is one."""
+    assert _ends([(x, v)]) == end
+    assert _ends([]) is None
+    assert _ends([(x,)]) is None
+
+
+def test_a_step_matrix_has_a_column_for_each_begin() -> None:
+    """Displaced and moving by turns: x and dt v of their ends, as parts of how far aside they begin."""
+    from reference.derivation.oscillators import ASIDE
+
+    asked = [Question("step", (0.0, 0.0, dt, {}), ("x", "v"), "") for dt in (0.5, 0.5, 0.25, 0.25)]
+    ends = [(1.0 * ASIDE, 4.0 * ASIDE), (3.0 * ASIDE, 6.0 * ASIDE), (5.0 * ASIDE, 8.0 * ASIDE), (0.0, 12.0 * ASIDE)]
+    found = _matrices(asked, ends)
+    assert found is not None
+    assert found == pytest.approx(np.array([[[1.0, 3.0], [2.0, 3.0]], [[5.0, 0.0], [2.0, 3.0]]]))
+    for missing in (None, (np.nan, 1.0), (1.0, np.inf)):
+        assert _matrices(asked, [*ends[:3], missing]) is None
+    assert _matrices([], []) is None

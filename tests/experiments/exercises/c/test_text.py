@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
 from experiments.exercises.c.text import lines_that_write, told_by_overflow, whole_divisions
-from experiments.exercises.exercise import find
+from experiments.exercises.exercise import Mistake, Question, find
 
 HEUN = find("2")
 QUESTIONS = list(HEUN.aside_in_c())
@@ -61,6 +62,29 @@ void other(double x[][2], double dt)
     *y = 2;
 }
 """
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ([2.0, 3.0, np.inf], True),
+        ([2.0, 3.0, 7.0], True),
+        ([2.0, np.inf, np.inf], False),
+        ([np.inf, 3.0, np.inf], False),
+        ([2.0, 3.5, np.inf], False),
+    ],
+)
+def test_every_number_that_the_other_scheme_has_counts(given: list[float], told: bool) -> None:
+    """All that are finite there; where it has none, whatever there is. The right step is infinite."""
+    other = Mistake("other", "", "", {"scheme": "other"})
+    solved = {"other": [2.0, 3.0, np.nan], "right": [np.inf, 3.0, np.inf]}
+    exercise: Any = SimpleNamespace(
+        told_aside=[other],
+        answer=lambda question, parameters: [[np.array(solved[parameters.get("scheme", "right")])]],
+    )
+    question = Question("step", (), ("x",), "")
+    found = told_by_overflow(exercise, [question], [{"values": [[np.array(given)]]}])
+    assert found == (other if told else None)
 
 
 @pytest.mark.parametrize(

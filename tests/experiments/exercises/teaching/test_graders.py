@@ -121,5 +121,8 @@ def test_cells_of_graders_are_not_the_students() -> None:
         cell("code", "assert step", nbgrader=points, **locked),
         cell("code", "EXERCISE = 1", nbgrader={"grade": False}, **locked),
         cell("code", "x = 2"),
+        cell("code", "y = 3", deletable=False),
+        cell("code", "z = 4", editable=False),
     ]
-    assert program_in(json.dumps({"cells": cells})).split() == ["EXERCISE", "=", "1", "x", "=", "2"]
+    lines = [line for line in program_in(json.dumps({"cells": cells})).splitlines() if line]
+    assert lines == ["EXERCISE = 1", "x = 2", "y = 3", "z = 4"]

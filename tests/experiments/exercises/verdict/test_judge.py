@@ -282,3 +282,19 @@ def test_what_the_last_mass_gets_is_told_as_it_is_however_it_came_there(here: No
     assert verdict.name == "last_link_wraps"
     assert "spring to the first" not in verdict.findings[0].words
     assert "the force of a spring that does not hold it" in verdict.findings[0].words
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "name"),
+    [
+        ("return y + dt * v", "raise IndexError('out of it')\n    return y + dt * v", "index_error"),
+        ("return y + dt * v, v", "return 'up', v", "not_numbers"),
+        ("def step(", "def other(", "missing_function"),
+    ],
+)
+def test_what_raises_returns_words_or_is_missing_is_an_error(here: None, old: str, new: str, name: str) -> None:
+    """Whichever of these it is, it is told, and no question counts as passed."""
+    assert old in STEP
+    verdict = judge(find("1"), STEP.replace(old, new))
+    assert (verdict.outcome, verdict.name) == ("error", name)
+    assert not any(verdict.passed)
