@@ -136,7 +136,7 @@ def _is_limit(document: dict[str, Any]) -> bool:
         decode(document, {})
     except (TypeError, AttributeError, KeyError, ValueError):
         return False
-    return isinstance(document[LIMIT].get("factors", []), list)
+    return isinstance(document[LIMIT].get("factors"), list | None)
 
 
 def _is_text(value: str) -> bool:

@@ -16,9 +16,10 @@ from experiments.runs.results import MORE_COLUMNS, parse_filters, rows
 from experiments.runs.store import Store
 from experiments.runs.task import Task
 from reference.errors import InputError
+from reference.limit import Limit
 from reference.outcome import Outcome
 from report.commands.results import SHOWN
-from tests.experiments.runs.tasks import STRING, stepped, task
+from tests.experiments.runs.tasks import STRING, kept, stepped, task
 from tests.report.commands.terminal import Said, springlab
 
 #: What no three figures can say.
@@ -214,3 +215,22 @@ def test_in_80_characters_no_line_is_longer_and_no_cell_is_cut(filled: Path, mon
     assert "…" not in table
     assert max(map(len, table.splitlines())) <= 80
     assert all(word in table for word in LONG.split())
+
+
+def test_of_a_limit_there_is_what_it_has(store: Store) -> None:
+    """Its dt in any case, its two growth factors under their names; what is nothing is no column."""
+    store.keep(task(1), Limit(0.25, factors=(0.5, 1.5)), 0.1)
+    store.keep(task(2), Limit(None, "unstable at any dt", growth=0.125), 0.1)
+    some, none = rows(store.file, {}, tell=pytest.fail)
+    assert (some["found_dt"], some["growth_factor_below"], some["growth_factor_above"]) == (0.25, 0.5, 1.5)
+    assert "growth" not in some
+    assert (none["found_dt"], none["growth"], none["found_reason"]) == (None, 0.125, "unstable at any dt")
+    assert "growth_factor_below" not in none
+    assert kept(store, 2) == Limit(None, "unstable at any dt", growth=0.125)
+    assert not store.remarks
+
+
+def test_what_was_started_over_is_told_where_it_is_asked_for(filled: Path) -> None:
+    """Else not."""
+    assert [row["outcome"] for row in rows(filled, {"number": "1"})] == ["done"]
+    assert [row["outcome"] for row in rows(filled, {"number": "1"}, retired=True)] == ["crashed", "done"]
