@@ -41,7 +41,7 @@ def xpbd_jacobi(
     """
     it = numbers_of(motion.system, state, "made", single)
     h, (a, b) = it.number(dt), it.ends.T
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         compliance, damping = 1 / (it.stiffness * h * h), it.damping / (it.stiffness * h)
     moves = (it.both > 0) & (it.stiffness > 0)
     start, sums = it.x.copy(), np.zeros_like(it.rest)
@@ -51,8 +51,8 @@ def xpbd_jacobi(
         gap, relative = it.x[b] - it.x[a], it.v[b] - it.v[a]
         lengths = norms(gap)
         e = gap / lengths[:, None]
-        wanted = lengths - it.rest + compliance * sums + damping * (h * dots(e, relative))
         with np.errstate(invalid="ignore"):
+            wanted = lengths - it.rest + compliance * sums + damping * (h * dots(e, relative))
             change = np.where(moves, -wanted / ((1 + damping) * it.both + compliance), 0)
         sums = sums + change if accumulated else sums
         moved = np.zeros_like(it.x)
@@ -80,14 +80,15 @@ def xpbd_gauss_seidel(
     """
     it = numbers_of(motion.system, state, order, single)
     h = it.number(dt) / it.number(substeps)
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", invalid="ignore"):
         compliance, damping = 1 / it.stiffness * (1 / (h * h)), it.damping / (it.stiffness * h)
+    constraints = it.order[it.stiffness[it.order] > 0]  # without stiffness a spring is none
     for _ in range(substeps):
         slow_down(it, h)
         start, sums = it.x.copy(), np.zeros_like(it.rest)
         it.x[:] += h * it.v
         for _ in range(sweeps):
-            _correct(it.x, start, it.ends, it.order, it.inverse, it.rest, it.both, compliance, damping, sums)
+            _correct(it.x, start, it.ends, constraints, it.inverse, it.rest, it.both, compliance, damping, sums)
         it.v[:] = (it.x - start) / h
     return it.state(state.time + dt)
 

@@ -51,3 +51,12 @@ def test_the_check_tells_one_number_of_rounds_from_another(rounds: int, scheme: 
     """Shown to fail: ten rounds are not converged, neither nine nor eleven are ten, and three are not four."""
     with pytest.raises(AssertionError):
         check_is(PymunkSprings(rounds=rounds), scheme)
+
+
+def test_what_is_typed_for_damping_is_on_record() -> None:
+    """The system's own; or what makes a spring alone decay as by backward Euler. And it is said what is kept then."""
+    plain, backward = PymunkSprings(), PymunkSprings("backward", rounds=400, backward_euler=True)
+    assert (plain.settings["DampedSpring.damping"], plain.settings["Space.iterations"]) == ("c", 10)
+    assert backward.settings["DampedSpring.damping"] == "(m/dt) ln(1 + dt c/m)"
+    assert "keeps exp(-dt c/m) of" in plain.semantics
+    assert "keeps 1/(1 + dt c/m) of" in backward.semantics

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ from reference.forces import SpringMotion
 from reference.schemes.catalogue import constraint_schemes, find, schemes, wide_schemes
 from reference.state import State
 from reference.system import MassSpringSystem
+from tests.reference.systems import moving_string
 
 #: All schemes, and constraint solvers with what is not their default; in two sub-steps or rounds at most.
 NAMES = [
@@ -77,3 +80,28 @@ def test_springs_apart_move_as_each_alone(name: str) -> None:
         alone, mine = moved(name, (i,)), slice(2 * i, 2 * i + 2)
         np.testing.assert_allclose(together.positions[mine], alone.positions, atol=near)
         np.testing.assert_allclose(together.velocities[mine], alone.velocities, atol=100 * near)
+
+
+#: To their engines g = 0 is a rod: such a spring holds its masses at the distance that they have.
+AS_RODS = ("soft_constraints_warm", "soft_constraints_cold")
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if not name.startswith(AS_RODS)])
+def test_a_spring_without_stiffness_and_damping_is_none(name: str) -> None:
+    """Between two that have both, on a moving string: all moves as where it is not there, to rounding, in three steps.
+
+    XPBD divides by the stiffness: one spring after the other, positions were no numbers.
+    """
+    string = moving_string(3, drag=0.02)
+    ends = []
+    for kept in (np.array([0, 1, 2]), np.array([0, 2])):
+        stiffness, damping = np.array([200.0, 0.0, 150.0])[kept], np.array([0.1, 0.0, 0.2])[kept]
+        fields: dict[str, Any] = {"springs": string.springs[kept], "rest_lengths": string.rest_lengths[kept]}
+        system = replace(string, **fields, stiffness=stiffness, damping=damping)
+        advance, state = find(name).on(SpringMotion(system)), system.start
+        for _ in range(3):
+            state = advance(state, 1e-3)
+        ends.append(state)
+    near = 1e-7 if name == "kick_drift_truncated_damping" else 1e-12
+    np.testing.assert_allclose(ends[0].positions, ends[1].positions, atol=near)
+    np.testing.assert_allclose(ends[0].velocities, ends[1].velocities, atol=100 * near)
