@@ -67,5 +67,9 @@ def test_a_line_that_only_goes_or_comes_stands_beside_nothing() -> None:
 
 def test_in_a_long_text_only_the_line_that_is_other_is_told() -> None:
     """Also where it is among many that are alike, which a matcher of lines may leave out as too common."""
-    text = Text("def own(a, b):\n" + "    a = a * b\n" * 250 + "    a = a + b\n" + "    a = a * b\n" * 3)
-    assert text.repairs([text.number("a + b", "a - b")])[0].change == "a = a + b -> a = a - b"
+    text = "def own(a, b):\n" + "    a = a * b\n" * 250 + "    a = a + b\n" + "    a = a * b\n" * 3
+    tree = ast.parse(text)
+    line = next(node for node in ast.walk(tree) if isinstance(node, ast.Assign) and "+" in ast.unparse(node))
+    edit = Edit(line.lineno, "sign", 1.0, (((line, "value", None), ast.parse("a - b", mode="eval").body),))
+    (found,) = repairs("own", [edit], [[0]], lambda: ast.unparse(tree))
+    assert found.change == "a = a + b -> a = a - b"
