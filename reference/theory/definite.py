@@ -86,8 +86,9 @@ class Definiteness:
 
     @cached_property
     def decides(self) -> bool:
-        """Whether all damping in a step is damping: only then does S alone decide."""
-        made = self._made(self.unit)
+        """Whether all damping in a short step is damping: only then does S alone decide."""
+        # where decay is the fastest motion, a scheme may turn velocities round in a step as long as it
+        made = self._made(self.unit / 2)
         least = min(made.springs.all.min(initial=0.0), made.drag.all.min(initial=0.0))
         return bool(least >= -1e-12 * self.linear.mass.max() and made.springs.damping_stiffness >= 0)
 
@@ -188,9 +189,19 @@ class Definiteness:
             rate = self._assembled(self.damping_part(self.unit)) / self.unit
             quadratic = self._quadratic(0.0, None, rate)
             self.linear.known_limits[key] = first_negative(
-                lambda dt: self._with(dt * rate, dt), quadratic, 0.0, self.unit
+                lambda dt: self._with(dt * rate, dt), quadratic, 0.0, self.unit, self._beyond(quadratic)
             )
         return self.linear.known_limits[key]
+
+    def _beyond(self, quadratic: Quadratic) -> float:
+        """A dt [s] beyond the limit, by the stiffest direction: beside strong drag it is far from the fastest decay.
+
+        Nothing is known, and it is 0, where S has no stiffness but rounding.
+        """
+        if self.stiffness_part > -NEGATIVE:
+            return 0.0
+        root = smallest_root(*quadratic(lowest_eigenvector(-self.linear.scaled_stiffness)), 0.0)
+        return root if root < np.inf else 0.0
 
     def _march(self, last: float) -> float:
         """Of damping that grows faster than dt: on the tangent of its part, which is below it, again and again.
@@ -266,7 +277,9 @@ def _near(low: float, high: float) -> bool:
 Quadratic = Callable[[Array], tuple[float, float, float]]
 
 
-def first_negative(matrix: Callable[[float], Any], quadratic: Quadratic, dt: float, unit: float) -> float:
+def first_negative(
+    matrix: Callable[[float], Any], quadratic: Quadratic, dt: float, unit: float, known: float = 0.0
+) -> float:
     """The first x above dt at which a symmetric matrix that is not negative at dt gets a negative eigenvalue.
 
     From above: a direction in which it is negative tells by its own quadratic where it no longer is, and the lowest
@@ -276,14 +289,16 @@ def first_negative(matrix: Callable[[float], Any], quadratic: Quadratic, dt: flo
         matrix: of x, an array or sparse; in every direction a concave quadratic in x.
         quadratic: its coefficients in a direction.
         unit: about where to look [s].
+        known: an x at which it has one, where that is known.
 
     Returns:
-        The x below which it is certified not to be, and above which it is; infinite where that is beyond 1e6 units.
+        The x below which it is certified not to be, and above which it is; infinite where that is beyond 1e6 units, and
+        beyond the one that is known.
     """
     x = max(2 * dt, 4 * unit)
     while negative_eigenvalues(matrix(x)) == 0:
         x *= 4
-        if x > 1e6 * max(unit, dt):
+        if x > max(1e6 * max(unit, dt), 4 * known):
             return np.inf
     for _ in range(ROUNDS):
         lowest, q = _lowest(matrix(x))

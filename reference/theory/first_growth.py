@@ -63,6 +63,9 @@ def first_growth(search: Search, start: float, unit: float, last: float) -> Limi
     while search.is_growth(dt):
         dt /= 2 if start > 1e-2 * unit else 10
         if dt < SHORTEST * start:
+            if search.decays:
+                why = "in short ones all decays, by less than can be told"
+                return Limit(None, f"not computed: growth is seen in steps down to {dt:.3g} s; {why}")
             return Limit(None, f"no stable step was found, down to {dt:.3g} s")
     while not search.is_growth(longer := dt * (RATIO if dt < SHORT_STEP * unit else CLOSE)):
         dt = longer

@@ -37,7 +37,7 @@ class NaturalModes:
 
 
 #: A square of a frequency below this part of the largest is zero but for rounding.
-UNRESISTED = 1e-10
+UNRESISTED = 1e-13
 
 
 def natural_modes(linear: Linearisation, lowest: int | None = None) -> NaturalModes:

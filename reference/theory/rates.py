@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from reference.schemes import catalogue
 from reference.state import Array
+from reference.system import BoolArray
 from reference.theory.equilibria import Equilibrium
 from reference.theory.linearisation import Linearisation
 from reference.theory.step_map import step_jacobian
@@ -30,8 +31,9 @@ QUICK_UP_TO = 100
 #: How many are taken of larger systems, those nearest to either end: to so many times the highest frequency.
 NEAREST, ENDS = 6, (1.001, 1e-3)
 
-#: Parts of the fastest rate below which a real part, a frequency squared is zero but for rounding.
-UNDAMPED, UNRESISTED = 1e-12, 1e-10
+#: The part of the fastest rate below which a real part is zero but for rounding; and of the largest eigenvalue of the
+#: stiffness, or of what resists velocities, below which, for each coordinate, another is.
+UNDAMPED, UNRESISTED = 1e-12, 1e-14
 
 #: Parts of the fastest rate: real parts smaller than WEAK have lost digits; eigenvalues TOGETHER have one space.
 WEAK, TOGETHER = 1e-9, 1e-12
@@ -89,17 +91,25 @@ def fastest_rate(rest: Equilibrium) -> float:
     return _at_both_ends(linear, ENDS[:1]).fastest
 
 
-def unresisted_directions(linear: Linearisation) -> int:
-    """Along how many directions no spring resists a move: eigenvalues of K that are zero but for rounding."""
-    values = np.linalg.eigvalsh(linear.scaled_stiffness.toarray())
-    return int((values <= UNRESISTED * values.max(initial=0.0)).sum())
+def _is_none(values: Array) -> BoolArray:
+    """Which eigenvalues of a symmetric matrix that is not negative are zero but for rounding."""
+    return np.asarray(values <= UNRESISTED * len(values) * values.max(initial=0.0))
+
+
+def _zeros(linear: Linearisation) -> int:
+    """How many eigenvalues of A are zero: a direction without spring has two, or one where velocities are resisted."""
+    squares, along = np.linalg.eigh(linear.scaled_stiffness.toarray())
+    free = along[:, _is_none(squares)]
+    slowed = linear.scaled(linear.damping_and_drag).toarray()
+    resisted = np.linalg.eigvalsh(free.T @ slowed @ free) > UNRESISTED * len(slowed) * np.linalg.norm(slowed)
+    return 2 * free.shape[1] - int(resisted.sum())
 
 
 def _undamped(linear: Linearisation) -> Rates:
     if 2 * len(linear.mass) <= ALL_UP_TO:
         squares = np.linalg.eigvalsh(linear.scaled_stiffness.toarray())
-        kept = squares > UNRESISTED * squares.max(initial=0.0)
-        frequencies, unresisted = np.sqrt(squares[kept]), 2 * int((~kept).sum())
+        none = _is_none(squares)
+        frequencies, unresisted = np.sqrt(squares[~none]), 2 * int(none.sum())
     else:
         frequencies, unresisted = _top_undamped(linear), 0
     return Rates(np.concatenate([1j * frequencies, -1j * frequencies]), unresisted, 2 * len(linear.mass) <= ALL_UP_TO)
@@ -107,9 +117,7 @@ def _undamped(linear: Linearisation) -> Rates:
 
 def _damped(linear: Linearisation) -> Rates:
     values = np.linalg.eigvals(linear.operator.toarray()).astype(complex)
-    directions = unresisted_directions(linear)
-    # a direction without spring and drag has the eigenvalue zero twice, with drag once, and once the rate it stops at
-    unresisted = directions if linear.dragged else 2 * directions
+    unresisted = _zeros(linear)
     kept = values[np.argsort(np.abs(values), kind="stable")[unresisted:]]
     if np.abs(kept.real).min(initial=np.inf) <= WEAK * np.abs(kept).max(initial=0.0):
         kept = _with_weak_decay(linear, len(kept))

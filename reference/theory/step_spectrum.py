@@ -31,6 +31,9 @@ WHOLE_UP_TO, FEW_UP_TO = 260, 700
 #: Growth in a step of the fastest 1/w that is no rounding: of exact increments, of a Jacobian, of differences.
 EXACT, LINEAR, DIFFERENCED = 1e-12, 1e-11, 1e-8
 
+#: In steps shorter than this part of the fastest 1/w differences tell nothing: positions move too little.
+SHORTEST_DIFFERENCED = 1e-3
+
 #: Steps shorter than this part of the fastest 1/w round what is remembered no less than one that is so long.
 REMEMBERED = 0.1
 
@@ -74,9 +77,11 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         or (found.least_decay <= 0 and _undamped_modes_grow(scheme, rest, found, margin))
     ):
         rate = excess(0.1 * unit)
+        if rate <= rounding(0.1 * unit):
+            return Limit(None, f"not computed: growth is seen in no step of {0.1 * unit:.2g} s, and may be in others")
         return Limit(None, unstable_at_any(rate, 0.1 * unit), rate)
     if size <= WHOLE_UP_TO:
-        start = _start(found)
+        start = _start(found) if linear else max(_start(found), SHORTEST_DIFFERENCED * unit)
         if not scheme.one_step:
             # in shorter ones what it remembers is all but what it has: rounding tears the two apart by eps / (h w)
             slowest = float(np.abs(found.values).min())

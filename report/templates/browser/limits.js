@@ -53,10 +53,10 @@ const WEAK = 1e-8;
 // More of a growth factor is no rounding; what is less by that decays.
 const SEEN = 1e-11;
 
-// The first h beyond which a number that is at most 1 below is more, on a scale of 1 / fastest.
-function firstBeyond(grows, fastest, from = 1e-6, ratio = 1.01) {
+// The first h beyond which a number that is at most 1 below is more, on a scale of 1 / fastest, up to the last to look at.
+function firstBeyond(grows, fastest, from = 1e-6, ratio = 1.01, last = 60 / fastest) {
   let low = 0;
-  for (let h = from / fastest; h < 60 / fastest; h *= h * fastest < 0.5 ? 1.3 : ratio) {
+  for (let h = from / fastest; h < last; h *= h * fastest < 0.5 ? 1.3 : ratio) {
     if (grows(h) > 1 + SEEN) {
       let high = h;
       if (low === 0) return 0;
@@ -142,7 +142,7 @@ function limitOf(name, linear, known = {}, system = null) {
   const shortest = shortestLimit(scheme, linear, known);
   if (!scheme.polynomial && !scheme.solves && !scheme.memory && whole && (scheme.linear || !proportional)) {
     const step = scheme.linear ? stepLinear : stepWholeLinear;
-    const grows = h => growthOfStep(linear, h, step(scheme, linear, h));
+    const grows = h => growthOfStep(linear, h, step(scheme, linear, h), unresistedOf(linear));
     // one that stops iterating early may let motion grow far below
     return {...told, limit: scheme.iterated ? firstBeyond(grows, fastest, 1e-2, 1.04) : nearby(grows, shortest, fastest)};
   }
@@ -194,7 +194,11 @@ const alongStart = linear => alongSurfaces(linear, pseudoRandom(linear.size));
 function shortestLimit(scheme, linear, known) {
   const forms = (scheme.linear ? ["stiffness", "damping"] : ["stiffness", "springs", "drag"]).map(which => scaled(linear, which)), out = new Float64Array(linear.size);
   const met = y => forms.map(form => dot(y, form(y, out)));
-  const limit = ([w2, ...slowed]) => firstBeyond(growthOfMode(scheme, w2, ...slowed), Math.sqrt(w2) + slowed.reduce((sum, value) => sum + value, 0), shortestOf(scheme));
+  // beside strong damping the slower motion of a mode, w2 / fastest, may be what limits: it is looked at in its own steps
+  const limit = ([w2, ...slowed]) => {
+    const fastest = Math.sqrt(w2) + slowed.reduce((sum, value) => sum + value, 0);
+    return firstBeyond(growthOfMode(scheme, w2, ...slowed), fastest, shortestOf(scheme), 1.01, 60 * fastest / w2);
+  };
   let y = known.top.vector, best = Infinity;
   for (let round = 0; round < 6; round++) {
     const values = met(y), now = limit(values), [w2] = values;
@@ -215,15 +219,16 @@ function shortestLimit(scheme, linear, known) {
   return best;
 }
 
-// From which part of the fastest 1 / w on: where a scheme remembers, a pair of eigenvalues at 1 is torn apart by rounding.
-const shortestOf = ({memory}) => memory ? 0.05 : 1e-6;
+// From which part of the fastest 1 / w on: in shorter steps, and sooner where a scheme remembers, rounding tears a pair
+// of eigenvalues at 1 apart.
+const shortestOf = ({memory}) => memory ? 0.05 : 1e-3;
 
 // By halving about a first guess, which is near.
 function nearby(grows, guess, fastest) {
   if (!(guess > 0 && guess < Infinity)) return firstBeyond(grows, fastest);
   let low = guess * 0.98, high = guess * 1.02;
-  if (grows(low) > 1 + 1e-9 || grows(high) <= 1 + 1e-9) return firstBeyond(grows, fastest);
-  for (let k = 0; k < 34; k++) { const middle = (low + high) / 2; if (grows(middle) > 1 + 1e-9) high = middle; else low = middle; }
+  if (grows(low) > 1 + SEEN || grows(high) <= 1 + SEEN) return firstBeyond(grows, fastest);
+  for (let k = 0; k < 34; k++) { const middle = (low + high) / 2; if (grows(middle) > 1 + SEEN) high = middle; else low = middle; }
   return low;
 }
 
@@ -285,11 +290,25 @@ function growthOfRemembering(scheme, linear, fastest) {
   };
 }
 
-// Those of motion that nothing resists left out, which are 1.
-function largestOfStep(matrix, size) {
+// Those of motion that nothing resists left out, which are 1: so many at most, where others may be as near to 1 and grow.
+function largestOfStep(matrix, size, unresisted = size) {
   if (!matrix.every(Number.isFinite)) return Infinity;
-  const kept = eigenvalues(matrix, size).filter(([re, im]) => Math.hypot(re - 1, im) > 1e-6);
+  const away = ([re, im]) => Math.hypot(re - 1, im);
+  const kept = eigenvalues(matrix, size).sort((a, b) => away(a) - away(b)).filter((value, k) => k >= unresisted || away(value) > 1e-6);
   return Math.max(1 - 1e-6, ...kept.map(value => Math.hypot(...value)));
+}
+
+// How many eigenvalues are 1 at most: two for each direction that no spring resists.
+function unresistedOf(linear) {
+  if (linear.unresisted !== undefined) return linear.unresisted;
+  const places = coordinates(linear), m = places.length, matrix = new Float64Array(m * m);
+  const stiffness = scaled(linear, "stiffness"), y = new Float64Array(linear.size), out = new Float64Array(linear.size);
+  places.forEach((place, column) => {
+    y.fill(0); y[place] = 1; stiffness(y, out);
+    places.forEach((other, row) => { matrix[row * m + column] = out[other]; });
+  });
+  const values = eigenvalues(matrix, m).map(([re]) => re), largest = Math.max(...values);
+  return linear.unresisted = 2 * values.filter(value => value <= 1e-14 * m * largest).length;
 }
 
 // The same of a scheme that writes what it still reads: its own loops, with accelerations of the linearised motion.
@@ -310,8 +329,8 @@ function stepInPlace(scheme, linear, h) {
   };
 }
 
-// The largest modulus of a step's eigenvalues, those of motion that nothing resists left out, which are 1.
-function growthOfStep(linear, h, step) {
+// The largest modulus of a step's eigenvalues.
+function growthOfStep(linear, h, step, unresisted) {
   const places = coordinates(linear), m = places.length, matrix = new Float64Array(4 * m * m);
   for (let column = 0; column < 2 * m; column++) {
     const x = new Float64Array(linear.size), v = new Float64Array(linear.size);
@@ -322,7 +341,7 @@ function growthOfStep(linear, h, step) {
       matrix[(m + row) * 2 * m + column] = h * v[place];
     });
   }
-  return largestOfStep(matrix, 2 * m);
+  return largestOfStep(matrix, 2 * m, unresisted);
 }
 
 // The limits of some schemes for a system as it is set, and which springs the fastest move strains most.

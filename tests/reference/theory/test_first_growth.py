@@ -32,6 +32,14 @@ def test_what_is_unstable_at_any_dt_or_stable_at_any_has_no_limit_and_says_how_f
     assert "stable at any dt" in stable.reason
 
 
+def test_where_all_decays_in_the_end_growth_that_goes_on_is_no_proof_of_none() -> None:
+    """In steps shorter than one can look at it decays: no limit is computed, and it is not said to be none."""
+    limit = first_growth(search(lambda dt: 1e-7, 1e-8, decays=True), 1e-2, 1.0, 1e4)
+    assert limit.dt is None
+    assert limit.reason.startswith("not computed: growth is seen in steps down to")
+    assert limit.stable_steps == "unknown"
+
+
 def test_rounding_at_long_steps_is_no_growth() -> None:
     """Beyond the fastest mode's 1/w, dt x velocities are larger than positions, and so is their rounding."""
     margin = 1e-9

@@ -135,6 +135,60 @@ def test_where_iteration_finds_nothing_a_bound_stands_for_the_fastest(monkeypatc
     assert limit.dt == pytest.approx(2 * np.sqrt(2) / fastest, rel=0.1)
 
 
+def on_a_line(**fields: Any) -> Equilibrium:
+    """Two masses beside a fixed one, on two springs in a row, without weight."""
+    given: dict[str, Any] = {
+        "positions": np.array([[0.0], [1.0], [2.0]]),
+        "springs": np.array([[0, 1], [1, 2]]),
+        "rest_lengths": np.array(1.0),
+        "fixed": np.array([True, False, False]),
+        "gravity": np.zeros(1),
+        **fields,
+    }
+    return rest(MassSpringSystem(**given))
+
+
+def test_what_a_dashpot_alone_holds_drifts_to_rest() -> None:
+    """A mass M on nothing but a damper c to a mass m on a spring k: one eigenvalue is zero, not two.
+
+    The others are the roots of mu^3 + (c/m + c/M) mu^2 + k/m mu + c k/(m M). Euler's limit is the least
+    -2 Re mu/|mu|^2; velocity Verlet, with velocities of damping half a step old, has one too.
+    """
+    m, big, k, c = 0.1, 0.3, 50.0, 3.0
+    at_rest = on_a_line(masses=np.array([1.0, m, big]), stiffness=np.array([k, 0.0]), damping=np.array([0.0, c]))
+    found, expected = rates(at_rest), np.roots([1.0, c / m + c / big, k / m, c * k / (m * big)])
+    assert found.unresisted == 1
+    assert np.sort_complex(found.values) == pytest.approx(np.sort_complex(expected), rel=1e-9)
+    limit = (-2 * expected.real / np.abs(expected) ** 2).min()
+    assert stability_limit(find("euler"), at_rest).dt == pytest.approx(limit, rel=1e-9)
+    for name, dt in (("velocity_verlet", 0.05), ("leapfrog_kick_drift_kick", 0.1), ("stormer_verlet", 0.05)):
+        assert stability_limit(find(name), at_rest).dt == pytest.approx(dt, rel=1e-6)
+
+
+def test_a_heavy_mass_on_a_soft_spring_is_resisted() -> None:
+    """Of k = 1e-2 N/m and 1e4 kg beside 1e4 N/m and 1 kg: w^2 of 1e-6 beside 1e4, and decay of 5e-14/s.
+
+    The limit is the fast mode's, 2/w and 2 sqrt(2)/w: of 1e4 (1 + 1e-6) /s^2, as the soft spring adds to it.
+    """
+    springs = {"stiffness": np.array([1e4, 1e-2]), "damping": np.array([1e-6, 1e-9])}
+    at_rest = on_a_line(masses=np.array([1.0, 1.0, 1e4]), **springs)
+    found = rates(at_rest)
+    assert (found.unresisted, len(found.values)) == (0, 4)
+    assert np.abs(found.values).min() == pytest.approx(1e-3, rel=1e-5)
+    fastest = np.sqrt(1e4 + 1e-2)
+    for name, times in (("kick_drift", 2.0), ("velocity_verlet", 2.0), ("rk4", 2 * np.sqrt(2))):
+        assert stability_limit(find(name), at_rest).dt == pytest.approx(times / fastest, rel=1e-7)
+
+
+def test_growth_that_is_not_seen_is_not_told() -> None:
+    """A chain that nothing holds, damped on one side, by Heun link by link: no step grows by less than nothing."""
+    springs = {"stiffness": np.array([50.0, 80.0]), "damping": np.array([0.1, 0.0])}
+    free = on_a_line(masses=np.array([1.0, 2.0, 3.0]), fixed=np.zeros(3, dtype=bool), **springs)
+    found = stability_limit(find("heun_link_by_link"), free)
+    assert found.growth is None
+    assert found.stable_steps in ("unknown", "up to a limit")
+
+
 def test_of_other_equations_by_eulers_step() -> None:
     """A pendulum of one rod: w^2 = g/l about hanging; its mass's drag decays at Cd/2m."""
     system = find_scene("string").system({"masses": 1, "mass": 0.2, "drag": 0.3, "angle": 90.0, "rest_length": 0.5})

@@ -202,3 +202,28 @@ def test_limits_on_obstacles_are_those_of_the_springs_own_law(kind: dict[str, An
         assert len(run) < 3001 or np.abs(run.positions[-1] - rest.state.positions).max() > 0.1
     else:
         assert np.abs(run.positions[-1] - run.positions[-2]).max() < 1e-9  # of what blows up 1e-4
+
+
+@pytest.mark.parametrize("damping", [1e-9, 1e-5])
+def test_weak_damping_on_the_floor_hides_no_limit(damping: float) -> None:
+    """Two masses on a floor 1 cm below: a scheme's limit is that without damping, 1e-4 of it off at most.
+
+    Heun's is where decay of 1e-10 in a step and less ends, which differences do not tell: it is not computed.
+    """
+    made = MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array([1.0, 0.1, 0.3]),
+        rest_lengths=np.array(0.5),
+        stiffness=np.array([50.0, 80.0]),
+        damping=np.array([damping, 0.0]),
+        gravity=np.array([0.0, -9.81]),
+        fixed=np.array([True, False, False]),
+        obstacles=(Plane((0.0, -0.01), (0.0, 1.0)),),
+    )
+    damped, plain = (spring_equilibrium(each) for each in (made, replace(made, damping=np.zeros(2))))
+    for name in ("velocity_verlet", "rk4", "leapfrog_kick_drift_kick"):
+        expected = stability_limit(find(name), plain).dt
+        assert expected is not None
+        assert stability_limit(find(name), damped).dt == pytest.approx(expected, rel=1e-4)
+    assert stability_limit(find("heun"), damped).stable_steps == "unknown"

@@ -42,6 +42,37 @@ def test_drag_afterwards_turns_the_velocity_of_the_lightest_mass_round(masses: l
     assert np.sort(np.abs(moves).ravel())[-2] < 1e-3
 
 
+def light_mass(drag: float, mass: float = 1e-8) -> Equilibrium:
+    """A mass on a spring of 1 N/m along a line, whose drag decays it within m/Cd."""
+    values = {"masses": 1, "mass": [mass], "stiffness": 1.0, "drag": drag}
+    return spring_equilibrium(find_scene("chain").system(values))
+
+
+def check_strong_drag(drag: float, mass: float) -> None:
+    """Of one mass m on a spring k: implicit drag is stable while h^2 k < 4 m + 2 h Cd, drag afterwards up to m/Cd.
+
+    However long beside m/Cd the first is, which is the fastest motion: certified to 1e-9, as S and damping change sign.
+    """
+    rest = light_mass(drag, mass)
+    for name in ("kick_drift_implicit_drag", "kick_drift_implicit_damping_and_drag"):
+        found = stability_limit(find(name), rest)
+        assert (found.dt, found.certainty) == (pytest.approx(drag + np.sqrt(drag**2 + 4e-8), rel=1e-8), "certified")
+    found = stability_limit(find("kick_drift_drag_afterwards"), rest)
+    assert (found.dt, found.certainty) == (pytest.approx(1e-8 / drag, rel=1e-8), "certified")
+
+
+@pytest.mark.parametrize("drag", [1e-3, 0.05, 0.5, 20.0])
+def test_however_strong_drag_is_implicit_drag_has_a_limit(drag: float) -> None:
+    """Of 2 Cd/k, up to 4e12 times the fastest decay."""
+    check_strong_drag(drag, 1e-8)
+
+
+def test_the_limit_of_another_mass_is_told_from_it() -> None:
+    """Of two per cent more."""
+    with pytest.raises(AssertionError):
+        check_strong_drag(0.05, 1.02e-8)
+
+
 def test_strong_drag_of_light_masses_is_in_proportion_to_dt() -> None:
     """Newmark's step takes drag as h Cd, and is stable at any dt: with a spring held at both ends, too.
 

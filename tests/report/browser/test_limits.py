@@ -25,6 +25,15 @@ from tests.report.browser.node import ask
 #: A short string that comes to rest on a circle.
 BARRIER = {"masses": 4, "circle_x": 0.2, "circle_y": -0.2, "radius": 0.15}
 
+#: Schemes whose limit beside strong drag is far from its decay, or next to it.
+STRONGLY_DRAGGED = (
+    "kick_drift_drag_afterwards",
+    "kick_drift",
+    "kick_drift_implicit_drag",
+    "kick_drift_implicit_damping_and_drag",
+    "kick_drift_exponential_drag",
+)
+
 #: Scenes with parameters, and the schemes that theory answers for in a moment.
 CASES: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
     ("spring", {}, tuple(page_schemes())),
@@ -43,6 +52,10 @@ CASES: list[tuple[str, dict[str, Any], tuple[str, ...]]] = [
         ("drift_kick_sequential_damping", "kick_drift"),
     ),
     ("chain", {"masses": 4, "mass": [0.00366, 14.4, 0.765, 12.3], "drag": 0.558}, tuple(page_schemes())),
+    ("oscillator", {"drag": 10.0}, STRONGLY_DRAGGED),
+    ("oscillator", {"drag": 40.0}, STRONGLY_DRAGGED),
+    ("chain", {"masses": 1, "mass": [1e-8], "stiffness": 1.0, "drag": 0.5}, STRONGLY_DRAGGED[1:]),
+    ("chain", {"masses": 1, "mass": [0.1], "stiffness": 50.0, "damping": 1e4}, ("kick_drift_implicit_damping",)),
     ("slinky", {"masses": 8, "damping": 0.5}, ("kick_drift", "rk4", "backward_euler")),
     ("string", {"tension_only": 1, "damping": 0.05, "masses": 4}, ("heun", "kick_drift", "rk4")),
     ("string", {"hardening": 2e3, "masses": 4}, ("heun", "kick_drift", "velocity_verlet", "rk4")),
