@@ -166,8 +166,15 @@ class _AtWork:
         self, running: Sequence[tuple[EngineStepper, Future[Outcome]]]
     ) -> dict[str, tuple[Limit, Future[Limit | Outcome]]]:
         """What is predicted of each engine, by name, and its measurement, which is at work."""
-        runs = [(engine, run.result()) for engine, run in running]
-        found, measuring = limits_of_engines_elsewhere(self._alone.system, runs), {}
+        all_runs = [(engine, run.result()) for engine, run in running]
+        measuring: dict[str, tuple[Limit, Future[Limit | Outcome]]] = {}
+        for engine, run in all_runs:
+            if run.ending == "timed out":  # what takes too long for a few short steps is not asked for thousands
+                measured: Future[Limit | Outcome] = Future()
+                measured.set_result(run)
+                measuring[engine.name] = Limit(None, f"not identified; {run.reason}"), measured
+        runs = [(engine, run) for engine, run in all_runs if engine.name not in measuring]
+        found = limits_of_engines_elsewhere(self._alone.system, runs)
         for (engine, _), (scheme, predicted) in zip(runs, found, strict=True):
             measured = self._pool.submit(measure_engine, engine, self._alone, named(scheme), predicted)
             measuring[engine.name] = predicted, measured

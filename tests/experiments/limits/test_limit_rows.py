@@ -16,6 +16,7 @@ from experiments.limits.limit_rows import Row, stability_rows
 from experiments.limits.predictions import Predictions
 from reference.lecture.listings import listings
 from reference.limit import Limit
+from reference.outcome import Outcome
 from reference.scenes import find
 from reference.schemes import catalogue
 from reference.stepper import SchemeStepper
@@ -172,3 +173,17 @@ def test_a_step_that_adapts_itself_is_told_beside_its_limit(
     mine = OwnStepper(own_stepper(str(tmp_path / "mine.py")).engine, isolate=in_this_process)
     (row,) = stability_rows(find("oscillator").system({}), [mine], quiet)
     assert (limit_rows.ADAPTS in row.document["reason"]) == adapts
+
+
+def test_who_takes_too_long_for_a_few_short_steps_is_not_asked_for_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its row says how it ended; others are measured."""
+    slow, quick = EngineStepper(Doctored(KickDrift)), SchemeStepper(catalogue.find("kick_drift"))
+    late = Outcome("timed out", "no answer within 1 s")
+    measured: list[object] = []
+    monkeypatch.setattr(Predictions, "identifying_run", lambda *_: late)
+    monkeypatch.setattr(limit_rows, "measure_engine", lambda *given: measured.append(given))
+    rows = {row.stepper: row for row in stability_rows(find("oscillator").system({}), [slow, quick], quiet)}
+    assert (rows[slow.name].outcome, rows[slow.name].measured.reason) == ("timed out", late.reason)
+    assert rows[slow.name].predicted.reason == "not identified; no answer within 1 s"
+    assert not measured
+    assert rows[quick.name].relative_difference == pytest.approx(0.0, abs=1e-4)
