@@ -18,6 +18,9 @@ SHORTEST = 1e-4
 #: Where decay is so many times what rounding may do, there is no question where it ends.
 PLAIN = 100.0
 
+#: So many times beyond a limit growth is PLAIN, unless it is the end of a growth that was hidden by rounding.
+SOON = 1.1
+
 #: Between the last decay and the first growth that are no rounding lies one value, if they are as near as this.
 ONE_VALUE = 1e-2
 
@@ -74,7 +77,14 @@ def first_growth(search: Search, start: float, unit: float, last: float) -> Limi
     if search.decays:
         return _where_decay_ends(search, dt, longer)
     low, high = bisect(search.is_growth, dt, longer, search.near)
+    if search.excess(SOON * high) < PLAIN * search.rounding(SOON * high):
+        return Limit(None, hidden(high))
     return Limit((low + high) / 2)
+
+
+def hidden(dt: float) -> str:
+    """What is said where growth rises out of rounding slowly: it may have begun in steps that are far shorter."""
+    return f"not computed: growth is seen at {dt:.3g} s; in shorter steps damping takes less than can be told"
 
 
 def _where_decay_ends(search: Search, low: float, high: float) -> Limit:
@@ -89,8 +99,7 @@ def _where_decay_ends(search: Search, low: float, high: float) -> Limit:
         while search.is_no_decay(seen):
             seen /= RATIO
             if seen < SHORTEST * low:
-                why = f"growth is seen at {high:.3g} s; in shorter steps damping takes less than can be told"
-                return Limit(None, f"not computed: {why}")
+                return Limit(None, hidden(high))
         low, _ = bisect(search.is_no_decay, seen, high, search.near)
         _, high = bisect(search.is_growth, low, high, search.near)
         if high > (1 + ONE_VALUE) * low:

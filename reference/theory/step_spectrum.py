@@ -14,13 +14,14 @@ from dataclasses import replace
 import numpy as np
 
 from reference.errors import SolverError
+from reference.forces import SpringMotion
 from reference.limit import Limit
 from reference.schemes.catalogue import Scheme
 from reference.theory.equilibria import Equilibrium
-from reference.theory.first_growth import Search, first_growth
+from reference.theory.first_growth import Search, first_growth, hidden
 from reference.theory.large_steps import limit_of_large, relative_of
 from reference.theory.layout import layout_of
-from reference.theory.rates import UNDAMPED, Rates
+from reference.theory.rates import UNDAMPED, Rates, rates
 from reference.theory.step_increments import growth_of, increments_of_modes, is_exact, step_increments
 from reference.theory.step_map import TORN_APART, Complex, is_resisted, step_jacobian
 from reference.theory.windows import looked_to, windows_of
@@ -91,6 +92,8 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         decays = found.least_decay > UNDAMPED * found.fastest
         search = Search(excess, rounding, precision, decays)
         limit = first_growth(search, start, unit, last)
+        if limit.dt is not None and not decays and found.least_decay > 0 and _grows_undamped(scheme, rest):
+            return Limit(None, hidden(limit.dt))
         if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
             return Limit(None, unsolved)
         phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
@@ -101,6 +104,16 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         reason = f"{size} positions and velocities, which this scheme does not step alike; up to {WHOLE_UP_TO} it is"
         return Limit(None, f"not computed for {reason}")
     return limit_of_large(scheme, rest.linear, rest, unit)
+
+
+def _grows_undamped(scheme: Scheme, rest: Equilibrium) -> bool:
+    """Whether a scheme lets all grow that nothing damps: then what is hardly damped may grow in short steps, unseen."""
+    if rest.linear is None or rest.contacts is not None:
+        return False
+    system = rest.linear.system
+    motion = SpringMotion(replace(system, damping=np.zeros_like(system.damping), drag=0.0))
+    undamped = replace(rest, motion=motion, by_law=None)
+    return first_limit(scheme, undamped, rates(undamped)).growth is not None
 
 
 def _not_solved(scheme: Scheme, rest: Equilibrium, dt: float | None) -> str:

@@ -153,10 +153,11 @@ function limitOf(name, linear, known = {}, system = null) {
 // there is less than rounding, it is not told. `never` is true of a step that lets all motion grow that nothing damps.
 function firstOrSlow(grows, linear, fastest, known, from, never) {
   known.rates = known.rates || ratesOf(linear);
-  const decays = known.rates.every(([re]) => re < 0);
-  if (!decays && never) return {limit: 0};
+  // drag damps all motion, however little is left of it
+  const decays = known.rates.every(([re]) => re < 0), damped = decays || linear.drag > 0;
+  if (!decays && never) return damped ? {limit: null, reason: "slow"} : {limit: 0};
   const limit = firstBeyond(grows, fastest, from);
-  return decays && !(limit > 0 && grows(limit / 2) < 1 - 1e-2 * SEEN) ? {limit: null, reason: "slow"} : {limit};
+  return damped && !(limit > 0 && grows(limit / 2) < 1 - SEEN) ? {limit: null, reason: "slow"} : {limit};
 }
 
 // As `springlab stability` has it: about a rest on obstacles, where a scheme's steps have one there that can be looked at,

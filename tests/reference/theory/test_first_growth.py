@@ -44,10 +44,13 @@ def test_rounding_at_long_steps_is_no_growth() -> None:
     """Beyond the fastest mode's 1/w, dt x velocities are larger than positions, and so is their rounding."""
     margin = 1e-9
     rounding = first_growth(search(lambda dt: 0.9 * margin * max(1.0, dt / 0.1), margin), 1e-2, 0.1, 1e3)
-    growing = first_growth(search(lambda dt: 2 * margin if dt > 0.05 else 0.0, margin), 1e-2, 0.1, 1e3)
+    growing = first_growth(search(lambda dt: 200 * margin if dt > 0.05 else 0.0, margin), 1e-2, 0.1, 1e3)
+    rising = first_growth(search(lambda dt: margin * (dt / 0.05) ** 4, margin), 1e-2, 0.1, 1e3)
     assert rounding.dt is None
     assert growing.dt is not None
     assert math.isclose(growing.dt, 0.05, rel_tol=1e-5)
+    # what rises out of rounding slowly has begun before
+    assert (rising.dt, rising.stable_steps) == (None, "unknown")
 
 
 @pytest.mark.parametrize(

@@ -148,3 +148,32 @@ def test_windows_of_what_an_iteration_would_come_to_are_kept_where_it_is_stable_
     assert kept(find("kick_drift"), limit) is limit
     assert kept(iterated, Limit(None, "stable at any dt")).windows == ()
     assert kept(replace(iterated, order=2), limit) is limit
+
+
+@pytest.mark.parametrize(("masses", "drag", "damping"), [((0.1, 0.3), 1e-11, 0.0), ((100.0, 1e-4), 1e-11, 1e-9)])
+def test_no_limit_is_told_where_growth_may_have_begun_unseen(
+    masses: tuple[float, float], drag: float, damping: float
+) -> None:
+    """Two masses hardly damped: schemes that let all grow that nothing damps have limits of 4.4e-6 s and less.
+
+    There growth and decay are 1e-16 in a step, and what is seen of growth begins at 2e-5 s. (Limits by 80 digits.)
+    Velocity Verlet, without growth where nothing damps, has the limit 2/w to what damping adds.
+    """
+    rest = spring_equilibrium(
+        MassSpringSystem(
+            positions=np.array([[0.0], [1.0], [2.0]]),
+            springs=np.array([[0, 1], [1, 2]]),
+            masses=np.array([1.0, *masses]),
+            rest_lengths=np.array(1.0),
+            stiffness=np.array([50.0, 80.0]),
+            damping=np.array([0.0, damping]),
+            drag=drag,
+            gravity=np.zeros(1),
+            fixed=np.array([True, False, False]),
+        )
+    )
+    for name in ("adams_bashforth_2", "euler_in_place", "heun_link_by_link"):
+        found = stability_limit(find(name), rest)
+        assert (found.dt, found.stable_steps) == (None, "unknown")
+        assert found.reason.startswith("not computed: growth is seen at")
+    assert stability_limit(find("velocity_verlet"), rest).dt == pytest.approx(2 / rates(rest).fastest, rel=1e-6)
