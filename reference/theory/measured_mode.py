@@ -80,6 +80,11 @@ def measured_mode_limit(scheme: Scheme, rest: Equilibrium, predicted: Limit, fou
     if layout_of(scheme, rest, 1 / found.fastest)[0].size > WHOLE_UP_TO:
         return Limit(None, f"not measured: of more than {WHOLE_UP_TO} positions and velocities no mode is taken apart")
 
+    if scheme.iterated and found.unresisted:
+        return Limit(
+            None, "not measured: where its iteration stops early differs, and tears motion that nothing resists"
+        )
+
     def unstable(dt: float) -> bool:
         return measured_mode_growth(scheme, rest, dt, found) > MARGIN
 

@@ -144,3 +144,14 @@ def test_a_step_of_which_one_derivative_is_no_number_has_no_mode(monkeypatch: py
     monkeypatch.setattr(measured_mode, "step_jacobian", lambda *_: jacobian)
     assert fastest_mode_of_step(find("kick_drift"), rest, 1e-3, found) is None
     assert measured_mode_growth(find("kick_drift"), rest, 1e-3, found) == np.inf
+
+
+def test_what_an_iteration_tears_is_no_measured_growth() -> None:
+    """A free string stepped by an iteration that stops early: runs are stable there, its torn eigenvalues are not."""
+    rest = spring_equilibrium(with_fields(free_string(), damping=np.array(0.1), gravity=np.zeros(2)))
+    scheme, found = find("kick_drift_truncated_damping"), rates(rest)
+    measured = measured_mode_limit(scheme, rest, stability_limit(scheme, rest), found)
+    assert found.unresisted > 0
+    assert measured.reason.startswith("not measured: ")
+    exact = find("kick_drift_implicit_damping")
+    assert measured_mode_limit(exact, rest, stability_limit(exact, rest), found).dt is not None
