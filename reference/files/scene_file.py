@@ -277,7 +277,9 @@ def _within(table: str, make: Callable[[], T]) -> T:
     try:
         return make()
     except InputError as error:
-        raise InputError(f"{table}.{error}") from None
+        # a mistake begins with the key that it is in, or with what there is none of
+        joined = ": " if str(error).startswith("unknown ") else "."
+        raise InputError(f"{table}{joined}{error}") from None
 
 
 def _line(text: str, message: str) -> str:

@@ -40,7 +40,7 @@ def test_obstacles_are_added_to_a_system_written_out(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("table", "message"),
     [
-        ('kind = "circel"', "obstacles[0].unknown kind 'circel': did you mean 'circle'?"),
+        ('kind = "circel"', "obstacles[0]: unknown kind 'circel': did you mean 'circle'?"),
         ("radius = 1", "obstacles[0].kind is missing: expected one of circle, sphere, cylinder, plane, box"),
         ("kind = 3", "obstacles[0].kind = 3: expected one of circle, sphere, cylinder, plane, box"),
         ('kind = "circle"\ncentre = [0, -1]', "obstacles[0].radius is missing: a circle has centre, radius"),
