@@ -113,18 +113,24 @@ function solve(a, b) {
 
 // The limit of a scheme about a rest on obstacles; null where its steps have no rest there.
 function limitOnObstacles(system, linear, scheme, fastest) {
-  if (growthOnObstacles(system, linear, scheme, 0.3 / fastest) === null) return null;
+  if (growthOnObstacles(system, linear, scheme, 0.3 / fastest) === null) return {limit: null, reason: "no rest"};
   const grows = h => growthOnObstacles(system, linear, scheme, h) ?? Infinity;
-  // without damping all is at 1, to half of the figures where two eigenvalues meet
-  const most = linear.damped || linear.drag ? 1 + 1e-9 : 1 + 1e-6;
+  // where two eigenvalues meet differences tell half of the figures
+  const seen = 1e-6, between = (low, high, most) => {
+    for (let k = 0; k < 34; k++) { const middle = (low + high) / 2; if (grows(middle) > most) high = middle; else low = middle; }
+    return low;
+  };
   let low = 0;
   for (let h = 2e-3 / fastest; h < 10 / fastest; h *= h * fastest < 0.5 ? 1.4 : 1.06) {
-    if (grows(h) > most) {
-      let high = h;
-      for (let k = 0; low > 0 && k < 34; k++) { const middle = (low + high) / 2; if (grows(middle) > most) high = middle; else low = middle; }
-      return low;
+    if (grows(h) > 1 + seen) {
+      if (low === 0) return {limit: 0};
+      if (grows(low) < 1 - seen) return {limit: between(low, h, 1)};
+      const limit = between(low, h, 1 + seen);
+      // growth that rises slowly has begun before, unseen
+      if (grows(1.1 * limit) > 1 + 100 * seen) return {limit};
+      return linear.damped || linear.drag ? {limit: null, reason: "slow"} : {limit: 0};
     }
     low = h;
   }
-  return Infinity;
+  return {limit: Infinity};
 }

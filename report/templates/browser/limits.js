@@ -112,8 +112,7 @@ function limitOf(name, linear, known = {}, system = null) {
   const moving = linear.free.length * linear.memory.at.d, told = {omega: fastest, about: linear.contacts.length > 0 && !scheme.keeps};
   const curved = linear.contacts.some(contact => contact.curved);
   if (linear.contacts.length && system && (curved || !scheme.keeps) && 2 * moving <= STEP_UP_TO) {
-    const limit = limitOnObstacles(system, linear, scheme, fastest);
-    return {omega: fastest, about: false, limit, reason: limit === null ? "no rest" : ""};
+    return {omega: fastest, about: false, reason: "", ...limitOnObstacles(system, linear, scheme, fastest)};
   }
   told.about = told.about || curved;
   if (scheme.kind === "in_place") {
