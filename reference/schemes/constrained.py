@@ -26,4 +26,4 @@ def rope_kick_drift(motion: MotionOfRods, state: State, dt: float) -> State:
 
 
 #: On no other equations than a rope's, and so not among the schemes of springs.
-ROPE_KICK_DRIFT = Scheme(rope_kick_drift, order=1, kind="engine_scheme")
+ROPE_KICK_DRIFT = Scheme(rope_kick_drift, order=1, kind="engine_scheme", linear=False)
