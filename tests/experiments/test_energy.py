@@ -236,7 +236,7 @@ def in_momenta(system: MassSpringSystem) -> Scheme:
             state.time + dt, moved, np.linalg.solve(inertia * np.cos(moved[:, None] - moved[None, :]), momenta)
         )
 
-    return Scheme(step, 1, "scheme")
+    return Scheme(step, 1, "scheme", linear=False)
 
 
 @pytest.mark.rotating(3, in_turn=True)
