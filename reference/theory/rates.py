@@ -87,7 +87,7 @@ def fastest_rate(rest: Equilibrium) -> float:
     if len(linear.mass) <= QUICK_UP_TO:
         return rates(rest).fastest
     if not linear.damped and not linear.dragged:
-        return float(_top_undamped(linear).item())
+        return _top_undamped(linear)
     return _at_both_ends(linear, ENDS[:1]).fastest
 
 
@@ -111,7 +111,7 @@ def _undamped(linear: Linearisation) -> Rates:
         none = _is_none(squares)
         frequencies, unresisted = np.sqrt(squares[~none]), 2 * int(none.sum())
     else:
-        frequencies, unresisted = _top_undamped(linear), 0
+        frequencies, unresisted = np.array([_top_undamped(linear)]), 0
     return Rates(np.concatenate([1j * frequencies, -1j * frequencies]), unresisted, 2 * len(linear.mass) <= ALL_UP_TO)
 
 
@@ -155,11 +155,8 @@ def _with_weak_decay(linear: Linearisation, count: int) -> Complex:
 
 def _at_both_ends(linear: Linearisation, ends: Sequence[float] = ENDS) -> Rates:
     """Of large systems with damping: some of the fastest and of the slowest; decay that outruns all swings, too."""
-    from scipy.sparse.linalg import eigsh
-
     slowed = linear.scaled(linear.damping_and_drag)
-    highest, start = float(_top_undamped(linear).item()), np.random.default_rng(0).normal(size=len(linear.mass))
-    decay = float(eigsh(slowed, 1, which="LA", v0=start, return_eigenvectors=False).item())
+    highest, decay = _top_undamped(linear), _largest(slowed)
     shifts = [1j * part * highest for part in ends]
     if decay > highest:
         shifts.append(complex(-ENDS[0] * decay))
@@ -205,13 +202,17 @@ def _nearest_to(shift: complex, stiffness: Any, damping: Any) -> Complex:
     return np.asarray(found.real + 1j * np.abs(found.imag))
 
 
-def _top_undamped(linear: Linearisation) -> Array:
-    """The highest frequency [1/s], shape (1,)."""
+def _top_undamped(linear: Linearisation) -> float:
+    """The highest frequency [1/s]."""
+    return float(np.sqrt(max(_largest(linear.scaled_stiffness), 0.0)))
+
+
+def _largest(matrix: Any) -> float:
+    """The largest eigenvalue of a sparse symmetric matrix."""
     from scipy.sparse.linalg import eigsh
 
-    start = np.random.default_rng(0).normal(size=len(linear.mass))
-    top = eigsh(linear.scaled_stiffness, 1, which="LA", v0=start, return_eigenvectors=False)
-    return np.asarray(np.sqrt(np.maximum(top, 0.0)))
+    start = np.random.default_rng(0).normal(size=matrix.shape[0])
+    return float(eigsh(matrix, 1, which="LA", v0=start, return_eigenvectors=False).item())
 
 
 def _by_euler(rest: Equilibrium) -> Rates:

@@ -9,6 +9,7 @@ import numpy as np
 from hypothesis import settings
 from hypothesis import strategies as st
 
+from reference.obstacles import Plane
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find, schemes
 from reference.system import MassSpringSystem
@@ -91,3 +92,18 @@ meshes = st.builds(random_mesh, seed=seeds, masses=st.integers(2, 8), dimension=
 free_meshes = st.builds(
     random_mesh, seed=seeds, masses=st.integers(2, 8), dimension=st.sampled_from([1, 2, 3]), anchors=st.just(0)
 )
+
+
+def two_on_a_floor(damping: float) -> MassSpringSystem:
+    """Two unequal masses beside a fixed one, that come to rest on a floor 1 cm below; damped between the first two."""
+    return MassSpringSystem(
+        positions=np.array([[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]]),
+        springs=np.array([[0, 1], [1, 2]]),
+        masses=np.array([1.0, 0.1, 0.3]),
+        rest_lengths=np.array(0.5),
+        stiffness=np.array([50.0, 80.0]),
+        damping=np.array([damping, 0.0]),
+        gravity=np.array([0.0, -9.81]),
+        fixed=np.array([True, False, False]),
+        obstacles=(Plane((0.0, -0.01), (0.0, 1.0)),),
+    )

@@ -111,7 +111,8 @@ function solve(a, b) {
   return x;
 }
 
-// The limit of a scheme about a rest on obstacles; null where its steps have no rest there.
+// The limit of a scheme about a rest on obstacles; null, with the reason, where its steps have no rest there, or where what
+// damping takes in a step is less than can be told.
 function limitOnObstacles(system, linear, scheme, fastest) {
   if (growthOnObstacles(system, linear, scheme, 0.3 / fastest) === null) return {limit: null, reason: "no rest"};
   const grows = h => growthOnObstacles(system, linear, scheme, h) ?? Infinity;
@@ -120,15 +121,15 @@ function limitOnObstacles(system, linear, scheme, fastest) {
     for (let k = 0; k < 34; k++) { const middle = (low + high) / 2; if (grows(middle) > most) high = middle; else low = middle; }
     return low;
   };
+  const unseen = linear.damped || linear.drag ? {limit: null, reason: "slow"} : {limit: 0};
   let low = 0;
   for (let h = 2e-3 / fastest; h < 10 / fastest; h *= h * fastest < 0.5 ? 1.4 : 1.06) {
     if (grows(h) > 1 + seen) {
-      if (low === 0) return {limit: 0};
+      if (low === 0) return unseen;
       if (grows(low) < 1 - seen) return {limit: between(low, h, 1)};
       const limit = between(low, h, 1 + seen);
       // growth that rises slowly has begun before, unseen
-      if (grows(1.1 * limit) > 1 + 100 * seen) return {limit};
-      return linear.damped || linear.drag ? {limit: null, reason: "slow"} : {limit: 0};
+      return grows(1.1 * limit) > 1 + 100 * seen ? {limit} : unseen;
     }
     low = h;
   }

@@ -21,6 +21,7 @@ from reference.theory.keeps_to_surfaces import keeps_to_surfaces
 from reference.theory.limits import stability_limit
 from reference.theory.measured_mode import measured_mode_limit
 from reference.theory.rates import rates
+from tests.reference.systems import two_on_a_floor
 
 FLOOR = Plane((0.0, 0.0), (0.0, 1.0))
 MASS, STIFFNESS, LENGTH, HEIGHT, WEIGHT = 0.5, 20.0, 0.8, 1.0, 9.81
@@ -210,18 +211,7 @@ def test_weak_damping_on_the_floor_hides_no_limit(damping: float) -> None:
 
     Heun's is where decay of 1e-10 in a step and less ends, which differences do not tell: it is not computed.
     """
-    made = MassSpringSystem(
-        positions=np.array([[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]]),
-        springs=np.array([[0, 1], [1, 2]]),
-        masses=np.array([1.0, 0.1, 0.3]),
-        rest_lengths=np.array(0.5),
-        stiffness=np.array([50.0, 80.0]),
-        damping=np.array([damping, 0.0]),
-        gravity=np.array([0.0, -9.81]),
-        fixed=np.array([True, False, False]),
-        obstacles=(Plane((0.0, -0.01), (0.0, 1.0)),),
-    )
-    damped, plain = (spring_equilibrium(each) for each in (made, replace(made, damping=np.zeros(2))))
+    damped, plain = (spring_equilibrium(two_on_a_floor(c)) for c in (damping, 0.0))
     for name in ("velocity_verlet", "rk4", "leapfrog_kick_drift_kick"):
         expected = stability_limit(find(name), plain).dt
         assert expected is not None

@@ -11,7 +11,6 @@ import pytest
 
 from reference.errors import SolverError
 from reference.forces import SpringMotion
-from reference.obstacles import Plane
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.springs.kinds import NonlinearSprings
@@ -21,6 +20,7 @@ from reference.theory.limits import stability_limit
 from report.browser.presets import PRESETS
 from report.browser.programs import page_schemes
 from report.browser.system_data import rest_data, system_data
+from tests.reference.systems import two_on_a_floor
 from tests.report.browser.node import ask
 
 #: A short string that comes to rest on a circle.
@@ -175,17 +175,7 @@ def test_weak_damping_on_a_floor_is_no_growth() -> None:
     """Two masses on a floor 1 cm below: as theory has it, which differences too; Heun's is hidden, or there is none."""
     names = ("rk4", "velocity_verlet", "kick_drift", "heun")
     for damping in (0.0, 1e-9, 1e-5, 1e-3, 0.1):
-        system = MassSpringSystem(
-            positions=np.array([[0.0, 0.0], [0.5, 0.0], [1.0, 0.0]]),
-            springs=np.array([[0, 1], [1, 2]]),
-            masses=np.array([1.0, 0.1, 0.3]),
-            rest_lengths=np.array(0.5),
-            stiffness=np.array([50.0, 80.0]),
-            damping=np.array([damping, 0.0]),
-            gravity=np.array([0.0, -9.81]),
-            fixed=np.array([True, False, False]),
-            obstacles=(Plane((0.0, -0.01), (0.0, 1.0)),),
-        )
+        system = two_on_a_floor(damping)
         (answer,) = ask([asked_of_page(system, ask="limits", schemes=[*names])])
         for name in names:
             found, predicted = answer["limits"][name], stability_limit(find(name), spring_equilibrium(system))

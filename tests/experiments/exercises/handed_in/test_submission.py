@@ -83,7 +83,7 @@ def test_what_is_not_a_submission_is_refused_by_name(
 
 
 def test_the_last_line_that_says_something_counts() -> None:
-    """In Python, also where it cannot be read, and in C; whoever handed it out, it is taken as keyed unless told."""
+    """In Python, also where it cannot be read, and in C."""
     for text in ('EXERCISE = 4\nEXERCISE = 5\nSEED = "ada"\nSEED = "bob"', "EXERCISE = 4\ndef (\nEXERCISE = 5"):
         assert submission.header(text)["EXERCISE"] == 5
     assert submission.header_in_c("#define EXERCISE 4\n#define EXERCISE 3\n") == {"EXERCISE": 3}
