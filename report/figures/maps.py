@@ -14,7 +14,7 @@ def draw(result: Result) -> Picture:
     """One panel per map."""
     maps: Sequence[StabilityMap] = result.data["maps"]
     figure, panels = new_figure(ncols=max(len(maps), 1), figsize=(13, 4.4), squeeze=False)
-    fields = [draw_field(axes, found) for axes, found in zip(panels[0], maps, strict=False)]
+    fields = [draw_field(axes, found) for axes, found in zip(panels.flat, maps, strict=False)]
     if fields:
-        add_scale(figure, panels[0], fields[0])
+        add_scale(figure, panels, fields[0])
     return Picture(figure, " ".join(map(words, maps)) or "No map could be made.")

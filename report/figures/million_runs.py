@@ -22,7 +22,7 @@ def draw(result: Result) -> Picture:
         axes.plot(cores, [predicted(kind, hands, n) / 3600 for n in cores], color=style["color"])
         hours = [predicted(kind, hands, n) / 3600 for n in CORES]
         axes.plot(CORES, hours, linestyle="none", label=f"{kind.name}: {1e3 * kind.seconds:.0f} ms", **style)
-    floor = predicted(kinds[-1], hands, 100 * max(CORES)) / 3600
+    floor = predicted(kinds[-1], hands, cores[-1]) / 3600
     text = "flat: the one process that hands out tasks and keeps results"
     axes.annotate(text, (cores[-1], 0.9 * floor), ha="right", va="top", fontsize=9)
     axes.set_xscale("log")

@@ -64,8 +64,8 @@ def _projection(rest: Array) -> Any:
         return lambda x: np.pad(x, ((0, 0), (1, 0)))
     if rest.shape[1] == 2:
         return lambda x: x
-    view = view_of(rest[None])
-    return lambda x: view.project(x[None])[0][0]
+    view = view_of(rest)
+    return lambda x: view.project(x)[0]
 
 
 def _sideways(rest: Array, moved: Array) -> Array:

@@ -88,7 +88,7 @@ def _paths(simulation: Simulation, runs: Sequence[Run]) -> Picture:
     figure, panels = _panels(len(runs))
     system = simulation.setup.system
     chosen = _few(np.flatnonzero(~system.fixed))
-    for panel, run in zip(panels[0], runs, strict=True):
+    for panel, run in zip(panels, runs, strict=True):
         assert run.motion is not None
         x = run.motion.trajectory.positions[_times(run)]
         for i, mass in enumerate(chosen):
@@ -102,7 +102,7 @@ def _paths(simulation: Simulation, runs: Sequence[Run]) -> Picture:
             panel.set_aspect("equal", adjustable="datalim")
         panel.set_title(run.stepper.name, fontsize=10)
         panel.set_xlabel("x [m]" if system.dimension > 1 else "time [s]")
-    panels[0][0].set_ylabel("y [m]" if system.dimension > 1 else "x [m]")
+    panels[0].set_ylabel("y [m]" if system.dimension > 1 else "x [m]")
     some = f" of {len(chosen)} of its masses" if len(chosen) < (~system.fixed).sum() else ""
     figure.suptitle(f"{simulation.setup.name}: paths{some}, a marker at the end", fontsize=11)
     return Picture(figure, f"Paths of the masses of {simulation.setup.name} under {_names(runs)}.")
@@ -110,7 +110,7 @@ def _paths(simulation: Simulation, runs: Sequence[Run]) -> Picture:
 
 def _energy(simulation: Simulation, runs: Sequence[Run]) -> Picture:
     figure, panels = _panels(len(runs))
-    for panel, run in zip(panels[0], runs, strict=True):
+    for panel, run in zip(panels, runs, strict=True):
         assert run.motion is not None
         chosen = _times(run)
         found, ends = energies(run.motion.setup, run.motion.trajectory, chosen), []
@@ -119,7 +119,7 @@ def _energy(simulation: Simulation, runs: Sequence[Run]) -> Picture:
             _line(panel, times, found[name], i, len(ENERGIES))
             ends.append(End(float(times[-1]), float(found[name][-1]), name, look(i)["color"]))
         panel.set_title(run.stepper.name, fontsize=10)
-        _over_time(panel, "energy [J]" if panel is panels[0][0] else "", None)
+        _over_time(panel, "energy [J]" if panel is panels[0] else "", None)
         label_ends(panel, [end for end in ends if np.isfinite(end.y)], 0.06)
     figure.suptitle(f"{simulation.setup.name}: energies, gravitational from height zero", fontsize=11)
     return Picture(figure, f"Kinetic, elastic, gravitational and total energy over time under {_names(runs)}.")
@@ -131,7 +131,7 @@ def _forces(simulation: Simulation, runs: Sequence[Run]) -> Picture:
         raise InputError(f"no forces to plot of {simulation.setup.name}: rods stand for the springs")
     chosen = _few(np.arange(len(simulation.setup.system.springs)))
     figure, panels = _panels(len(known))
-    for panel, run in zip(panels[0], known, strict=True):
+    for panel, run in zip(panels, known, strict=True):
         assert run.motion is not None
         steps = _times(run)
         force = np.concatenate([p.force for p in spring_frames(run.motion.setup, run.motion.trajectory, steps)])
@@ -140,7 +140,7 @@ def _forces(simulation: Simulation, runs: Sequence[Run]) -> Picture:
             _line(panel, times, force[:, spring], i, len(chosen))
             ends.append(End(float(times[-1]), float(force[-1, spring]), f"{spring}", look(i)["color"]))
         panel.set_title(run.stepper.name, fontsize=10)
-        _over_time(panel, "spring force [N], tension positive" if panel is panels[0][0] else "", None)
+        _over_time(panel, "spring force [N], tension positive" if panel is panels[0] else "", None)
         label_ends(panel, [end for end in ends if np.isfinite(end.y)], 0.05)
     count = len(simulation.setup.system.springs)
     some = f", {len(chosen)} of {count}" if len(chosen) < count else ""
@@ -150,7 +150,8 @@ def _forces(simulation: Simulation, runs: Sequence[Run]) -> Picture:
 
 def _panels(count: int) -> tuple[Any, Any]:
     """A figure with panels side by side, one for each run."""
-    return new_figure((2.0 + 3.8 * count, 4.2), ncols=count, squeeze=False, sharey=True)
+    figure, panels = new_figure((2.0 + 3.8 * count, 4.2), ncols=count, squeeze=False, sharey=True)
+    return figure, panels.ravel()
 
 
 def _few(which: IntArray) -> list[int]:

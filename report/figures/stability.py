@@ -20,10 +20,8 @@ def draw(result: Result) -> Picture:
     figure, panels = new_figure(
         ncols=len(cases), sharex=True, sharey=True, figsize=(11, 1.4 + 0.26 * len(names)), squeeze=False
     )
-    for panel, case in zip(panels[0], cases, strict=True):
+    for panel, case in zip(panels.flat, cases, strict=True):
         _panel(panel, case, [row for row in rows if _case(row) == case], names)
-    panels[0][0].set_yticks(range(len(names)), names)
-    panels[0][0].set_ylim(len(names) - 0.5, -0.5)
     figure.suptitle("largest stable dt: predicted (bar) and measured (dot)", x=0.01, ha="left", fontsize=12)
     return Picture(figure, _alt(rows))
 
@@ -50,6 +48,8 @@ def _panel(axes: Any, case: str, rows: Sequence[Row], names: Sequence[str]) -> N
                 )
                 word = f"{word} at any dt" if word else _measured(row)
                 axes.text(0.02, y, word, transform=axes.get_yaxis_transform(), **beside)
+    axes.set_yticks(range(len(names)), names)
+    axes.set_ylim(len(names) - 0.5, -0.5)
     axes.set_xscale("log")
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_title(case, fontsize=10, loc="left")

@@ -150,7 +150,7 @@ class Drawing:
         self.behind: Any = LineCollection([], zorder=1, capstyle="round")
         self.front: Any = LineCollection([], zorder=3, capstyle="round")
         for collection in (self._true, self.behind, self.front):
-            axes.add_collection(collection, autolim=False)
+            axes.add_collection(collection)
         (self.masses,) = axes.plot([], [], linestyle="", marker="o", markersize=3.5, color="#222222", zorder=4)
         size = 6 if system.fixed.sum() <= 4 else 3.5
         (self.held,) = axes.plot([], [], linestyle="", marker="s", markersize=size, color="#222222", zorder=4)

@@ -147,14 +147,15 @@ class Film:
         )
         canvas = FigureCanvasAgg(sheet.figure)
         systems = [self.systems(shot.motion) for shot in self.shots]
-        of_true = None if self.true is None else self.systems(self.true)
+        true: list[tuple[Array, MassSpringSystem] | None] = [None] * len(self.steps)
+        if self.true is not None:
+            true = list(zip(self.true.positions[[*self.steps]], self.systems(self.true), strict=True))
         for i, step in enumerate(self.steps):
             progress(f"{i} of {len(self.steps)} frames")
             time = step * self.setup.dt
             sheet.clock.set_text(f"t = {time:.3f} s")
-            true = None if self.true is None or of_true is None else (self.true.positions[step], of_true[i])
             for k, (shot, drawing, note) in enumerate(zip(self.shots, sheet.drawings, sheet.notes, strict=True)):
-                drawing.show(self.positions(shot, step), systems[k][i], true)
+                drawing.show(self.positions(shot, step), systems[k][i], true[i])
                 note.set_visible(shot.left is not None and time >= shot.left)
             canvas.draw()
             yield np.asarray(canvas.buffer_rgba())[..., :3].copy()
@@ -178,7 +179,7 @@ def film_of(setup: Setup, shown: Sequence[Shot], true: Trajectory | None, slow: 
     sane = [shot.motion for shot in shown if shot.outcome.ending == "done"]
     if true is not None:
         sane.insert(0, true)
-    sane = sane or [_start(shown[0].motion)]
+    sane = sane or [Trajectory.of([setup.system.start])]
     look = look_at(setup.system, sane, _seen(setup, sane[0]))
     shown = [Shot(s.names, s.caption, s.outcome, leaves(s.motion, look.view, look.window)) for s in shown]
     steps = frame_steps(setup, setup.steps, slow)
@@ -196,8 +197,3 @@ def _seen(setup: Setup, motion: Trajectory) -> BoolArray | None:
     if not any(change.parameter == BREAK for change in broken.changes):
         return None
     return np.array([~without_force(system) for system in broken.systems_at(range(len(motion)))])
-
-
-def _start(motion: Trajectory) -> Trajectory:
-    """Only where it began."""
-    return Trajectory(motion.times[:1], motion.positions[:1], motion.velocities[:1])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from report.figures import COLOURS, draw
@@ -27,6 +28,7 @@ def test_bars_are_predicted_and_dots_measured() -> None:
     assert {bar.get_color() for bar in bars} == {COLOURS[6]}
     assert {dot.get_color() for dot in dots} == {COLOURS[1]}
     assert axes.get_xlabel() == "largest stable dt [s]: predicted (bar), measured (dot)"
+    assert shown("advice").figure.get_figheight() > 0.3 * len(rows) + 1
 
 
 def test_rows_are_in_the_order_of_the_measured_limits() -> None:
@@ -80,9 +82,15 @@ def test_the_words_for_it_have_the_measured_limits() -> None:
 def test_numbers_over_many_decades_are_powers_of_ten() -> None:
     """1, 2 and 5 of each would run into one another."""
     wide = replace(advice.STABLE, measured=replace(advice.STABLE.measured, dt=5.0))
-    labels = tick_labels(laid_out(draw("advice", advice.only(wide)).figure).axes[0].xaxis)
+    figure = laid_out(draw("advice", advice.only(wide)).figure)
+    labels = tick_labels(figure.axes[0].xaxis)
     assert 1.0 in labels
     assert 2.0 not in labels
     few = tick_labels(laid_out(shown("advice").figure).axes[0].xaxis)
+    for axes, largest in ((figure.axes[0], 5.0), (shown("advice").figure.axes[0], 0.041)):
+        left, right = axes.get_xlim()
+        assert right > 3.9 * largest
+        assert np.log(right / largest) > 0.25 * np.log(right / left)  # for the words beside the last dot
+        assert not any(line.get_visible() for line in axes.get_ygridlines())
     assert few[0.002] == "0.002"
     assert min(few) >= 0.55e-3 / 4 == pytest.approx(1.375e-4)

@@ -55,6 +55,7 @@ def test_predicted_angles_are_where_they_are() -> None:
     assert horizontals(angles) == pytest.approx([right, held])
     assert text(angles, "predicted, cos = 2/3: true").get_position()[1] == pytest.approx(right, abs=2)
     assert text(angles, "predicted, cos = 1/2: held on").get_position()[1] == pytest.approx(held, abs=2)
+    assert {said.get_position()[0] for said in angles.texts} == {min(STEPS)}
 
 
 def test_axes_have_units() -> None:
@@ -82,7 +83,9 @@ def test_strings_are_drawn_at_their_times_over_the_circle() -> None:
         discs = [(disc.center, disc.radius) for disc in axes.patches]
         assert {radius for _, radius in discs} == {circle.radius}
         assert len(discs) == len(TIMES)
-        assert discs[0][0] == pytest.approx(circle.centre)
+        middles = [tick.get_loc() for tick in axes.xaxis.get_major_ticks()]
+        x, y = circle.centre
+        assert [centre for centre, _ in discs] == [pytest.approx((middle + x, y)) for middle in middles]
 
 
 def test_the_words_for_it_say_who_leaves_where() -> None:

@@ -7,8 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
+from matplotlib.colors import to_rgb
 
 from experiments.energy import DURATION, result_of
+from reference.stepper import catalogued
 from report.figures import COLOURS
 from report.figures.energy import FLOOR, HIGHEST, LOOKS, LOWEST, SPANS, draw
 from tests.experiments.canned import energy
@@ -59,6 +61,8 @@ def test_colour_and_marker_are_of_the_measured_kind_dashes_of_constraints() -> N
         assert (line.get_color(), line.get_marker()) == (LOOKS[kind]["color"], LOOKS[kind]["marker"])
     assert len({tuple(look.values()) for look in LOOKS.values()}) == len(LOOKS)
     assert "dashed: distance constraints" in above().get_title(loc="left")
+    warm, cold = (to_rgb(LOOKS[kind]["color"]) for kind in ("growing", "decaying"))
+    assert warm[0] - warm[2] > 0.5 < cold[2] - cold[0]
 
 
 def test_rings_are_on_lines_of_engines() -> None:
@@ -66,6 +70,21 @@ def test_rings_are_on_lines_of_engines() -> None:
     (ring,) = marks(above(), marker="o", fillstyle="none")
     assert data(ring)[1] == pytest.approx(largest("kick_drift"))
     assert text(above(), "kick_drift, 1 engine: bounded")
+
+
+def test_of_those_that_are_alike_the_first_is_drawn() -> None:
+    """With its errors, times, constraints and end, whatever the last is: one line stands for both."""
+    first = energy.row("rk4", "decaying", "decaying")
+    torn = energy.torn()
+    last = replace(torn, alike="rk4", measured="decaying", scheme=catalogued()["pendulum_rk4"])
+    for one, other, style, end in ((first, last, "-", DURATION), (last, first, "--", energy.TORN)):
+        axes = draw(result_of([one, other])).figure.axes[0]
+        (line,) = marks(axes)
+        assert (line.get_linestyle(), data(line)[0][-1]) == (style, end)
+        assert data(line)[1][-1] == pytest.approx(np.abs(one.errors).max())
+        (said,) = axes.texts
+        assert said.get_text().startswith(f"{one.stepper.name}, 1 scheme: decaying")
+        assert ("diverged" in said.get_text()) == (one is last)
 
 
 def test_labels_say_what_was_measured_and_what_was_predicted_where_it_is_not_that() -> None:

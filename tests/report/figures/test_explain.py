@@ -14,7 +14,7 @@ from reference.derivation.explanation import explain
 from reference.derivation.fit import Samples
 from reference.state import Array
 from reference.stepper import catalogued
-from report.figures import Picture
+from report.figures import COLOURS, Picture
 from report.figures import explain as module
 from report.figures.explain import draw
 from tests.report.figures.artists import cut_off, data, laid_out, line, overlaps, unlabelled
@@ -91,7 +91,9 @@ def test_marks_are_by_the_damping_that_a_step_can_do(
     assert "81 measured steps 81 agree" in picture.alt
     part = 100 * min(1.0, most / 2.6) / 1.3
     assert f"derived, {part:.0f}% of the plane" in picture.alt
-    assert line(axes, "measured: grows").get_marker() != line(axes, "measured: does not grow").get_marker()
+    warm, cold = (line(axes, f"measured: {word}") for word in ("grows", "does not grow"))
+    assert warm.get_marker() != cold.get_marker()
+    assert (warm.get_color(), cold.get_color()) == (COLOURS[1], COLOURS[0])
 
 
 def test_without_damping_marks_are_on_the_axis(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -29,6 +29,7 @@ def test_each_frame_has_the_motion_at_its_time() -> None:
     assert tick_labels(axes.xaxis) == {0.0: "0 s", 3.0: "0.5 s", 6.0: "2 s"}
     assert (axes.get_xlim(), axes.get_ylim()) == ((-1.5, 7.5), (-2.0, 0.4))
     assert axes.get_aspect() == 1.0
+    assert not any(line.get_visible() for line in axes.get_xgridlines())
 
 
 def test_what_leaves_its_frame_is_cut_off() -> None:

@@ -44,6 +44,7 @@ def test_lines_are_the_crests_in_millimetres_at_the_sweeps_frequency() -> None:
         assert frequencies == pytest.approx(SWEEP.frequency(at * DT))
         assert heights == pytest.approx(1e3 * np.abs(motion[at]))
     assert line(shaken(), "linear bridge, predicted").get_linestyle() == ":"
+    assert shaken().get_ylim() == (0, pytest.approx(1.5e3 * max(np.abs(motion).max() for motion in motions.values())))
     for i, name in enumerate(result("ground_motion").data["rows"]):
         assert line(shaken(), name).get_color() == look(i)["color"]
 

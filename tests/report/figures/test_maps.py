@@ -44,6 +44,7 @@ def test_colours_are_the_growth_and_the_line_the_prediction() -> None:
         assert line.get_color() == BLACK_ON_COLOURS
         colours = mesh(axes)
         assert isinstance(colours.norm, SymLogNorm)
+        assert colours.get_rasterized()  # else every cell is a shape of its own in the file
         assert (colours.norm.vmin, colours.norm.vmax) == (-MOST, MOST)
         red, _, blue, _ = colours.cmap(colours.norm(MOST))
         assert red > 2 * blue

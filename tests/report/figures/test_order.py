@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.axes import Axes
 
-from experiments.order import DTS, DURATION
+from experiments.order import DTS, DURATION, result_of
+from report.figures import draw
 from report.figures.order import SLOPES
-from tests.experiments.canned.order import rows
+from tests.experiments.canned.order import row, rows, stranger
 from tests.experiments.canned.reading import numbers, records
 from tests.report.figures.artists import data, laid_out, marks, tick_labels, words
 from tests.report.figures.shown import result, shown
@@ -79,9 +82,9 @@ def test_axes_have_units_and_both_are_logarithmic() -> None:
 
 def test_the_words_for_it_have_the_slopes() -> None:
     """Of who has one."""
-    for row in rows():
-        if row.slope is not None:
-            assert f"{row.stepper.name} {row.slope:.2f}" in shown("order").alt
+    for one in rows():
+        if one.slope is not None:
+            assert f"{one.stepper.name} {one.slope:.2f}" in shown("order").alt
     assert "stranger" not in shown("order").alt
 
 
@@ -101,3 +104,14 @@ def test_an_engine_that_is_no_scheme_has_its_label_at_its_own_end() -> None:
     """At the largest dt, in black."""
     (label,) = [text for text in panels()[2].texts if "stranger" in text.get_text()]
     assert label.xy == (DTS[0], errors("stranger")[0])
+
+
+def test_what_has_no_error_at_the_largest_dt_has_no_label() -> None:
+    """Its line would have no end there; one that has none at the smallest has."""
+    for index, kept in ((-1, True), (0, False)):
+        without = [replace(one, errors=one.errors.copy()) for one in (row("rk4"), stranger())]
+        for one in without:
+            one.errors[index] = np.nan
+        schemes, _, engines, _ = draw("order", result_of(without)).figure.axes
+        for axes, label in ((schemes, "rk4"), (engines, "stranger")):
+            assert [said.split()[0] for said in words(axes) if not said.startswith("slope")] == [label] * kept

@@ -62,6 +62,7 @@ def test_known_lengths_are_where_they_are() -> None:
     """On an axis above, which goes with the one below."""
     axes = draw(ENGINES).figure.axes[0]
     (above,) = axes.child_axes
+    assert not above.spines["top"].get_visible()
     shown = dict(zip(above.get_xticks(), (label.get_text() for label in above.get_xticklabels()), strict=True))
     assert shown == {1e-3: "1 mm", 1e-6: "1 µm", 1e-10: "an atom", 1e-15: "a proton"}
 

@@ -129,9 +129,13 @@ def test_lines_have_marks_that_are_apart() -> None:
 def test_labels_are_at_the_ends_of_their_lines() -> None:
     """In the colour of each, for energies, forces and coordinates alike; what panels share is said in the first."""
     made = simulation("string", "heun", "euler", masses="2")
-    for what, says in ((Wanted("energy"), "energy [J]"), (Wanted("forces"), "spring force [N], tension positive")):
+    for what, *says in (
+        (Wanted("energy"), "energy [J]", ""),
+        (Wanted("forces"), "spring force [N], tension positive", ""),
+        (Wanted("coordinate", 1, 1), "y of mass 1 [m]"),
+    ):
         figure = draw(made, what).figure
-        assert [panel.get_ylabel() for panel in figure.axes] == [says, ""]
+        assert [panel.get_ylabel() for panel in figure.axes] == says
         for panel in figure.axes:
             assert panel.get_xlabel() == "time [s]"
             for line, text in zip(panel.get_lines(), panel.texts, strict=True):

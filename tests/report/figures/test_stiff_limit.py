@@ -24,6 +24,7 @@ def test_markers_are_the_table() -> None:
         assert data(found) == ([row["stiffness [N/m]"] for row in table], [row[column] for row in table])
         assert found.get_color() == text(axes, words).get_color()
         assert text(axes, words).get_text().startswith("measured: ")
+        assert text(axes, words).xy in list(zip(*data(marks(axes, marker="o")[0]), strict=True))
     (dots,), (squares,) = marks(axes, marker="o"), marks(axes, marker="s")
     assert dots.get_markersize() > squares.get_markersize()
     assert (dots.get_color(), squares.get_color()) == COLOURS[:2]
@@ -35,7 +36,10 @@ def test_the_dotted_line_falls_as_one_over_the_stiffness_through_the_last_dot() 
     (dotted,) = marks(axes, linestyle=":")
     stiffness, distance = data(dotted)
     assert np.array(distance) * stiffness == pytest.approx(np.full(5, 100.0))
-    assert text(axes, "predicted: 1/stiffness").get_color() == dotted.get_color()
+    said = text(axes, "predicted: 1/stiffness")
+    assert said.get_color() == dotted.get_color()
+    assert said.xy[0] * said.xy[1] == pytest.approx(100.0)
+    assert min(stiffness) < said.xy[0] < max(stiffness)
 
 
 def test_axes_have_units_and_are_logarithmic() -> None:

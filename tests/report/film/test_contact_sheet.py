@@ -23,6 +23,7 @@ from report.film.contact_sheet import (
     WIDE,
     ContactSheet,
     Shot,
+    _title,
     contact_sheet,
     grid,
 )
@@ -153,6 +154,19 @@ def test_as_many_columns_as_make_the_panels_largest(count: int, ratio: float, co
     down = sum(found.titles) + len(found.titles) * found.size[1]
     slack = [WIDE - BAR - BETWEEN - across, HIGH - TOP - BETWEEN - down, HIGHEST - found.size[1]]
     assert min(slack) == pytest.approx(0, abs=1e-9)
+
+
+def test_titles_of_a_row_have_room_for_the_longest() -> None:
+    """Wherever it stands; the row with short ones needs less."""
+    short, long = SHOTS[0], replace(SHOTS[0], names=tuple(f"an_engine_{i}" for i in range(12)))
+    for shots in ([short, long, short, short], [long, short, short, short]):
+        found = grid(shots, (0.0, 1.0, 0.0, 1.0))
+        assert found.columns == 2
+        needed = [sum(map(len, _title(shot, found.size[0]))) for shot in (long, short)]
+        assert found.titles == pytest.approx([0.165 * lines + 0.1 for lines in needed])
+        assert needed[0] > needed[1] == 2
+    in_lines = [len(_title(long, width)[0]) for width in (1.0, TITLE, 2 * TITLE)]
+    assert in_lines[0] == in_lines[1] > in_lines[2]
 
 
 def test_very_many_panels_are_small_and_in_few_rows() -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -49,6 +52,25 @@ def test_colours_of_strain_and_greys_come_through(tmp_path: Path) -> None:
     with written(tmp_path, frame) as image:
         off = np.abs(np.array(image.convert("RGB")).astype(int) - frame).max(axis=(0, 2))
     assert off.max() <= 8
+
+
+def test_an_mp4_is_handed_to_its_writer_picture_by_picture(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Width and height, then the bytes of each in their order, and the end."""
+    told: list[object] = []
+
+    def write_frames(path: Path, size: tuple[int, int], fps: float, **options: object) -> Iterator[None]:
+        told.extend([path, size, fps])
+        assert options == {"quality": 8, "macro_block_size": 2, "ffmpeg_log_level": "error"}
+        try:
+            while True:
+                told.append((yield))
+        finally:
+            told.append("closed")
+
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", SimpleNamespace(write_frames=write_frames))
+    frames = [stripes(np.full(3, value), np.zeros(3)) for value in (10, 20, 30)]
+    write_film(tmp_path / "part", tmp_path / "a.MP4", iter(frames), 12.5)
+    assert told == [tmp_path / "part", (16, 8), 12.5, *(frame.tobytes() for frame in frames), "closed"]
 
 
 def test_names_that_a_film_can_have(tmp_path: Path) -> None:

@@ -148,10 +148,23 @@ def test_a_film_is_framed_by_the_true_motion_or_by_what_did_not_blow_up_or_by_th
     assert framed.look.window == small
     assert [made.left for made in framed.shots] == [pytest.approx(0.1), None]
     assert [made.names for made in framed.shots] == [("wild",), ("calm",)]
-    assert film_of(SETUP, [wild], None).look.window == small
+    assert film_of(SETUP, [wild], None).look.window == look_at(SYSTEM, [Trajectory.of([SYSTEM.start])]).window
     by_true = film_of(SETUP, [calm], far)
     assert by_true.look.window[1] > 90
     assert film_of(SETUP, [shot("far", far), calm], None).look.window[1] > 90
+
+
+def test_colours_are_told_by_the_springs_there_are_in_the_first_motion() -> None:
+    """What it stretches by once it is broken has no part in them, whoever else is seen; unbroken, it has."""
+    system = find("chain").system({"masses": 3, "breaking_force": 0.8})
+    setup, there = replace(SETUP, system=system), np.repeat(system.positions[None], 5, axis=0)
+    torn = there.copy()
+    torn[1:, -1] -= 0.05
+    torn[2:, -1] -= 10 * system.size
+    breaking, whole = (
+        shot(name, Trajectory(SETUP.dt * np.arange(5), x, 0 * x)) for name, x in (("b", torn), ("w", there))
+    )
+    assert film_of(setup, [breaking, whole], None).look.most < 1 < look_at(system, [breaking.motion]).most
 
 
 def test_the_true_motion_is_seen_behind_where_masses_are_few() -> None:
