@@ -35,7 +35,9 @@ UNNAMED = "-"
     help="Also draw the reference and all engines, or the steppers named, as they move: FILE ends in .gif or .mp4; "
     "left out, results/SCENE.gif, or OUT/SCENE.gif.",
 )
-@click.option("--slow", type=float, default=1.0, help="By which factor --animate is slower than the motion.")
+@click.option(
+    "--slow", type=float, default=1.0, show_default=True, help="By which factor --animate is slower than the motion."
+)
 @time_limit_option
 def compare_command(
     setup: Setup,

@@ -106,7 +106,9 @@ def list_command(as_json: bool) -> None:
 @exercise_command.command("start")
 @click.argument("exercise")
 @click.argument("folder", required=False, type=click.Path(path_type=Path, file_okay=False))
-@click.option("--seed", default="example", help="Yours, where an exercise gives everybody other numbers.")
+@click.option(
+    "--seed", default="example", show_default=True, help="Yours, where an exercise gives everybody other numbers."
+)
 @click.option("--language", type=click.Choice(["python", "c"]), default="python", show_default=True)
 @key_option
 def start_command(

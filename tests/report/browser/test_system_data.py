@@ -12,7 +12,7 @@ from reference.errors import Unsupported
 from reference.scenes import find, scenes
 from report.browser.changes import drives_data
 from report.browser.presets import PRESETS, Preset
-from report.browser.recordings import Recording, largest_error, quantised, recording_data
+from report.browser.recordings import MOST, Recording, largest_error, quantised, recording_data
 from report.browser.system_data import refuse_beyond, scene_data, system_data
 
 
@@ -56,7 +56,9 @@ def test_a_recording_is_off_by_half_a_quantum_at_most() -> None:
     """Places are rounded to a quantum, in whole numbers of 16 bits; the end of the run is the reference's."""
     places = np.random.default_rng(0).normal(size=(7, 5, 3))
     offset, quantum, whole = quantised(places)
-    assert np.abs(whole).max() < 2**15
+    assert np.abs(whole).max() == MOST < 2**15
+    # as far on one side of the middle as on the other, along each axis
+    assert whole.max(axis=(0, 1)) == pytest.approx(-whole.min(axis=(0, 1)), abs=1)
     assert np.abs(whole * quantum + offset - places).max() <= quantum / 2 * (1 + 1e-9)
 
     setup = find("oscillator").setup({})

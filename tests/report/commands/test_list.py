@@ -15,6 +15,7 @@ from experiments.runs.steppers import all_steppers
 from reference.scenes import BESIDES, scenes
 from reference.schemes.catalogue import constraint_schemes, wide_schemes
 from reference.stepper import catalogued
+from report.commands.terminal import FOLDED
 from tests.report.commands.terminal import springlab
 
 
@@ -52,9 +53,14 @@ def test_the_json_lists_everything_there_is() -> None:
 
 
 def test_the_terminal_shows_every_name() -> None:
-    """In tables that fold sentences but never names."""
+    """In tables that fold sentences but never names, each cell under its heading."""
     said = springlab("list")
     assert said.code == 0
+    for rows in json.loads(springlab("list", "--json").out).values():
+        cells = [str(value) for row in rows for key, value in row.items() if key not in ("settings", "precision")]
+        # what is longer than a column of sentences is broken
+        words = {word for cell in cells for word in cell.split() if len(word) <= FOLDED}
+        assert words <= {*said.out.split()}
     for name in [*scenes(), *catalogued(), *constraint_schemes(), *registry(), *NAMES]:
         assert f" {name} " in said.out
 

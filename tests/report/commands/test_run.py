@@ -24,6 +24,7 @@ def test_run_writes_figure_and_tables_and_goes_on_after_a_failure(
     assert said.err == "springlab: errata: ArithmeticError: no\n"
     assert find("stiff_limit").question in " ".join(said.out.split())
     assert {file.name for file in (tmp_path / "stiff_limit").iterdir()} == {"stiff_limit.csv", "stiff_limit.svg"}
+    assert springlab("run", "stiff_limit", "--out", str(tmp_path)).code == 0
 
 
 def test_a_store_that_fails_midway_ends_run_with_its_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import click
 import pytest
@@ -46,3 +47,18 @@ def test_the_unit_is_that_of_the_quantity(name: str, option: str, says: str) -> 
     """Of some."""
     (found,) = [one for one in options(command(name)) if one.name == option]
     assert says in (found.help or "")
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_what_is_taken_where_nothing_is_given_is_shown(name: str) -> None:
+    """Of every option that has a default; of one that has none nothing."""
+    given = {option.name: option.default for option in options(command(name)) if not (option.is_flag or option.multiple)}
+    known = {key for key, value in given.items() if isinstance(value, int | float | str | Path)}
+    assert {option.name for option in options(command(name)) if option.show_default} == known
+
+
+def test_a_scene_comes_first_and_then_what_is_set_of_it() -> None:
+    """In one order in every command's help: its step, how long, what is set, and what changes on the way."""
+    for name in ("simulate", "modes", "compare", "identify"):
+        first = [one.name for one in command(name).params if one.name != "stepper"][:7]
+        assert first == ["scene", "dt", "duration", "settings", "changes", "ramps", "sines"]
