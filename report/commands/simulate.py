@@ -45,7 +45,9 @@ TOLD_FROM, MANY_ROWS = 2**28, 2_000_000
     metavar="WHAT",
     help="Draw paths, energy, forces, or a mass's coordinate, as 10:y; any number of times; into OUT, or results.",
 )
-@click.option("--every", type=click.IntRange(min=1), default=1, show_default=True, help="Only every so many steps in files.")
+@click.option(
+    "--every", type=click.IntRange(min=1), default=1, show_default=True, help="Only every so many steps in files."
+)
 @click.option("--animate", is_flag=True, help="Also a film of each, NAME.gif.")
 @time_limit_option
 def simulate_command(

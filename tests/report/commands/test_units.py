@@ -52,7 +52,9 @@ def test_the_unit_is_that_of_the_quantity(name: str, option: str, says: str) -> 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_what_is_taken_where_nothing_is_given_is_shown(name: str) -> None:
     """Of every option that has a default; of one that has none nothing."""
-    given = {option.name: option.default for option in options(command(name)) if not (option.is_flag or option.multiple)}
+    given = {
+        option.name: option.default for option in options(command(name)) if not (option.is_flag or option.multiple)
+    }
     known = {key for key, value in given.items() if isinstance(value, int | float | str | Path)}
     assert {option.name for option in options(command(name)) if option.show_default} == known
 
