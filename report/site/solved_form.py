@@ -43,7 +43,7 @@ class _Step:
     Attributes:
         start: x, v and what is remembered, each all coordinates in a row.
         end: the same after it.
-        asked: at which (x, v) accelerations were asked for, each once, and these.
+        asked: at which (x, v) accelerations were asked for at last, and these, the last one first.
     """
 
     start: Sequence[Array]
@@ -125,16 +125,9 @@ def _stepped(scheme: Scheme, h: float) -> _Step:
     start = start.remembering(*(some() for _ in step(start, h).memory)) if not scheme.one_step else start
     motion.asked.clear()
     end = step(start, h)
-    asked: list[tuple[Array, Array, Array]] = []
-    for place in reversed([tuple(q[free].ravel() for q in one) for one in motion.asked]):
-        if not any(_alike(place[0], other[0]) and _alike(place[1], other[1]) for other in asked):
-            asked.append((place[0], place[1], place[2]))
-    rows = [[q[free].ravel() for q in (s.positions, s.velocities, *s.memory)] for s in (start, end)]
-    return _Step(rows[0], rows[1], asked[:LAST])
-
-
-def _alike(one: Array, other: Array) -> bool:
-    return bool(np.abs(one - other).max() <= LEFT * np.abs(one).max())
+    before, after = ([q[free].ravel() for q in (s.positions, s.velocities, *s.memory)] for s in (start, end))
+    asked = [(x[free].ravel(), v[free].ravel(), a[free].ravel()) for x, v, a in reversed(motion.asked)]
+    return _Step(before, after, asked[:LAST])
 
 
 def _coefficients(step: _Step) -> Array:
@@ -154,8 +147,7 @@ def _sums(step: _Step, chosen: Sequence[tuple[Array, Array, Array]]) -> Array | 
     """The rows for some places, which come in the order of how far velocities carry them; None if any does not fit."""
     terms = np.stack([*step.start, *(place[2] for place in chosen)], axis=1)
     wanted = np.stack([*step.end, *(q for place in chosen for q in place[:2])], axis=1)
-    size = np.abs(terms).max(axis=0)
-    rows = (np.linalg.lstsq(terms / size, wanted, rcond=None)[0] / size[:, None]).T
+    rows = np.linalg.lstsq(terms, wanted, rcond=None)[0].T
     if (np.abs(terms @ rows.T - wanted).max(axis=0) > LEFT * np.abs(wanted).max(axis=0)).any():
         return None
     known = len(step.start)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from engines.engine import CAPABILITIES, registry
+from engines.engine import CAPABILITIES, precision, registry
 from report.site.engines_page import engines_page, refusals
 
 
@@ -13,7 +13,7 @@ def test_every_engine_is_in_every_table() -> None:
     page = engines_page()
     for name, engine in registry().items():
         assert page.count(f"`{name}`") == 3
-        (row,) = re.findall(rf"^\| `{name}` \| {engine.package} .*$", page, re.MULTILINE)
+        (row,) = re.findall(rf"^\| `{name}` \| {engine.package} \| {precision(engine)} \| .*$", page, re.MULTILINE)
         assert all(f"`{scheme}`" in row for scheme in engine.identified_as.values())
 
 
