@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 from click.testing import CliRunner
@@ -18,14 +19,15 @@ def checked(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Which of the two was done; nothing is run."""
     done: list[str] = []
     monkeypatch.setattr(exercise, "_check_class", lambda *given: done.append("class"))
-    monkeypatch.setattr(exercise, "_check_one", lambda *given: done.append("one"))
+    monkeypatch.setattr(exercise, "_check_one", lambda path, *given: done.append(f"one, drawn beside {path}"))
     return done
 
 
 @pytest.mark.parametrize(
     ("files", "options", "expected"),
     [
-        (("a.py",), (), "one"),
+        (("a.py",), (), "one, drawn beside a.py"),
+        (("c.zip",), (), "one, drawn beside c.zip"),  # what is unpacked is gone after it
         (("a.py", "b.py"), (), "class"),
         (("a.py",), ("--csv", "grades.csv"), "class"),
         (("a.py", "b.py"), ("--csv", "grades.csv"), "class"),
@@ -44,6 +46,8 @@ def test_several_files_or_a_table_are_a_class(
     monkeypatch.chdir(tmp_path)
     for name in ("a.py", "b.py"):
         Path(name).write_text(PROGRAM, encoding="utf-8")
+    with ZipFile("c.zip", "w") as packed:
+        packed.writestr("mine.py", PROGRAM)
     ran = CliRunner().invoke(check_command, [*files, *options], catch_exceptions=False)
     assert ran.exit_code == 0
     assert checked == [expected]

@@ -5,11 +5,16 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Iterator
+from math import nan
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from experiments.simulation.modes_of_scene import StepperSwing, Swing
+from report.commands.modes import _show_swings
 from tests.report.commands.terminal import springlab
 from tests.report.commands.test_simulate import table
 
@@ -75,6 +80,30 @@ def test_what_a_stepper_makes_of_the_modes_stands_beside_them() -> None:
     for column, wanted in ((1, rates.imag / (2 * np.pi)), (3, -rates.real / np.abs(rates))):
         assert numbers[:, column] == pytest.approx(wanted, rel=1e-2)
         assert numbers[:, column + 1] == pytest.approx(wanted, rel=1e-2)
+
+
+def test_as_what_an_engine_is_predicted_is_told_where_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+    """Of each stepper once; of a scheme, and of what is not predicted, nothing. Of modes beyond those shown no row."""
+    natural = SimpleNamespace(frequencies=np.array([2.0, 8.0, 16.0]))
+    made: Any = [
+        StepperSwing("engine", 0, Swing(2.5, 0.25), Swing(2.25, nan), "odd", "heun"),
+        StepperSwing("engine", 1, Swing(7.5, 0.125), None, "", "heun"),
+        StepperSwing("lost", 1, None, Swing(7.0, 0.5), "no step", "rk4"),
+        StepperSwing("euler", 2, Swing(15.0, -0.5), None),
+    ]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("report.commands.modes.SHOWN", 2)
+        _show_swings(SimpleNamespace(setup=SimpleNamespace(dt=0.5), natural=natural), made)  # type: ignore[arg-type]
+    said = capsys.readouterr().out
+    _, *rows = table(said, "What steppers make of the modes at dt = 0.5 s")
+    assert rows == [
+        ["engine", "1", "2", "2.5", "2.25", "0.25", "-", "odd"],
+        ["engine", "2", "8", "7.5", "-", "0.125", "-"],
+        ["lost", "2", "8", "-", "7", "-", "0.5", "no", "step"],
+    ]
+    assert [line for line in said.splitlines() if "predicted as" in line] == [
+        "engine is predicted as heun, as which it is identified here."
+    ]
 
 
 def test_json_has_each_stepper_and_each_mode() -> None:

@@ -54,9 +54,9 @@ def test_the_file_is_opened_where_that_is_asked_for(tmp_path: Path, monkeypatch:
     out = tmp_path / "lab.html"
     words = ["spring", "chain", "spring", "--out", str(out)]
     words += ["--record", "pymunk_springs", "--record", "heun", "--with", "one", "--with", "two"]
-    for more in ([], ["--open"]):
+    for more, shown in ([], []), (["--open"], [out.resolve().as_uri()]):
         CliRunner().invoke(page_command, [*words, *more], catch_exceptions=False)
+        assert opened == shown
     assert asked == [(["spring", "chain"], ["pymunk_springs", "heun"], ("one", "two"))] * 2
-    assert opened == [out.resolve().as_uri()]
     with pytest.raises(InputError, match="expected a SCENE with it"):
         CliRunner().invoke(page_command, ["--record", "heun", "--out", str(out)], catch_exceptions=False)

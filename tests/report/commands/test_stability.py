@@ -112,11 +112,12 @@ def test_a_map_is_a_figure_and_a_table_of_growth(tmp_path: Path, monkeypatch: py
     """A point for each pair of values, from one end of each range to the other: Pymunk's on 5 x 5 here."""
     assert stability_map.ENGINE == 16
     monkeypatch.setattr(stability_map, "ENGINE", 5)
+    out = tmp_path / "made" / "for it"
     words = ("--stepper", "pymunk_springs", "--range", "dt=1e-3:4e-3", "--range", "damping=0:0.1")
-    done = springlab("stability", "spring", "--map", "dt", "damping", *words, "--out", str(tmp_path))
+    done = springlab("stability", "spring", "--map", "dt", "damping", *words, "--out", str(out))
     assert done.code == 0, done.err
-    assert (tmp_path / "pymunk_springs-dt-damping.svg").read_text(encoding="utf-8").startswith("<svg")
-    with (tmp_path / "pymunk_springs-dt-damping.csv").open(newline="", encoding="utf-8") as file:
+    assert (out / "pymunk_springs-dt-damping.svg").read_text(encoding="utf-8").startswith("<svg")
+    with (out / "pymunk_springs-dt-damping.csv").open(newline="", encoding="utf-8") as file:
         rows = [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
     assert len(rows) == 5 * 5
     assert (rows[0]["dt [s]"], rows[-1]["dt [s]"]) == (1e-3, 4e-3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from reference.errors import InputError, SolverError
-from report.commands.terminal import FOLDED, GAP, _widths, exit_if_files_failed, in_one_line
+from report.commands.terminal import FOLDED, GAP, _parts, _widths, exit_if_files_failed, in_one_line
 
 
 def test_columns_that_are_folded_share_the_room_that_is_left() -> None:
@@ -21,6 +21,21 @@ def test_columns_that_are_folded_share_the_room_that_is_left() -> None:
     wide = _widths(columns, cells, part, 400)
     assert [wide[i] for i in part] == [len("backward_euler"), 120, 60, len("0.0125")]
     assert _widths(columns, cells, [0, 2], 0) == {0: len("backward_euler"), 2: FOLDED}
+
+
+def test_columns_that_do_not_fit_beside_one_another_are_several_tables() -> None:
+    """As few as will do, each with the first column: here of 10 and 20, 40 and 5, 30, with GAP beside each."""
+    columns, cells = ["a", "b", "c", "d", "e"], [["a" * 7, "b" * 17, "c" * 37, "d" * 2, "e" * 27]]
+    assert _parts(columns, cells, 105, folded=False) == [[0, 1, 2, 3, 4]]
+    assert _parts(columns, cells, 104, folded=False) == [[0, 1, 2, 3], [0, 4]]
+    assert _parts(columns, cells, 55, folded=False) == [[0, 1], [0, 2, 3], [0, 4]]
+    assert _parts(columns, cells, 40, folded=False) == [[0, 1], [0, 2], [0, 3], [0, 4]]
+    # one that is wider than all there is stands alone beside the first; a sentence is folded to FOLDED
+    assert _parts(columns, cells, 20, folded=False) == [[0, 1], [0, 2], [0, 3], [0, 4]]
+    sentence = [["a" * 7, "b " * 30]]
+    assert _parts(["a", "b"], sentence, 10 + FOLDED + GAP, folded=True) == [[0, 1]]
+    assert _parts(["a", "b", "c"], [[*sentence[0], "c"]], 10 + FOLDED + GAP + 3, folded=True) == [[0, 1], [0, 2]]
+    assert _parts(["a", "b", "c"], [[*sentence[0], "c"]], 10 + FOLDED + GAP + 4, folded=True) == [[0, 1, 2]]
 
 
 @pytest.mark.parametrize(

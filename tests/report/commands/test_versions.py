@@ -9,6 +9,7 @@ import pytest
 
 from experiments.engine_versions import baseline
 from experiments.engine_versions import versions as engine_versions
+from experiments.engine_versions.versions import VersionMeasurements
 from report.commands.main import springlab
 from report.commands.versions import _show
 from tests.experiments.engine_versions.spring_versions import LIMIT, MEASURED, subject
@@ -34,6 +35,11 @@ def test_in_words_it_prints_the_findings_and_the_files(tmp_path: Path, capsys: p
         json.loads(printed)
     files = printed.partition("written: ")[2].split(", ")
     assert len(files) >= 3
+    assert f"{LIMIT} 0.01 0.011" in printed
+    assert "engine measure 1.9.0 1.10.0 2.0.0" in printed
+    alone = VersionMeasurements("spring", {"1.9.0": MEASURED.rows["1.9.0"]})
+    assert _show([(subject(), alone)], False, tmp_path) == 0
+    assert "engine measure" not in capsys.readouterr().out  # no changes, no table of them
     for file in files:
         assert Path(file).stat().st_size > 0
 
@@ -44,9 +50,16 @@ def test_the_baseline_is_written_where_that_is_asked_for(
 ) -> None:
     """And only there: with --update-baseline, one file for each engine that was measured."""
     written: list[object] = []
+    asked_patiently: list[bool] = []
+
+    def measure(*asked: object, patient: bool) -> VersionMeasurements:
+        asked_patiently.append(patient)
+        return MEASURED
+
     monkeypatch.setattr(engine_versions, "find_subject", lambda name: subject())
-    monkeypatch.setattr(engine_versions, "measure_versions", lambda *asked, **how: MEASURED)
+    monkeypatch.setattr(engine_versions, "measure_versions", measure)
     monkeypatch.setattr(baseline, "write", lambda found: written.append(found) or tmp_path)
     words = ["versions", "spring", "1.9.0", "1.10.0", "--out", str(tmp_path)]
     assert springlab.main([*words, *["--update-baseline"] * update], standalone_mode=False) == 0
     assert written == [MEASURED] * update
+    assert asked_patiently == [False]  # versions that are named are not waited for
