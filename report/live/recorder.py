@@ -64,7 +64,7 @@ class Recorder:
                 row.append(float(np.linalg.norm(momentum(system, state) - right_momentum)))
                 row.append(distance(state, right))
         self._rows.append(tuple(row))
-        self._first = self._first or self._rows[0]
+        self._first = self._first or tuple(row)
 
     @property
     def begin(self) -> Array:

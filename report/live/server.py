@@ -10,6 +10,7 @@ import threading
 import time
 import warnings
 from collections.abc import Sequence
+from typing import Any
 
 from reference.errors import InputError
 from report.live.access import guarded, policy_for
@@ -55,9 +56,8 @@ class LiveServer:
         class Server(viser.ViserServer):  # type: ignore[misc]
             """One that never opens a way in from outside."""
 
-            def request_share_url(self, verbose: bool = True) -> str | None:
+            def request_share_url(self, *_: Any, **__: Any) -> None:
                 """Refuse."""
-                return None
 
         # A viewer may leave in the middle of a frame: what was for it is nobody's then.
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")

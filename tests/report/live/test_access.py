@@ -102,6 +102,8 @@ def test_a_page_that_is_allowed_comes_in_and_others_do_not_with_it() -> None:
 def test_open_to_all_its_own_addresses_are_those_that_are_come_to() -> None:
     """Whoever comes to 10.0.0.5 may call it so; 0.0.0.0 is nobody's name."""
     policy = AccessPolicy("0.0.0.0")
+    assert policy.allows("10.0.0.5:8080", None, "10.0.0.5", handshake=False)
+    assert not policy.allows("10.0.0.5:8080", None, "10.0.0.5", handshake=True)
     assert policy.allows("10.0.0.5:8080", "http://10.0.0.5:8080", "10.0.0.5", handshake=True)
     assert not policy.allows("10.0.0.6:8080", "http://10.0.0.6:8080", "10.0.0.5", handshake=True)
     assert not policy.allows("0.0.0.0:8080", "http://0.0.0.0:8080", "10.0.0.5", handshake=True)

@@ -156,6 +156,12 @@ def test_settings_of_a_scene_are_those_that_are_not_its_own(page: Page, labs: li
     assert page.part("stiffness [times its own]").value == 1.0
     assert isinstance(page.part("kind").value, str)
     assert page.part("kind").value == page.part("kind").values[0][0]
+    page.part("panels").move(5)
+    page.part("kind").move(page.part("kind").values[0][-1])
+    assert page.asked[3:] == [
+        ("open", "bridge", {"panels": "5"}, False),
+        ("open", "bridge", {"panels": "5", "kind": page.part("kind").value}, False),
+    ]
 
 
 def test_what_the_scene_changes_itself_has_no_slider(labs: list[Lab]) -> None:

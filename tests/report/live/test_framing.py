@@ -7,7 +7,9 @@ from itertools import product
 import numpy as np
 import pytest
 
+from reference.obstacles import Circle, Obstacle, Plane
 from reference.state import Array
+from reference.system import MassSpringSystem
 from report.live.framing import FILLED, TOWARDS, Window, box, camera, side_by_side
 from report.live.scenes import names, open_scene
 
@@ -61,3 +63,53 @@ def test_lanes_side_by_side_do_not_overlap_and_use_the_window() -> None:
         assert len(np.unique(shifts[:, 0])) == columns
         for i, j in product(range(4), range(4)):
             assert i == j or (np.abs(shifts[i, :2] - shifts[j, :2]) >= size - 1e-9).any()
+
+
+def row(*places: tuple[float, float], fixed: tuple[int, ...] = (), obstacles: tuple[Obstacle, ...] = ()) -> Array:
+    """The box of masses at these places [m], shape (2, 3)."""
+    system = MassSpringSystem(
+        positions=np.array(places),
+        springs=np.column_stack([np.arange(len(places) - 1), np.arange(1, len(places))]),
+        masses=np.array(1.0),
+        rest_lengths=np.array(1.0),
+        stiffness=np.array(1.0),
+        fixed=np.isin(np.arange(len(places)), fixed),
+        obstacles=obstacles,
+    )
+    return np.stack(box(system)) + 0.1 * system.size * np.array([[1.0], [-1.0]])
+
+
+def test_what_is_flat_and_held_will_hang() -> None:
+    """Less high than a tenth of its size: 0.8 of that below; held by one mass it swings to the other side of that."""
+    flat = (1.0, 2.0), (2.0, 2.1), (3.0, 2.0)
+    low, high = 2.0 - 0.8 * 2.0, 2.1
+    assert row(*flat) == pytest.approx(np.array([[1, 2, 0], [3, 2.1, 0]]))
+    assert row(*flat, fixed=(0, 2)) == pytest.approx(np.array([[1, low, 0], [3, high, 0]]))
+    assert row(*flat, fixed=(0,)) == pytest.approx(np.array([[-1, low, 0], [3, high, 0]]))
+    assert row(*flat, fixed=(1,)) == pytest.approx(np.array([[1, low, 0], [3, high, 0]]))
+    assert row(*flat, fixed=(2,)) == pytest.approx(np.array([[1, low, 0], [5, high, 0]]))
+    steep = ((1.0, 2.0), (2.0, 2.3), (3.0, 2.0))
+    assert row(*steep, fixed=(0,)) == pytest.approx(np.array([[1, 2, 0], [3, 2.3, 0]]))
+
+
+def test_round_obstacles_no_larger_than_the_system_are_in_the_picture() -> None:
+    """Larger ones are not, nor planes."""
+    steep = ((1.0, 2.0), (2.0, 5.0), (4.0, 2.0))
+    alone = np.array([[1, 2, 0], [4, 5, 0]])
+    assert row(*steep, obstacles=(Plane((0.0, -9.0), (0.0, 1.0)), Circle((2.0, 12.0), 5.0))) == pytest.approx(alone)
+    low_left, up_right = Circle((-1.0, 0.0), 2.0), Circle((6.0, 7.0), 3.0)
+    assert row(*steep, obstacles=(low_left,)) == pytest.approx(np.array([[-3, -2, -2], [4, 5, 2]]))
+    assert row(*steep, obstacles=(low_left, up_right)) == pytest.approx(np.array([[-3, -2, -3], [9, 10, 3]]))
+
+
+@pytest.mark.parametrize("window", WINDOWS, ids=str)
+def test_lanes_that_are_apart_are_all_in_the_picture(window: Window) -> None:
+    """Across, and one above the other: the farthest corner of all is at the border of what is filled."""
+    system = open_scene("string").system
+    low, high = box(system)
+    for shifts in (np.array([[0.0, 0.0, 0.0], [3.0, -5.0, 0.0]]), np.array([[-4.0, 1.0, 0.0], [0.5, 2.0, 0.0]])):
+        place, target = camera(system, shifts, window)
+        corners = np.array(list(product(*zip(low + shifts.min(axis=0), high + shifts.max(axis=0), strict=True))))
+        shown = seen(corners, place, target, window)
+        shown[:, 1] = (shown[:, 1] - window.covered) / (1 - window.covered)
+        assert np.abs(shown).max() == pytest.approx(FILLED)

@@ -60,6 +60,8 @@ def test_what_is_the_same_of_all_is_moved_in_its_unit() -> None:
     assert slider(system, "mass") == Slider("mass", "kg", 0.5, 0.005, 50.0, False)
     assert slider(system, "rest_length") == Slider("rest_length", "m", 1.0, 0.01, 100.0, False)
     assert own_value(system, "stiffness", 3.0) == 3.0
+    rounded = string(masses=np.array([0.3, 0.1 + 0.2, 0.3]))
+    assert slider(rounded, "mass").unit == "kg"  # they differ by rounding only
 
 
 def test_springs_without_length_or_stiffness_may_have_some() -> None:

@@ -17,6 +17,8 @@ def test_numbers_on_an_axis_have_at_most_three_figures(size: float) -> None:
         assert size / 10.0**chosen < 1000
         assert size / 10.0**chosen >= 0.2 or chosen == min(PREFIXES)
         assert power(values, chosen) == chosen
+        assert power(1e9 * values, now) > chosen or chosen == max(PREFIXES)
+    assert power(np.array([1e99]), 0) == max(PREFIXES)
 
 
 def test_of_logarithms_nothing_is_below_rounding() -> None:

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from threading import Event
 
 import numpy as np
 import pytest
 
+from reference.errors import SolverError
+from reference.obstacles import Plane
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.theory.equilibria import equilibrium_on_obstacles, spring_equilibrium
 from reference.theory.limits import explicit_damping_limit, stability_limit
 from reference.theory.modes import string_mode
-from report.live.prediction import Predictor, predict
+from report.live import prediction
+from report.live.prediction import GROWTH_UP_TO, MOST, ON_OBSTACLES_UP_TO, Prediction, Predictor, percent, predict
 
 
 @pytest.mark.rotating(3, in_turn=True)
@@ -75,4 +79,120 @@ def test_the_last_question_is_answered() -> None:
     predictor.wait(600)
     wanted = predict("kick_drift", system.with_parameter("stiffness", 195), 1e-3)
     assert predictor.found["kick_drift"].limit == pytest.approx(wanted.limit, rel=1e-12)
+    predictor.end()
+
+
+@pytest.fixture
+def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, int]]:
+    """Which rest was looked for, of how many coordinates; what is said of it is not."""
+    found: list[tuple[str, int]] = []
+    monkeypatch.setattr(prediction, "spring_equilibrium", lambda system: ("springs", len(system.obstacles)))
+    monkeypatch.setattr(prediction, "equilibrium_on_obstacles", lambda system: [("obstacles", len(system.obstacles))])
+    monkeypatch.setattr(
+        prediction, "_about", lambda rest, scheme, dt, coordinates: found.append((rest[0], coordinates)) or rest
+    )
+    return found
+
+
+@pytest.mark.parametrize(
+    ("masses", "obstacle", "stepper", "rest"),
+    [
+        (ON_OBSTACLES_UP_TO // 2, True, "heun", "obstacles"),
+        (ON_OBSTACLES_UP_TO // 2 + 1, True, "heun", "springs"),
+        (10, True, "mujoco_tendons", "springs"),
+        (10, False, "heun", "springs"),
+        (MOST // 2, True, "heun", "springs"),
+    ],
+)
+def test_rest_is_looked_for_on_obstacles_where_masses_are_few(
+    asked: list[tuple[str, int]], masses: int, obstacle: bool, stepper: str, rest: str
+) -> None:
+    """By those that can move, each with two coordinates; of schemes, where there are obstacles."""
+    system = find_scene("string").system({"masses": masses})
+    system = replace(system, obstacles=(Plane((0.0, -9.0), (0.0, 1.0)),) * obstacle)
+    assert predict(stepper, system, 1e-3) == (rest, int(rest == "obstacles"))
+    assert asked == [(rest, 2 * masses)]
+
+
+def test_of_very_large_systems_no_limit_is_looked_for(asked: list[tuple[str, int]]) -> None:
+    """They are told how many coordinates there are, and where it is."""
+    found = predict("semi_implicit_euler", find_scene("string").system({"masses": MOST // 2 + 1}), 1e-3)
+    assert (found.limit, found.scheme, asked) == (None, "kick_drift", [])
+    assert found.reason == f"not looked for, of {MOST + 2} coordinates; `stability` does"
+    assert np.isnan(found.growth)
+
+
+def test_where_no_rest_is_found_on_obstacles_that_of_the_springs_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And where there is none of these, why is said."""
+
+    def none(system: object) -> None:
+        raise SolverError("no rest")
+
+    system = replace(find_scene("string").system({"masses": 3}), obstacles=(Plane((0.0, -9.0), (0.0, 1.0)),))
+    monkeypatch.setattr(prediction, "equilibrium_on_obstacles", none)
+    assert predict("kick_drift", system, 1e-3) == predict("kick_drift", replace(system, obstacles=()), 1e-3)
+    monkeypatch.setattr(prediction, "spring_equilibrium", none)
+    assert predict("kick_drift", system, 1e-3).reason == "no rest"
+
+
+def test_growth_is_told_where_the_jacobian_is_small() -> None:
+    """Just beyond the limit more than one; of more coordinates it is not a number. The fastest rate is 2 over it."""
+    few, many = (find_scene("string").system({"masses": n, "drag": 0.0}) for n in (2, GROWTH_UP_TO // 2 + 1))
+    found = predict("kick_drift", few, 1e-3)
+    assert found.limit is not None
+    assert found.fastest * found.limit == pytest.approx(2.0, rel=1e-6)
+    assert predict("kick_drift", few, 1.1 * found.limit).growth > 1.5
+    assert np.isnan(predict("kick_drift", many, 1e-3).growth)
+
+
+def test_what_is_said_of_a_dt_has_its_numbers() -> None:
+    """Over the limit with the growth, below it without; where there is none, why."""
+    known = Prediction(0.01, "", 1.25, "heun", 200.0)
+    over = "dt = 20 ms is 2 times the predicted largest stable dt, 10 ms."
+    assert known.of(0.02) == f"{over} dt times omega is 4, over 2. The fastest mode grows 25 % a step."
+    assert replace(known, fastest=np.nan).of(0.02) == f"{over} The fastest mode grows 25 % a step."
+    assert replace(known, growth=1.0 + 1e-7).of(0.02) == f"{over} dt times omega is 4, over 2."
+    for dt, times in ((0.005, "5 ms is 0.5"), (0.01, "10 ms is 1")):
+        assert known.of(dt) == (
+            f"dt = {times} times the predicted largest stable dt, 10 ms. That limit is for small swings about the "
+            "rest, and these are large."
+        )
+    none = Prediction(None, "unstable at any dt", 2.5, "euler")
+    grows = "The fastest mode grows 2.5-fold a step."
+    assert none.of(0.02) == f"Theory knows no largest stable dt here: unstable at any dt. {grows}"
+    assert [percent(part) for part in (0.001, 0.999, 1.0, 99.0, np.inf, np.nan)] == [
+        "0.1 %",
+        "1e+02 %",
+        "2-fold",
+        "100-fold",
+        "without bound",
+        "without bound",
+    ]
+
+
+def test_a_question_about_another_system_is_not_answered_with_that_of_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is known at once; what is just being found out of the one before is not kept. In the end it ends."""
+    begun, go_on = Event(), Event()
+
+    def slow(name: str, system: object, dt: float) -> str:
+        begun.set()
+        assert go_on.wait(600)
+        return f"{name} {dt:g}"
+
+    monkeypatch.setattr(prediction, "predict", slow)
+    predictor, system = Predictor(), find_scene("string").system({})
+    predictor.ask(["heun", "rk4", "heun"], system, 1.0)
+    assert begun.wait(600)
+    predictor.forget()
+    go_on.set()
+    predictor.wait(600)
+    assert predictor.found == {}
+    predictor.ask(["heun", "rk4", "heun"], system, 2.0)
+    predictor.wait(600)
+    assert predictor.found == {"heun": "heun 2", "rk4": "rk4 2"}
+    predictor.forget()
+    assert predictor.found == {}
+    predictor.ask(["euler"], system, 3.0)
+    predictor.wait(600)
+    assert predictor.found == {"euler": "euler 3"}
     predictor.end()

@@ -118,7 +118,7 @@ def test_a_ball_is_round_and_its_faces_look_outwards() -> None:
 
 def test_lanes_side_by_side_have_their_names_above_them() -> None:
     """In the middle of what there is to see; over one another they have none, and no shift."""
-    system = replace(row(), positions=np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]))
+    system = replace(row(), positions=np.array([[0.5, 0.0], [1.5, 0.0], [1.5, 1.0]]))
     client = viewer()
     made = stage(client)
     shown = timeline(system, *[system.positions] * 3)
