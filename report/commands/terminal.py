@@ -150,7 +150,7 @@ def show_result(experiment: Experiment, result: Result) -> None:
     from rich.markup import escape
 
     console = Console(highlight=False)
-    console.print(f"[bold]{experiment.title}[/bold]\n{experiment.question}\n")
+    console.print(f"[bold]{escape(experiment.title)}[/bold]\n{escape(experiment.question)}\n")
     for finding in result.findings:
         console.print(f"- {finding}", markup=False)
     table: Table = result.tables[0]

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,7 +20,7 @@ from reference.derivation.tableau import Tableau
 from reference.motion import MotionOfSprings
 from reference.schemes.catalogue import Scheme, find
 from reference.schemes.structural import hht
-from reference.state import State
+from reference.state import Array, State
 from reference.stepper import SchemeStepper
 from report.derived_table import FILE, _alike, _order, _same, _table, engine_rows, line_of, row_of, steppers
 from report.listings import stepper_rows
@@ -54,6 +56,26 @@ def test_a_mistake_is_told_in_the_table() -> None:
     wrongly = step_matrix(runs_of(SchemeStepper(wrong.heun_without_half)))
     assert _same(find("heun"), wrongly, None) == "**no**"
     assert _same(wrong.heun_without_half, wrongly, None) == "yes"
+
+
+@pytest.mark.parametrize(
+    ("linear", "off", "same"),
+    [(True, 0.5, "yes"), (True, 2.0, "**no**"), (False, 2.0, "yes"), (False, 500.0, "yes"), (False, 2000.0, "**no**")],
+)
+def test_what_is_linear_is_held_to_a_billionth_and_other_things_to_a_millionth(
+    linear: bool, off: float, same: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of which differences are taken about a rest. Theory has another matrix at each oscillator."""
+    monkeypatch.setattr("report.derived_table._by_theory", lambda scheme, a, b, d: np.diag([a, b + d]))
+    monkeypatch.setattr("report.derived_table.A", (1.0, 2.0))
+    monkeypatch.setattr("report.derived_table.B", (3.0, 5.0))
+
+    def at(a: Array, b: Array, d: Array) -> Array:
+        return np.array([np.diag([a[0] + 1e-9 * off * (a[0] == 2.0), b[0] + d[0]])])
+
+    matrix: Any = SimpleNamespace(damped=True, dragged=True, at=at)
+    scheme: Any = SimpleNamespace(linear=linear)
+    assert _same(scheme, matrix, None) == same
 
 
 def test_a_mistake_in_what_is_remembered_is_told() -> None:

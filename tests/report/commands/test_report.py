@@ -94,3 +94,19 @@ def test_the_page_is_opened_where_that_is_asked_for(
     for words, shown in ((), []), (("--open",), [str(tmp_path / "index.html")]):
         run("--out", str(tmp_path), "--store", str(tmp_path / "store"), *words)
         assert opened == shown
+
+
+def test_processes_are_made_ready_where_nothing_is_kept(
+    asked: list[dict[str, Any]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At once, of a page of experiments: a scene's is made here, and what is kept is shown again."""
+    made: list[bool] = []
+    monkeypatch.setattr("report.page.processes.prepare_processes", lambda at_once: made.append(at_once))
+    store, words = tmp_path / "store", ("--out", str(tmp_path), "--store", str(tmp_path / "store"))
+    run("string", *words)
+    assert made == []
+    run(*words)
+    assert made == [True]
+    store.touch()
+    run(*words)
+    assert made == [True]

@@ -70,6 +70,7 @@ def test_headings_have_units() -> None:
     """Those of `springlab compare`, and those of the scenes' parameters."""
     names = ("stiffness", "gravity", "dt", "error_m", "identified_as", "outcome")
     wanted = ["stiffness [N/m]", "gravity [m/s^2]", "dt [s]", "error [m]", "identified as", "outcome"]
+    assert heading("identification_error_m") == "deviation [m]"
     assert [heading(name) for name in names] == wanted
 
 

@@ -2,10 +2,25 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 import pytest
 
+from experiments.experiment import Result, Table, find
 from reference.errors import InputError, SolverError
-from report.commands.terminal import FOLDED, GAP, _parts, _widths, exit_if_files_failed, in_one_line
+from report.commands.terminal import (
+    FOLDED,
+    GAP,
+    _parts,
+    _widths,
+    exit_if_files_failed,
+    in_one_line,
+    progress,
+    show_lines,
+    show_result,
+    show_table,
+)
 
 
 def test_columns_that_are_folded_share_the_room_that_is_left() -> None:
@@ -21,6 +36,69 @@ def test_columns_that_are_folded_share_the_room_that_is_left() -> None:
     wide = _widths(columns, cells, part, 400)
     assert [wide[i] for i in part] == [len("backward_euler"), 120, 60, len("0.0125")]
     assert _widths(columns, cells, [0, 2], 0) == {0: len("backward_euler"), 2: FOLDED}
+
+
+def plain(text: str) -> str:
+    """Without what a terminal obeys."""
+    return re.sub(r"\x1b\[[\d;?]*[A-Za-z]", "", text)
+
+
+def test_progress_is_a_line_on_standard_error_of_which_nothing_is_left(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The bar, what is done, for how long, and how long it will take; in a file nothing."""
+    with progress("sweep") as tell:
+        tell("3 of 4 runs")
+    assert capsys.readouterr() == ("", "")
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")  # Rich takes this for a terminal
+    monkeypatch.setenv("COLUMNS", "100")
+    with progress("sweep") as tell:
+        tell("3 of 4 runs")
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert re.search(r"━+.* sweep: 3 of 4 runs 0:00:00 left: ", plain(err))
+    assert err.endswith("\x1b[2K")  # the line is erased
+
+
+def test_sentences_are_folded_before_they_are_notes(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where one table has room for them so; a column narrower than that makes them notes."""
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    sentence = "it blew up at once, as anybody would have told you before"
+    least = 8 + FOLDED + 4 + 3 * GAP
+    for width, folded in ((least, True), (least - 1, False)):
+        monkeypatch.setenv("COLUMNS", str(width))
+        show_table("", ["stepper", "reason", "mode"], [["backward", sentence, "1"]] * 2)
+        said = plain(capsys.readouterr().out)
+        assert ("(1)" in said) is not folded
+        assert all(word in said for word in sentence.split())
+
+
+def test_lines_are_folded_between_words(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """What goes on is set in; a path is whole; a file has lines as they are."""
+    lines = ["one two-three four", "/a/path/that-is/long one"]
+    show_lines(lines)
+    assert capsys.readouterr().out.splitlines() == lines
+    monkeypatch.setenv("TTY_COMPATIBLE", "1")
+    monkeypatch.setenv("COLUMNS", "14")
+    show_lines(lines)
+    assert capsys.readouterr().out.splitlines() == [
+        *("one two-three", "    four"),
+        *("/a/path/that-is/long", "    one"),
+    ]
+
+
+def test_a_result_is_shown_with_its_question_findings_first_table_and_failures(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    """As they are: what is in brackets is no markup."""
+    experiment = replace(find("order"), title="T [s]", question="Q?")
+    tables = [Table("a", ["n [m]"], [[0.5]]), Table("b", ["other"], [[2.0]])]
+    show_result(experiment, Result(["one [s]", "two [bold]x[/bold]"], tables, {}, ["it [N/m] failed"]))
+    lines = [line.strip() for line in capsys.readouterr().out.splitlines() if line.strip("─ ")]
+    findings = ["- one [s]", "- two [bold]x[/bold]"]
+    assert lines == ["T [s]", "Q?", *findings, "n [m]", "0.5", "not done: it [N/m] failed"]
 
 
 def test_columns_that_do_not_fit_beside_one_another_are_several_tables() -> None:
