@@ -146,10 +146,10 @@ def _alike(found: Array, expected: Array, within: float) -> bool:
     """Whether a matrix is the expected one; of what remembers, whether both have the same roots beside zeros."""
     if found.shape == expected.shape == (2, 2):
         return bool(np.abs(found - expected).max() <= within)
-    one, other = (np.poly(m) if m.ndim == 2 else m / m[0] for m in (found, expected))
-    size = max(len(one), len(other))
-    padded = [np.concatenate([p, np.zeros(size - len(p))]) for p in (one, other)]
-    return bool(np.abs(padded[0] - padded[1]).max() <= NEAR)
+    polynomials = [np.poly(m) if m.ndim == 2 else m / m[0] for m in (found, expected)]
+    size = max(map(len, polynomials))
+    one, other = (np.concatenate([p, np.zeros(size - len(p))]) for p in polynomials)
+    return bool(np.abs(one - other).max() <= NEAR)
 
 
 def _by_theory(scheme: Scheme, a: float, b: float, d: float) -> Array:
@@ -159,7 +159,8 @@ def _by_theory(scheme: Scheme, a: float, b: float, d: float) -> Array:
     """
     h = 0.5
     if scheme.linear and scheme.one_step:
-        return step_matrices(scheme, h, np.ones(1), np.array([a / h**2]), np.array([b / h]), d / h)[0]
+        (matrix,) = step_matrices(scheme, h, np.ones(1), np.array([a / h**2]), np.array([b / h]), d / h)
+        return matrix
     rest = spring_equilibrium(oscillator(a, b, d, dt=h))
     return step_jacobian(scheme, rest, h)
 

@@ -168,8 +168,9 @@ def check_command(
         found = files_in(files, Path(unpacked))
         if table is not None or len(found) > 1:
             sys.exit(_check_class(found, chosen, key, table, jobs, limits, keyed, as_json))
-        beside = found[0][0] if not found[0][0].is_relative_to(unpacked) else files[0]
-        sys.exit(_check_one(beside, read(*found[0], chosen, keyed), key, limits, plot, as_json))
+        ((path, name),) = found
+        beside = files[0] if path.is_relative_to(unpacked) else path
+        sys.exit(_check_one(beside, read(path, name, chosen, keyed), key, limits, plot, as_json))
 
 
 def _check_one(path: Path, submission: Submission, key: str | None, limits: Limits, plot: bool, as_json: bool) -> int:
@@ -266,7 +267,7 @@ def _check_class(
     seeds = Counter((row["exercise"], row["seed"]) for row in rows if row["seed"])
     for (number, seed), count in seeds.items():
         if count > 1:
-            click.echo(f"Exercise {number}: {count} files have the seed {seed}.")
+            click.echo(f"Exercise {number}: {count} files have the seed {seed}.", err=as_json)
     if table is not None:
         click.echo(f"written: {table}", err=as_json)
     left = sum(row["outcome"] == "not graded" for row in rows)

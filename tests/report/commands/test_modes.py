@@ -63,6 +63,7 @@ def test_twenty_are_shown_and_how_many_there_are_is_told(
     assert bool(wanted) == ("shown" in said)
     assert len(table(said, "chain: natural modes about its rest")) == 1 + min(20, int(words[1]) if words else masses)
     assert len(table(said, "Springs at rest")) == 1 + min(20, masses)
+    assert "Angular springs" not in said
 
 
 def test_what_a_stepper_makes_of_the_modes_stands_beside_them() -> None:
@@ -104,6 +105,18 @@ def test_as_what_an_engine_is_predicted_is_told_where_it_is(capsys: pytest.Captu
     assert [line for line in said.splitlines() if "predicted as" in line] == [
         "engine is predicted as heun, as which it is identified here."
     ]
+
+
+def test_angular_springs_are_told_where_there_are_some(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One at every mass where two springs meet; where not all of them are shown, how many there are."""
+    bent = ("--set", "angular_stiffness=0.2")
+    said = modes(3, *bent, scene="string")
+    assert len(table(said, "Angular springs at rest")) == 1 + 2
+    assert "angular springs are shown" not in said
+    monkeypatch.setattr("report.commands.modes.SHOWN", 1)
+    said = modes(3, *bent, scene="string")
+    assert len(table(said, "Angular springs at rest")) == 1 + 1
+    assert "1 of 2 angular springs are shown; --json has all." in said
 
 
 def test_json_has_each_stepper_and_each_mode() -> None:

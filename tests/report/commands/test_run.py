@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from experiments.experiment import find
+from experiments.experiment import Experiment, Result, find
 from experiments.runs.store import StoreError
+from report.page.section import Section
 from tests.report.commands.terminal import springlab
 from tests.report.page.canned import RESULTS
 from tests.report.page.doubles import answering, failing, put
@@ -24,7 +25,6 @@ def test_run_writes_figure_and_tables_and_goes_on_after_a_failure(
     assert said.err == "springlab: errata: ArithmeticError: no\n"
     assert find("stiff_limit").question in " ".join(said.out.split())
     assert {file.name for file in (tmp_path / "stiff_limit").iterdir()} == {"stiff_limit.csv", "stiff_limit.svg"}
-    assert springlab("run", "stiff_limit", "--out", str(tmp_path)).code == 0
 
 
 def test_a_store_that_fails_midway_ends_run_with_its_line(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
@@ -42,3 +42,28 @@ def test_a_folder_that_cannot_be_written_is_one_line(monkeypatch: pytest.MonkeyP
     said = springlab("run", "errata", "--out", str(tmp_path / "results"), "--store", str(tmp_path / "store.sqlite"))
     assert (said.code, said.out, said.err.count("\n")) == (2, "", 1)
     assert str(tmp_path / "results") in said.err
+
+
+def test_without_a_name_nothing_is_run() -> None:
+    """In a line."""
+    said = springlab("run")
+    assert (said.code, said.err) == (2, "springlab: Missing argument 'EXPERIMENT...'.\n")
+
+
+@pytest.mark.parametrize(("failed", "code"), [([], 0), (["errata"], 1), (["stiff_limit"], 1)])
+def test_the_code_is_1_where_one_failed(
+    failed: list[str], code: int, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Whichever; each goes into a folder of its own, which is told of those that did not."""
+
+    def section(experiment: Experiment, folder: Path, tell: object) -> Section:
+        assert folder == tmp_path / experiment.name
+        return Section(experiment, failure="no") if experiment.name in failed else Section(experiment, Result([], []))
+
+    monkeypatch.setattr("report.page.sections.section", section)
+    monkeypatch.setattr("report.commands.run.show_result", lambda experiment, result: None)
+    said = springlab("run", "errata", "stiff_limit", "--out", str(tmp_path), "--store", str(tmp_path / "store.sqlite"))
+    assert said.code == code
+    done = [name for name in ("errata", "stiff_limit") if name not in failed]
+    assert said.out == "".join(f"written: {tmp_path / name}\n" for name in done)
+    assert said.err == "".join(f"springlab: {name}: no\n" for name in failed)

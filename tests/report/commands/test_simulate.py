@@ -36,6 +36,9 @@ def test_where_masses_are_in_the_end_is_shown() -> None:
     assert numbers[:, 1:3] == pytest.approx(motion.positions[-1], rel=1e-2)
     assert numbers[:, 3:] == pytest.approx(motion.velocities[-1], rel=1e-2, abs=1e-5)
     assert (said.code, said.err) == (0, "")
+    assert "Angular springs" not in said.out
+    bent = springlab(*WORDS, "--set", "angular_stiffness=0.2").out
+    assert len(table(bent, "Angular springs under heun then")) == 1 + 2
 
 
 @pytest.mark.parametrize(("masses", "listed"), [(29, True), (30, False)])

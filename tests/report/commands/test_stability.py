@@ -24,7 +24,8 @@ def test_json_rows_have_the_promised_keys(tmp_path: Path) -> None:
     keys = ["stepper", "damping", "drag", "predicted_dt_s", "measured_dt_s", "relative_difference", "outcome", "reason"]
     keys += ["predicted_certainty", "predicted_at_most_s", "predicted_stable_steps", "measured_stable_steps"]
     assert list(row) == [*keys, "windows_s"]
-    assert (tmp_path / "stability.csv").exists()
+    files = [tmp_path / f"stability.{ending}" for ending in ("csv", "svg")]
+    assert [file.read_text(encoding="utf-8")[:4] for file in files] == ["step", "<svg"]
 
 
 @pytest.mark.rotating(2)

@@ -84,6 +84,10 @@ def test_what_was_meant_is_told_first() -> None:
     """The spring that the engine's numbers ask for, beside what it makes of them: 4 Hz of 1 kg."""
     said = springlab("translate", "--from", "box2d", "hertz=4", "damping_ratio=0.7", "--predict")
     assert "meant: k = 631.655 N/m, c = 35.1858 N s/m" in said.out
+    assert "k predicted" in said.out
+    assert "largest stable dt [s]" in said.out
+    assert "k measured" not in said.out
+    assert "k measured" not in springlab("translate", "--stiffness", "200", "--engine", "mujoco", "--predict").out
 
 
 def test_a_scene_is_translated_as_a_whole() -> None:

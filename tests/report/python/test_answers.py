@@ -152,6 +152,18 @@ def test_without_pandas_there_is_one_line(compared: lab.Comparison, monkeypatch:
     assert "\n" not in str(caught.value)
 
 
+def test_a_comparison_is_drawn_if_any_run_has_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One that raised has none; of none there is nothing to draw."""
+
+    def fails(x: Any, v: Any, dt: float, system: Any) -> Any:
+        raise ArithmeticError("no")
+
+    monkeypatch.setattr("report.figures.divergence.draw_runs", lambda found, runs: [run.stepper.name for run in runs])
+    assert lab.compare("string", "heun", fails, **QUICK).plot()._picture == ["heun", "fails"]
+    with pytest.raises(lab.InputError, match="nothing to plot of string: expected a run with a distance"):
+        lab.compare("string", fails, **QUICK).plot()
+
+
 def test_plots_are_saved_by_their_names(compared: lab.Comparison, tmp_path: Path) -> None:
     """As text that a browser draws, or as pixels."""
     plot = compared.plot()
