@@ -98,8 +98,8 @@ def seen(exercise: Exercise, asked: Sequence[Question], answers: Sequence[Mappin
     from reference.derivation.oscillators import FEW, ROUNDINGS
     from reference.identification.scale import ROUNDING
 
-    own = _matrices(asked, [_ends(answer["values"][:1]) for answer in answers])
-    right = _matrices(asked, [_ends([exercise.right_at_first(question)]) for question in asked])
+    own = _matrices(asked, [_ends(next(iter(answer["values"]), [])) for answer in answers])
+    right = _matrices(asked, [_ends(exercise.right_at_first(question)) for question in asked])
     if own is None or right is None:
         return []
     noise = ROUNDINGS * ROUNDING["double"] * max(1.0, float(np.abs(own).max()))
@@ -137,11 +137,11 @@ def _places() -> list[tuple[int, int]]:
     return list(product(range(2), range(2)))
 
 
-def _ends(values: Sequence[Sequence[Any]]) -> tuple[float, float] | None:
+def _ends(parts: Sequence[Any]) -> tuple[float, float] | None:
     """How far below its rest the mass is then, and how fast it goes downwards; None where there are no such numbers."""
-    if not values or len(values[0]) != 2:
+    if len(parts) != 2:
         return None
-    x, v = (np.asarray(part) for part in values[0])
+    x, v = (np.asarray(part) for part in parts)
     if x.dtype.kind not in "iuf" or v.dtype.kind not in "iuf" or x.size not in (1, 2) or v.size != x.size:
         return None
     return -1.0 - float(x.ravel()[-1]), -float(v.ravel()[-1])

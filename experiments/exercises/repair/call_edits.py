@@ -8,12 +8,15 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 
-from experiments.exercises.repair.names import MODULES, Names
+from experiments.exercises.repair.names import Names
 from experiments.exercises.repair.nodes import Replacement, at_place, binary, expression, function_name, moved, renewed
 from experiments.exercises.repair.value_edits import given_instead
 
 #: Functions that go along an axis, or over all.
 ALONG_AN_AXIS = ("norm", "sum", "mean", "max", "min", "cumsum", "diff")
+
+#: What an axis is taken for.
+OTHER_AXES = {"0": "1", "1": "0", "-1": "0"}
 
 #: Those that make an array of an array, of whole numbers where it has such; those that make one of a size.
 OF_ITS_KIND = ("zeros_like", "ones_like", "array", "zeros", "asarray")
@@ -60,8 +63,9 @@ def _of_arguments(node: ast.Call) -> Iterator[Replacement]:
 def _of_keywords(node: ast.Call) -> Iterator[Replacement]:
     for i, keyword in enumerate(node.keywords):
         yield Replacement("too much", 2.0, renewed(node, keywords=[*node.keywords[:i], *node.keywords[i + 1 :]]))
-        if keyword.arg == "axis" and isinstance(keyword.value, ast.Constant) and keyword.value.value in (0, 1, -1):
-            other = renewed(keyword, value=renewed(keyword.value, value=0 if keyword.value.value else 1))
+        axis = OTHER_AXES.get(ast.unparse(keyword.value)) if keyword.arg == "axis" else None
+        if axis is not None:
+            other = renewed(keyword, value=expression(axis, node))
             yield Replacement("axis", 1.2, renewed(node, keywords=at_place(node.keywords, i, other)))
 
 
@@ -99,7 +103,7 @@ def _other_sizes(node: ast.Call, names: Names) -> Iterator[Replacement]:
     lengths = shape.elts if isinstance(shape, ast.Tuple | ast.List) else [shape] if shape is not None else []
     for i, length in enumerate(lengths):
         longer = [moved(length, n) for n in (1, 2, 3)]
-        times = [_times(length, name) for name in names.own if name not in MODULES]
+        times = [_times(length, name) for name in names.own]
         for new in (*longer, *times):
             whole = renewed(shape, elts=at_place(lengths, i, new)) if shape is not length else new
             yield Replacement("factor", 1.6, renewed(node, args=[whole, *node.args[1:]]))

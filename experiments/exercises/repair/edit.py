@@ -14,6 +14,9 @@ from typing import Any
 #: Where a node stands: what holds it, in which field, and at which place of a list.
 Site = tuple[ast.AST, str, "int | None"]
 
+#: What is said of a function, a class or a name, and is no part of what they compute: by the field of their nodes.
+SAID = ("decorator_list", "annotation", "returns", "bases")
+
 
 @dataclass(frozen=True, eq=False)
 class Edit:
@@ -61,10 +64,14 @@ def _put(site: Site, new: Any) -> None:
 
 
 def sites_in(top: ast.AST) -> Iterator[Site]:
-    """Every place below where an expression or a statement stands."""
-    for holder in ast.walk(top):
+    """Every place below where an expression or a statement stands that is computed; what holds others comes first."""
+    holders = [top]
+    for holder in holders:  # which grow meanwhile
         for name, value in ast.iter_fields(holder):
+            if name in SAID:
+                continue
             if isinstance(value, list):
                 yield from ((holder, name, i) for i, item in enumerate(value) if isinstance(item, ast.expr | ast.stmt))
             elif isinstance(value, ast.expr):
                 yield holder, name, None
+            holders += [item for item in (value if isinstance(value, list) else [value]) if isinstance(item, ast.AST)]

@@ -21,7 +21,7 @@ class Names:
     """The names in a function or a class.
 
     Attributes:
-        own: of variables, arguments, and numbers outside of functions.
+        own: of variables, arguments, and numbers outside of functions; none of modules.
         fields: by object, what is read of it, or can be.
         unread: fields that are given and never read, as in "string.drag".
         loops: those of `own` that loops count. arrays: those that have an index somewhere.
@@ -48,7 +48,7 @@ def names_in(top: ast.stmt, tree: ast.Module, given: Mapping[str, Sequence[str]]
         given: the fields that functions are given, by the name of the function: those of its last argument.
     """
     fields = _read_fields(top)
-    own = _distinct([*_variables(top), *_numbers(tree)])
+    own = _distinct([name for name in [*_variables(top), *_numbers(tree)] if name not in MODULES])
     read = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
     unread: list[str] = []
     for owner, attributes in _given_fields(tree, given):

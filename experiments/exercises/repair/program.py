@@ -226,9 +226,12 @@ def _noting(lines: set[int], kinds: Kinds) -> Iterator[None]:
     """Adds the first lines of those functions of the program that are called meanwhile, and what their names are."""
 
     def note(frame: FrameType, event: str, _: object) -> None:
-        if frame.f_code.co_filename == NAME and event == "call":
-            lines.add(frame.f_code.co_firstlineno)
-        if frame.f_code.co_filename == NAME and event == "return":
+        code = frame.f_code
+        if code.co_filename != NAME:
+            return
+        if event == "call" and code.co_name != "<module>":  # which has a first line, too, and is no function
+            lines.add(code.co_firstlineno)
+        if event == "return":
             for name, value in frame.f_locals.items():
                 kinds.setdefault(name, set()).add(kind_of(value))
 

@@ -49,11 +49,8 @@ def edits_of(tree: ast.Module, given: Mapping[str, Sequence[str]] | None = None)
 def _changes(site: Site, names: Names) -> Iterator[Edit]:
     """The changes at one place."""
     node = what_stands_at(site)
-    holder, field_, _ = site
-    if field_ in ("decorator_list", "annotation", "returns", "bases"):
-        return
     written = isinstance(getattr(node, "ctx", None), ast.Store | ast.Del)
     if written and not isinstance(node, ast.Subscript | ast.Tuple):
         return
-    for family, cost, new in replacements(node, names, holder):
+    for family, cost, new in replacements(node, names, site[0]):
         yield Edit(getattr(node, "lineno", 0), family, cost, ((site, new),))

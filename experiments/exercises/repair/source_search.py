@@ -136,23 +136,23 @@ class Search:
         base = self.nearness(names, asked) if names is not None else None
         self._least = self._share(names, asked[0]) - 1e-12 if names is not None else 0.0
         self._mattering = [i for i, e in enumerate(self.edits) if names is None or self._program.can_matter(e, reached)]
-        singles: list[list[int]] = []
+        singles: list[int] = []
         stems: list[tuple[Nearness, int]] = []
         done = True
         for i in self._mattering:
             edit = self.edits[i]
-            if len(singles) >= ENOUGH or (singles and edit.cost > self.edits[singles[0][0]].cost + DEARER):
+            if len(singles) >= ENOUGH or (singles and edit.cost > self.edits[singles[0]].cost + DEARER):
                 break
             if time.process_time() - begin > seconds:
                 done = False
                 break
             near = self._try([edit], asked)
             if near is not None and near[0] == len(asked) and self._holds([edit]):
-                singles.append([i])
+                singles.append(i)
             elif near is not None and (base is None or near > base):
                 stems.append((near, i))
         if singles or pair_seconds <= 0:
-            return {"repairs": singles, "tried": self.tried, "singles_done": done, "pairs_done": False}
+            return {"repairs": [[i] for i in singles], "tried": self.tried, "singles_done": done, "pairs_done": False}
         pairs, all_tried = self._pairs(stems, asked, pair_seconds)
         return {"repairs": pairs, "tried": self.tried, "singles_done": done, "pairs_done": all_tried}
 

@@ -72,7 +72,7 @@ def _later(node: ast.expr, names: Names) -> Iterator[Replacement]:
 def _averaged(node: ast.Name, names: Names) -> Iterator[Replacement]:
     """The mean of two values: of two slopes, of which one was forgotten."""
     for name in names.own:
-        if name not in (*MODULES, *SCALARS, *names.loops, node.id):
+        if name not in (*SCALARS, *names.loops, node.id):
             yield Replacement("left out", 2.3, expression(f"(({node.id} + {name}) / 2)", node))
 
 
@@ -82,7 +82,7 @@ def _projected(node: ast.expr, names: Names) -> Iterator[Replacement]:
         if name not in MODULES:
             yield Replacement("left out", 2.5, binary(node, ast.Div(), expression(f"({name} @ {name})", node)))
     for name in names.own:
-        if name not in (*MODULES, *SCALARS, *names.loops):
+        if name not in (*SCALARS, *names.loops):
             yield Replacement("left out", 2.5, binary(node, ast.Div(), expression(f"{name} ** 2", node)))
 
 
@@ -127,7 +127,7 @@ def _with_what_is_unread(node: ast.expr, names: Names) -> Iterator[Replacement]:
 def _with_another(node: ast.expr, names: Names) -> Iterator[Replacement]:
     """A value times, over, plus or minus another one that the function has."""
     for text in (*names.own, *names.values):
-        if text in MODULES or (isinstance(node, ast.Name) and node.id == text):
+        if isinstance(node, ast.Name) and node.id == text:
             continue
         plain = 2.0 if text in SCALARS or "." in text else 2.4
         for cost, operator in ((0.0, ast.Mult()), (0.1, ast.Div()), (0.3, ast.Add()), (0.3, ast.Sub())):

@@ -47,6 +47,14 @@ def told(number: int, old: str, new: str) -> str:
             "new x = (1 - a/3) x + (2/3 - b/3) h v",
             "x in the new x and h v in the new x",
         ),
+        # numbers a million times as large have roundings a million times as large
+        (
+            1,
+            "v + dt * force",
+            "v + 2**20 * dt * force / 3",
+            "new h v = (-1048576 a/3) x",
+            "x in the new h v and h v in the new h v",
+        ),
         (
             4,
             "dt * (a + b) / 2",
@@ -77,6 +85,49 @@ def test_where_dt_stands_by_itself_no_formula_is_told() -> None:
     assert told(1, "y + dt * v", "y + v") == ""
 
 
+STRING = dict.fromkeys(("masses", "stiffness", "rest_lengths", "drag", "gravity", "anchor"), 1.0)
+SPRING = dict.fromkeys(("mass", "stiffness", "rest_length", "damping", "gravity"), 1.0)
+
+
+@pytest.mark.parametrize(
+    ("fields", "parts", "given", "asked"),
+    [
+        (SPRING, ("y", "v"), 4, True),
+        (STRING, ("x", "v"), 4, True),
+        ({**SPRING, "more": 1.0}, ("y", "v"), 4, True),
+        ({**STRING, "damping": 1.0}, ("x", "v"), 4, False),
+        ({"centre": 1.0, "radius": 1.0}, ("x", "v"), 4, False),
+        ({name: 1.0 for name in SPRING if name != "mass"}, ("y", "v"), 4, False),
+        (SPRING, ("y",), 4, False),
+        (SPRING, ("y", "v"), 3, False),
+        (1.0, ("y", "v"), 4, False),
+    ],
+)
+def test_steps_of_one_spring_or_one_string_are_asked_for(
+    fields: Any, parts: tuple[str, ...], given: int, asked: bool
+) -> None:
+    """Each displaced and each moving, without gravity, so that it rests at -1 m; a few of them with half the dt."""
+    question = Question("step", (*[0.0] * (given - 1), fields), parts, "")
+    made = derived_step.questions(find("1"), [Question("other", (), ("x",), ""), question])
+    assert bool(made) == asked
+    for one in made:
+        x, v, dt, own = one.arguments
+        k, m, c = (
+            np.ravel(own[name if name in own else other]).item()
+            for name, other in (("stiffness", "stiffness"), ("mass", "masses"), ("damping", "drag"))
+        )
+        assert (m, own["gravity"]) == (1.0, 0.0)
+        assert own[next(name for name in own if name.startswith("rest_length"))] == 1.0
+        assert 0.0 < k * dt**2 <= 2.0
+        assert 0.0 < c * dt <= 1.0
+        below, down = -1.0 - np.ravel(x)[-1], -np.ravel(v)[-1]
+        assert (below, down * dt) in ((1 / 32, 0.0), (0.0, 1 / 32))
+        assert np.size(x) == np.size(v) == (2 if "drag" in own else 1)
+    steps = sorted({one.arguments[2] for one in made})
+    assert steps == ([1 / 32, 1 / 16] if asked else [])
+    assert len(made) == (2 * (40 + 4) if asked else 0)
+
+
 def test_it_is_part_of_the_closer_look() -> None:
     """With what else is seen of a wrong program."""
     exercise, text = find("2"), model(2).replace("dt * (y1 + y2) / 2", "dt * (2 * y1 + y2) / 3")
@@ -100,9 +151,9 @@ def test_it_is_part_of_the_closer_look() -> None:
 )
 def test_an_end_is_how_far_below_its_rest_the_mass_is_and_how_fast_it_goes_down(x: Any, v: Any, end: object) -> None:
     """Of a number, or of the height of one mass in the plane; nothing else is one."""
-    assert _ends([(x, v)]) == end
+    assert _ends((x, v)) == end
     assert _ends([]) is None
-    assert _ends([(x,)]) is None
+    assert _ends((x,)) is None
 
 
 def test_a_step_matrix_has_a_column_for_each_begin() -> None:

@@ -48,13 +48,22 @@ def test_which_parts_are_right() -> None:
 
 
 @pytest.mark.parametrize(
-    "answer", [None, (X,), (X, np.array(["a", "b"])), (X, np.ones(3)), (X, np.array([1j, 2j])), (X, 2 * X[:1])]
+    "answer",
+    [
+        None,
+        (X,),
+        (X, [np.inf, 1.0]),
+        (X, np.array(["a", "b"])),
+        (X, np.ones(3)),
+        (X, np.array([1j, 2j])),
+        (X, 2 * X[:1]),
+    ],
 )
 def test_what_has_another_form_is_wrong(answer: Any) -> None:
-    """No answer, one part, words, another size: nothing of it is right where it cannot be read."""
+    """No answer, one part, infinite, words, another size: nothing of it is right where it cannot be read."""
     said = told(answer, RIGHT[1], RIGHT[2])
     assert "v of step()" in said.partition(";")[2]
-    readable = answer is not None and len(answer) == 2 and answer[1].dtype.kind == "f"
+    readable = answer is not None and len(answer) == 2 and np.asarray(answer[1]).dtype.kind == "f"
     assert ("x of step()" in said.partition(";")[0]) == readable
 
 

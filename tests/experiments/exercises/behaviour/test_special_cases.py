@@ -346,6 +346,23 @@ def test_same_is_to_a_billionth_of_the_largest_number_of_a_part(size: float, off
     assert ("right_where" in found) != same
 
 
+def test_what_is_infinite_is_never_right() -> None:
+    """However large it is beside the right number."""
+
+    def without_drag(x: Any, v: Any, s: Any) -> tuple[Any, Any]:
+        weight, power = force(x, v, s)
+        return weight, -np.inf if s.drag == 0.5 else power
+
+    assert told(without_drag, question(), question(drag=0.7))["right_where"].startswith(
+        "Your first answers are all right where nothing is dragged"
+    )
+
+    def infinite(x: Any, v: Any, s: Any) -> tuple[Any, Any]:
+        return force(x, v, s)[0], -np.inf
+
+    assert "right_where" not in told(infinite, *THREE)
+
+
 @pytest.mark.parametrize(
     "values",
     [[], [[]], [[np.ones(2)]], [[np.ones(2), np.array("one")]], [[np.ones(3), np.array(1.0)]]],

@@ -198,8 +198,12 @@ def test_by_what_an_error_shrinks_with_half_the_dt_tells_the_slope(shrinks: floa
     # a question whose answer is right to rounding says nothing
     assert told_of(shrinks, 1e15) == [name] * (name is not None)
     assert told_of(1e15, 1e15) == []
-    answers = [{"values": [] if not case.term else [[X, X]]} for case in made]
-    assert seen(catalogue, made, answers) == []
+    # nor is anything told where one of two parts cannot be compared, or nothing can
+    right = [[[X, X]] for _ in made]
+    for other in ([], [[X, np.zeros(2)]], [[np.array(["a", "b"] * 3).reshape(3, 2), X]]):
+        for missing in (made[-1:], made[-2:-1], [case for case in made if not case.term]):
+            given = [other if case in missing else v for case, v in zip(made, right, strict=True)]
+            assert seen(catalogue, made, [{"values": values} for values in given]) == []
 
 
 def test_lines_are_told_where_they_are_few() -> None:

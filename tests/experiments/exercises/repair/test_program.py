@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from experiments.exercises.repair.edit import Edit
-from experiments.exercises.repair.program import Program, TooLongError
+from experiments.exercises.repair.program import Program, TooLongError, _units
 from experiments.exercises.repair.source_edits import edits_of
 
 #: A function that others call, a method, one that is called at once, one that has another name, and a class of a class.
@@ -30,6 +30,10 @@ class Other(Box):
     def get(self):
         return super().get() * 5
 
+class Alone:
+    def get(self, a):
+        return a + 13
+
 def at_once():
     return 7
 SEVEN = at_once()
@@ -39,7 +43,7 @@ def unused():
     return 11
 
 def all_of_it(a):
-    return [call(a), Box(a).get(), Other(a).get(), SEVEN, again(a)]
+    return [call(a), Box(a).get(), Other(a).get(), Alone().get(a), SEVEN, again(a)]
 """
 
 
@@ -115,3 +119,84 @@ def test_a_loop_without_end_is_stopped() -> None:
             with pytest.raises(TooLongError):
                 names["own"](1)
     assert ast.unparse(tree) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "units"),
+    [
+        ("def one():\n    return 1\ndef two():\n    return one()", {"one", "two"}),
+        # something else may hold what it was, or what it returned
+        ("def one():\n    return 1\nother = one", set()),
+        ("def one():\n    return 1\ndef one():\n    return 2", set()),
+        ("def one():\n    return 1\nclass Box:\n    of = one", set()),
+        ("def one():\n    return 1\ndef two(a=one):\n    return a", {"two"}),
+        ("@cache\ndef one():\n    return 1\ndef two():\n    return 2", set()),
+        ("@functools.lru_cache\ndef one():\n    return 1\ndef two():\n    return 2", set()),
+        ("def one():\n    global a\n    a = 1\ndef two():\n    return 2", set()),
+        # methods, with their class
+        (
+            "class Box:\n    a = 1\n    def get(self):\n        return 1\n    def put(self):\n        return 2",
+            {"get", "put"},
+        ),
+        ("class Box:\n    def get(self):\n        return 1\n    def get(self):\n        return 2", set()),
+        ("class Box:\n    def get(self):\n        return super().get()", set()),
+        ("class Box:\n    def get(self):\n        return self.__own", set()),
+        ("class Box:\n    def get(self):\n        return self.__dict__", {"get"}),
+        ("class Box:\n    def get(self):\n        return self.own__", {"get"}),
+        (
+            "class Box:\n    def get(self):\n        return 1\nclass More(Box):\n    def put(self):\n        return 2",
+            {"put"},
+        ),
+        ("class Box:\n    def get(self):\n        return 1\ndef one():\n    return Box().get()", {"get", "one"}),
+    ],
+)
+def test_what_can_be_put_in_place_of_what_it_was(text: str, units: set[str]) -> None:
+    """Functions and methods of which nothing else holds what they were; with each of their nodes, and their class."""
+    tree = ast.parse(text)
+    found = dict(_units(tree, set()))
+    assert {function.name for function, _ in found.values()} == units
+    for function, owner in {id(unit): unit for unit in found.values()}.values():
+        assert {id(node) for node in ast.walk(function)} == {i for i, unit in found.items() if unit[0] is function}
+        assert (owner is None) == (function in tree.body)
+        assert owner is None or function in owner.body
+
+
+def test_what_was_called_while_the_module_was_made_is_not_put_in_place() -> None:
+    """It is known by its first line: that of the decorator, where there is one."""
+    text = "def f(a):\n    return a\n@f\ndef one():\n    return 1\ndef two():\n    return 2\n"
+    tree = ast.parse(text)
+    for entered, units in ((set(), {"one", "two"}), ({3}, {"two"}), ({4}, {"one", "two"}), ({6}, {"one"})):
+        assert {function.name for function, _ in dict(_units(tree, entered)).values()} == units
+
+
+def test_every_name_of_a_change_has_to_fit() -> None:
+    """Where one of two places gets what is of another kind nothing becomes right; a sum may be with some kind of it."""
+    program = Program(ast.parse("def own(a, b, c):\n    return a, a\n"))
+    names = program.anew()
+    assert names is not None
+    with program.reached() as reached:
+        names["own"](1.0, 2.0, "three")
+        names["own"](1.0, "two", 3)
+    assert reached == {1}
+    (function, *_) = program.tree.body
+    assert isinstance(function, ast.FunctionDef)
+    (returned,) = function.body
+    assert isinstance(returned, ast.Return)
+    pair = returned.value
+    assert isinstance(pair, ast.Tuple)
+
+    def matters(*new: str) -> bool:
+        put = tuple(((pair, "elts", i), ast.parse(text, mode="eval").body) for i, text in enumerate(new))
+        return program.can_matter(Edit(2, "name", 1.0, put), {1})
+
+    for name, kinds in {"a": {"number"}, "b": {"number", "str"}, "c": {"number", "str"}}.items():
+        assert program._kinds[name] == kinds
+    program._kinds["d"] = {"str"}
+    assert matters("b", "c")
+    assert not matters("b", "d")
+    assert not matters("d", "b")
+    added = ast.BinOp(pair.elts[0], ast.Add(), ast.Name("b", ast.Load()))
+    for name, fits in (("b", True), ("d", False), ("unknown", True)):
+        added.right = ast.Name(name, ast.Load())
+        assert program.can_matter(Edit(2, "name", 1.0, (((pair, "elts", 0), added),)), {1}) == fits
+    assert not program.can_matter(Edit(2, "name", 1.0, (((pair, "elts", 0), ast.Name("b", ast.Load())),)), {2})

@@ -99,6 +99,12 @@ def test_the_change_that_makes_it_right_is_found() -> None:
     assert found(edits) == {"repairs": [[1], [3]], "tried": 3, "singles_done": True, "pairs_done": False}
 
 
+def test_how_dear_a_change_may_be_is_by_the_cheapest_that_does() -> None:
+    """Not by the last one that was found."""
+    costs = (1.0, 1.0 + 0.9 * DEARER, 1.0 + 1.1 * DEARER)
+    assert found([Add(5.0, cost) for cost in costs])["repairs"] == [[0], [1]]
+
+
 def test_of_many_changes_that_do_a_dozen_is_enough() -> None:
     """The others are not tried."""
     done = found([Add(5.0)] * (ENOUGH + 5))
@@ -134,6 +140,31 @@ def test_pairs_are_made_of_those_that_come_nearest() -> None:
     done = found([Add(-10.0), *near, Add(15.0)])
     assert done["repairs"] == []
     assert done["tried"] == len(near) + 2 + STEMS * (len(near) + 1)
+
+
+def test_nearer_is_who_answers_more_questions_then_who_has_more_numbers() -> None:
+    """And a change is left at once that answers the first worse than the text as it is."""
+    search = Search([Add(2.0), Add(3.0)], Adding(), [question(1.0)], np.copy, lambda a, b: not np.array_equal(a, b))
+    search._mattering = [0, 1]
+    for stems in ([((0, 1.9), 0), ((1, 1.2), 1)], [((1, 1.2), 0), ((1, 1.3), 1)], [((1, 1.3), 1), ((1, 1.3), 0)]):
+        by_number = stems[0][0] == stems[1][0]
+        assert search._pairs(stems, [question(1.0)], 100.0) == ([[0, 1], [1, 0]][:: 1 if by_number else -1], True)
+    # of the second question, whose scale is larger, all is nearer than that of the first
+    larger = {**question(1.0), "scales": [1e4]}
+    assert found([Add(2.0), Add(3.0)], questions=[question(1.0), larger])["repairs"] == [[1, 0], [0, 1]]
+    assert found([Add(2.0), Add(3.0)], questions=[larger, question(1.0)])["repairs"] == [[1, 0], [0, 1]]
+
+
+def test_first_steps_are_looked_at_until_all_may_be_right() -> None:
+    """What is right at first and wrong later is near; but a text that is so is to be repaired."""
+    later = question(1.0, wanted=0.0, steps=2)
+    later["right"][1] = [np.array(3.0)]
+    search = Search([], Adding(), [later], np.copy, lambda a, b: not np.array_equal(a, b))
+    names = Adding().anew()
+    assert names is not None
+    assert search.nearness(names, [later]) == (1, 1.0)
+    assert search._share(names, later, True) < 1.0
+    assert found([Add(1.0)], questions=[later])["tried"] == 1
 
 
 def test_time_that_is_used_up_is_told() -> None:
@@ -272,6 +303,7 @@ def test_pairs_count_in_any_order() -> None:
     assert share([], np.zeros((0, 2)), pairs=True) == 1.0
     assert share([[0, 1, 2]], pairs, pairs=True) == 0.0
     assert share([0, 1], pairs, pairs=True) == 0.0
+    assert share([["0", "1"], ["1", "2"], ["0", "3"]], pairs, pairs=True) == 0.0
     assert share([[1, 0], [3, 2]], [[2, 3], [0, 1]], pairs=True) == 1.0
 
 
