@@ -74,7 +74,7 @@ class Guarded:
         page = mmap.PAGESIZE
         self._room = page * PAGES
         self._blocks = []
-        protect = ctypes.CDLL(None, use_errno=True).mprotect
+        protect = ctypes.CDLL(None).mprotect
         for _ in range(SLOTS):
             block = mmap.mmap(-1, self._room + 2 * FAR)
             first = ctypes.addressof(ctypes.c_char.from_buffer(block))
@@ -143,7 +143,7 @@ class Called:
         height, speed = (self._room.array([float(value)]) for value in (y, v))
         given = Spring(*(float(getattr(spring, name)) for name, _ in Spring._fields_))  # type: ignore[misc]
         self._call(pointer(height), pointer(speed), ctypes.c_double(dt), ctypes.byref(given))
-        return float(height[0]), float(speed[0])
+        return height.item(), speed.item()
 
     def forces(self, x: Any, v: Any, string: SimpleNamespace) -> Any:
         """Exercise 3."""

@@ -43,7 +43,7 @@ class CChanges:
         cls, exercise: int, source: str, groups: Sequence[Sequence[Question]], exposed: bool = False, most: int = MOST
     ) -> CChanges | None:
         """All changes of a program; None for one that is not read, or not compiled as it was read."""
-        question = groups[0][0]
+        (question, *_), *_ = groups
         try:
             with PARSING:
                 program = read(source)
@@ -71,7 +71,8 @@ class CChanges:
 
     def told(self, edit: Edit) -> str:
         """A change, as it is told to the teacher."""
-        return repairs(self.function, [edit], [[0]], lambda: text_of(self.program, told=True))[0].change
+        (repair,) = repairs(self.function, [edit], [[0]], lambda: text_of(self.program, told=True))
+        return repair.change
 
 
 def _given(program: ReadProgram, question: Question) -> dict[str, list[str]]:

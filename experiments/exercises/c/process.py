@@ -32,7 +32,7 @@ def main() -> None:
     task = json.loads(sys.stdin.read())
     layers.limit(SECONDS, MEMORY)
     if sys.platform == "linux":
-        libc = ctypes.CDLL(None, use_errno=True)
+        libc = ctypes.CDLL(None)
         rules = layers.landlock_rules(libc, task["readable"], programs=True, writable=task["writable"])
         user = layers.become_nobody() if os.geteuid() == 0 else True
         layers.drop_capabilities(libc)

@@ -40,7 +40,7 @@ def _of_rows(holder: ast.AST, name: str, block: Sequence[ast.stmt], names: Names
     for i in range(len(block)):
         for count in range(2, LONGEST_ROW + 1):
             row = list(block[i : i + count])
-            if len(row) < count or len(set(shapes[i : i + count])) > 1 or isinstance(row[0], ast.Expr):
+            if len(row) < count or len(set(shapes[i : i + count])) > 1 or isinstance(block[i], ast.Expr):
                 break
             tops = [(holder, name, i + k) for k in range(count)]
             places = [[top, *sites_in(statement)] for top, statement in zip(tops, row, strict=True)]
@@ -85,7 +85,8 @@ def _of_one_statement(statement: ast.stmt, names: Names) -> Iterator[Edit]:
             by_array.setdefault((node.value.id, id(site[0])), []).append(site)
     for sites in by_text.values():
         if len(sites) > 1:
-            for change in _of_a_repeated(what_stands_at(sites[0]), names):
+            first, *_ = sites
+            for change in _of_a_repeated(what_stands_at(first), names):
                 yield _edit(sites, [change] * len(sites))
     for sites in by_array.values():
         if len(sites) > 1:
@@ -114,11 +115,13 @@ def _of_ranges(sites: Sequence[Site], names: Names) -> Iterator[Edit]:
     for place in range(min(map(len, indices))):
         parts = [index[place] for index in indices]
         if len({ast.dump(part) for part in parts}) == 1:
-            for cost, new in other_indices(parts[0], names):
+            part, *_ = parts
+            for cost, new in other_indices(part, names):
                 yield _edit(sites, [Replacement("index", cost, with_index(node, place, new)) for node in nodes])
 
 
 def _edit(sites: Sequence[Site], changes: Sequence[Replacement]) -> Edit:
     put = tuple((site, change.node) for site, change in zip(sites, changes, strict=True))
     line = getattr(what_stands_at(sites[0]), "lineno", 0)
-    return Edit(line, changes[0].family, changes[0].cost + MORE * (len(sites) - 1), put)
+    change, *_ = changes
+    return Edit(line, change.family, change.cost + MORE * (len(sites) - 1), put)

@@ -188,10 +188,10 @@ def _of_augmented(node: ast.AugAssign, names: Names, holder: ast.AST) -> Iterato
 
 def _of_assignment(node: ast.Assign, names: Names, holder: ast.AST) -> Iterator[Replacement]:
     """The value added to what there was, or taken from it."""
-    target = node.targets[0]
-    if len(node.targets) == 1 and isinstance(target, ast.Name | ast.Subscript):
-        for operator in (ast.Add, ast.Sub):
-            yield Replacement("operator", 1.6, ast.copy_location(ast.AugAssign(target, operator(), node.value), node))
+    match node.targets:
+        case [ast.Name() | ast.Subscript() as target]:
+            for operator in (ast.Add(), ast.Sub()):
+                yield Replacement("operator", 1.6, ast.copy_location(ast.AugAssign(target, operator, node.value), node))
 
 
 #: What is done by the kind of a node.

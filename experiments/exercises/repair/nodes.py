@@ -52,7 +52,7 @@ def _expression(text: str, line: int) -> ast.expr:
 
 def statement(text: str, at: ast.stmt) -> ast.stmt:
     """The same of a statement."""
-    made = ast.parse(text).body[0]
+    (made,) = ast.parse(text).body
     for node in ast.walk(made):
         ast.copy_location(node, at)
     return made

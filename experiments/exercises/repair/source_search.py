@@ -12,7 +12,7 @@ import ast
 import time
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import AbstractContextManager
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -23,8 +23,13 @@ from experiments.exercises.repair.source_edits import edits_of, without_main
 #: A question, with its right answer; see `Search`.
 Question = Mapping[str, Any]
 
-#: How near a program comes: questions that it answers rightly, and the share of right numbers.
-Nearness = tuple[int, float]
+
+class Nearness(NamedTuple):
+    """How near a program comes: questions that it answers rightly, and the shares of right numbers of all."""
+
+    right: int
+    share: float
+
 
 #: How many single changes are gone on from in pairs; how many repairs are enough; how much dearer than the cheapest
 #: repair a change may be that is still tried.
@@ -114,7 +119,7 @@ class Search:
             if not shares and share < least:
                 return None
             shares.append(share)
-        return sum(share >= 1.0 for share in shares), sum(shares)
+        return Nearness(sum(share >= 1.0 for share in shares), sum(shares))
 
     def _is_right(self, names: Mapping[str, Any] | None) -> bool:
         """Whether all questions are answered rightly, all steps, twice over in a fresh module."""
@@ -147,7 +152,7 @@ class Search:
                 done = False
                 break
             near = self._try([edit], asked)
-            if near is not None and near[0] == len(asked) and self._holds([edit]):
+            if near is not None and near.right == len(asked) and self._holds([edit]):
                 singles.append(i)
             elif near is not None and (base is None or near > base):
                 stems.append((near, i))
@@ -162,13 +167,13 @@ class Search:
         """Of the single changes that come nearest, each with all others."""
         begin = time.process_time()
         found: list[list[int]] = []
-        for _, i in sorted(stems, key=lambda stem: (-stem[0][0], -stem[0][1], stem[1]))[:STEMS]:
+        for _, i in sorted(stems, key=lambda stem: (-stem[0].right, -stem[0].share, stem[1]))[:STEMS]:
             for j in self._mattering:
                 if time.process_time() - begin > seconds:
                     return found, False
                 both = [self.edits[i], self.edits[j]]
                 near = self._try(both, asked) if i != j else None
-                if near is not None and near[0] == len(asked) and self._holds(both):
+                if near is not None and near.right == len(asked) and self._holds(both):
                     found.append([i, j])
                     if len(found) >= 3:
                         return found, False

@@ -78,6 +78,10 @@ def along(call: str) -> set[str]:
             (f"{f}(a)", {"too much": {"a"}, "factor": {f"{f}(a * {by})" for by in DEGREES}})
             for f in ("np.sin", "cos", "np.tan")
         ),
+        (
+            "np.sin(a, b)",
+            {"too much": {"a", "b"}, "order": {"np.sin(b, a)"}, "factor": {f"np.sin(a * {by})" for by in DEGREES}},
+        ),
         ("np.sin()", {"name": {"s.mass"}}),
         ("np.exp(a)", {"too much": {"a"}}),
         ("np.arctan(a / b)", {"too much": {"a / b"}, "name": {"np.arctan2(a, b)"}}),

@@ -200,3 +200,32 @@ def test_every_name_of_a_change_has_to_fit() -> None:
         added.right = ast.Name(name, ast.Load())
         assert program.can_matter(Edit(2, "name", 1.0, (((pair, "elts", 0), added),)), {1}) == fits
     assert not program.can_matter(Edit(2, "name", 1.0, (((pair, "elts", 0), ast.Name("b", ast.Load())),)), {2})
+
+
+def test_what_cannot_be_read_has_no_names() -> None:
+    """The whole text, or a function or method that was changed; what is left out of it comes back."""
+    assert Program(ast.parse("1 / 0")).anew() is None
+    program = Program(ast.parse("def one():\n    return 1\nclass Box:\n    def get(self):\n        return 2\n"))
+    function, box = program.tree.body
+    assert isinstance(box, ast.ClassDef)
+    (method,) = box.body
+    for holder in (function, method):
+        (returned,) = holder.body  # type: ignore[attr-defined]
+        breaks = Edit(2, "too much", 1.0, (((holder, "body", 0), ast.copy_location(ast.Break(), returned)),))
+        other = Edit(2, "factor", 1.0, (((returned, "value", None), ast.copy_location(ast.Constant(7), returned)),))
+        with program.changed([breaks]) as names:
+            assert names is None
+        with program.changed([other]) as names:
+            assert names is not None
+            assert sorted([names["one"](), names["Box"]().get()]) == ([2, 7] if holder is function else [1, 7])
+        with program.changed([]) as names:
+            assert names is not None
+            assert (names["one"](), names["Box"]().get()) == (1, 2)
+
+
+def test_a_change_of_two_functions_matters_where_one_is_called() -> None:
+    """As of two methods that are alike."""
+    program = Program(ast.parse("def one():\n    return 1\ndef two():\n    return 2\n"))
+    put = [((function.body[0], "value", None), ast.Constant(7)) for function in program.tree.body]  # type: ignore[attr-defined]
+    both = Edit(2, "factor", 1.0, tuple(put))
+    assert [program.can_matter(both, lines) for lines in ({1}, {3}, {1, 3}, {2})] == [True, True, True, False]

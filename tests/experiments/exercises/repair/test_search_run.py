@@ -14,6 +14,7 @@ from experiments.exercises.repair.source_search import (
     DEARER,
     ENOUGH,
     STEMS,
+    Nearness,
     Search,
     _right_share,
     fields_given,
@@ -146,9 +147,13 @@ def test_nearer_is_who_answers_more_questions_then_who_has_more_numbers() -> Non
     """And a change is left at once that answers the first worse than the text as it is."""
     search = Search([Add(2.0), Add(3.0)], Adding(), [question(1.0)], np.copy, lambda a, b: not np.array_equal(a, b))
     search._mattering = [0, 1]
-    for stems in ([((0, 1.9), 0), ((1, 1.2), 1)], [((1, 1.2), 0), ((1, 1.3), 1)], [((1, 1.3), 1), ((1, 1.3), 0)]):
-        by_number = stems[0][0] == stems[1][0]
-        assert search._pairs(stems, [question(1.0)], 100.0) == ([[0, 1], [1, 0]][:: 1 if by_number else -1], True)
+    for one, other, first in (
+        (Nearness(0, 1.9), Nearness(1, 1.2), 1),
+        (Nearness(1, 1.2), Nearness(1, 1.3), 1),
+        (Nearness(1, 1.3), Nearness(1, 1.3), 0),
+    ):
+        for stems in ([(one, 0), (other, 1)], [(other, 1), (one, 0)]):
+            assert search._pairs(stems, [question(1.0)], 100.0) == ([[first, 1 - first], [1 - first, first]], True)
     # of the second question, whose scale is larger, all is nearer than that of the first
     larger = {**question(1.0), "scales": [1e4]}
     assert found([Add(2.0), Add(3.0)], questions=[question(1.0), larger])["repairs"] == [[1, 0], [0, 1]]
@@ -183,7 +188,7 @@ def test_time_that_is_used_up_is_told() -> None:
     }
     search = Search([Add(2.0), Add(3.0)], Adding(), [question(1.0)], np.copy, lambda a, b: not np.array_equal(a, b))
     search._mattering = [0, 1]
-    assert search._pairs([((0, 0.5), 0)], [question(1.0)], -1.0) == ([], False)
+    assert search._pairs([(Nearness(0, 0.5), 0)], [question(1.0)], -1.0) == ([], False)
 
 
 def test_what_cannot_be_read_may_be_mended_by_a_change() -> None:
@@ -214,6 +219,9 @@ def test_what_remembers_its_calls_does_not_hold(lasts: int, held: bool) -> None:
     """Three questions are asked in a module of its own, and two of them once more: five calls have to be right."""
     three = [question(float(i)) for i in range(3)]
     assert found([Add(5.0)], Adding(lasts=lasts), three)["repairs"] == [[0]] * held
+    # all of two steps, and the first of them once more
+    steps = [question(1.0, steps=2)]
+    assert found([Add(5.0)], Adding(lasts=lasts), steps)["repairs"] == [[0]] * (lasts >= 3)
 
 
 def test_what_cannot_be_made_anew_does_not_hold() -> None:

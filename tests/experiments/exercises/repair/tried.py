@@ -48,7 +48,11 @@ def tried(making: Making, text: str, wanted: str, names: Names = NAMES) -> dict[
     return found
 
 
-def cost(making: Making, text: str, wanted: str, new: str, names: Names = NAMES) -> float:
-    """What one of them costs."""
+def costs(making: Making, text: str, wanted: str, names: Names = NAMES) -> dict[str, float]:
+    """What each of them costs at least, in the order in which they are made."""
     node, holder = first(text, wanted)
-    return min(one.cost for one in making(node, names, holder) if text_of(one.node) == new)
+    found: dict[str, float] = {}
+    for one in making(node, names, holder):
+        new = text_of(one.node)
+        found[new] = min(one.cost, found.get(new, one.cost))
+    return found
