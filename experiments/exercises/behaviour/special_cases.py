@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise, starmap
 from typing import Any
 
 import numpy as np
@@ -128,7 +129,7 @@ def _constant(own: Sequence[Parts | None]) -> list[Finding]:
     answers = [answer for answer in own if answer is not None]
     shapes = {tuple(part.shape for part in answer) for answer in answers}
     zero = answers and all(not part.any() for answer in answers for part in answer)
-    if zero or (len(answers) > 2 and len(shapes) == 1 and all(_same(answer, answers[0]) for answer in answers)):
+    if zero or (len(answers) > 2 and len(shapes) == 1 and all(starmap(_same, pairwise(answers)))):
         words = "Your answer is the same whatever your function is given" + (": nothing but zeros." if zero else ".")
         return [Finding("always_the_same", words, "Which of the given numbers does it depend on?")]
     return []

@@ -230,12 +230,12 @@ class _Reader(Expressions):
         """How the name of a loop is declared, the name, what it begins with."""
         if init is None:
             return None, "_", None
-        if isinstance(init, c_ast.DeclList) and len(init.decls) == 1 and init.decls[0].init is not None:
-            one = init.decls[0]
-            self._note(one)
-            value, one.init = one.init, None
-            text, one.init = self.written.visit(one), value
-            return str(text), python_name(one.name), self.expression(value)
+        match init:
+            case c_ast.DeclList(decls=[one]) if one.init is not None:
+                self._note(one)
+                value, one.init = one.init, None
+                text, one.init = self.written.visit(one), value
+                return str(text), python_name(one.name), self.expression(value)
         if isinstance(init, c_ast.Assignment) and init.op == "=" and isinstance(init.lvalue, c_ast.ID):
             return None, python_name(init.lvalue.name), self.expression(init.rvalue)
         raise UnreadableError("a loop that begins in another way")

@@ -224,7 +224,7 @@ class _Switching(Writer):
         super().__init__(program)
         self._variants = variants
 
-    def function(self, function: ast.FunctionDef, name: str = "", static: bool = False) -> list[str]:
+    def function(self, function: ast.FunctionDef) -> list[str]:
         """Its variants, then itself, which goes on to one of them where that is meant."""
         self.enter(function)
         own, found = c_name(function.name), self._variants.at(function, "")
@@ -236,7 +236,7 @@ class _Switching(Writer):
         cases = []
         for i, text in texts:
             other = f"springlab_{own}_{i}"
-            lines += [*_own(number, i), header_of(function, other, True), text]
+            lines += [*_own(number, i), header_of(function, other), text]
             nothing = (
                 header_of(function).removeprefix("static ").startswith("void ")
                 and "*" not in header_of(function).partition("(")[0]

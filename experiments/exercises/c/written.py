@@ -59,11 +59,10 @@ class Writer:
         self._kinds = self._program.kinds[c_name(function.name)]
         self._all = [argument.arg for argument in function.args.args]
 
-    def function(self, function: ast.FunctionDef, name: str = "", static: bool = False) -> list[str]:
+    def function(self, function: ast.FunctionDef) -> list[str]:
         """The whole of it."""
         self.enter(function)
-        header = header_of(function, name, static)
-        return [header, "{", *self._indented(function.body), "}"]
+        return [header_of(function), "{", *self._indented(function.body), "}"]
 
     def _indented(self, body: Sequence[ast.stmt]) -> list[str]:
         return [f"    {line}" for statement in body for line in self.statement(statement)]
@@ -311,10 +310,10 @@ def _number(node: ast.Constant) -> tuple[str, int]:
     return text, POSTFIX if value >= 0 else UNARY
 
 
-def header_of(function: ast.FunctionDef, name: str = "", static: bool = False) -> str:
-    """What stands before the braces of a function, by its own name or another."""
-    header: str = function.header.replace("@", name or c_name(function.name))  # type: ignore[attr-defined]
-    return header if not static or "static" in header.split("(")[0].split() else f"static {header}"
+def header_of(function: ast.FunctionDef, other: str = "") -> str:
+    """What stands before the braces of a function; by another name it is one that only its file knows."""
+    header: str = function.header.replace("@", other or c_name(function.name))  # type: ignore[attr-defined]
+    return f"static {header}" if other and "static" not in header.split("(")[0].split() else header
 
 
 def begun(program: ReadProgram) -> Iterator[str]:

@@ -71,6 +71,20 @@ def test_the_students_own_formulas_are_told(number: int, old: str, new: str, mat
     assert words.endswith(f"Not as it should be: {wrong}.")
 
 
+def test_an_entry_is_wrong_where_it_is_for_one_oscillator() -> None:
+    """Also where it is right for another: here by b - b0, which is 0 for the first of them."""
+    exercise = find("1")
+    asked = derived_step.questions(exercise, catalogue_of(exercise, "example", None).questions)
+    b0 = asked[0].arguments[3]["damping"] * asked[0].arguments[2]
+    answers = []
+    for question in asked:
+        (x, v), (at, _, dt, spring) = exercise.right_at_first(question), question.arguments
+        off = (spring["damping"] * dt - b0) * (-1.0 - at) / dt
+        answers.append({"values": [[x, v - off]]})
+    (found,) = derived_step.seen(exercise, asked, answers)
+    assert found.words.endswith("Not as it should be: x in the new h v.")
+
+
 @pytest.mark.parametrize("number", [1, 2, 4])
 def test_nothing_is_said_of_a_right_step_or_of_what_acts_otherwise(number: int) -> None:
     """A model solution; one that raises; exercises that are no step are not asked."""

@@ -209,6 +209,21 @@ def test_variants_are_compiled_as_the_program_is_but_quickly() -> None:
     assert not {"-O1", "-g", "-Wall", "-Wfloat-conversion"} & set(QUICKLY)
 
 
+@pytest.mark.parametrize(("user", "rights"), [(0, 0o777), (1000, 0o700), (None, 0o700)])
+def test_whoever_compiles_may_write_in_the_folder(
+    monkeypatch: pytest.MonkeyPatch, user: int | None, rights: int
+) -> None:
+    """Who was root compiles as another user; there may be no users at all. Afterwards it is gone."""
+    if user is None:
+        monkeypatch.delattr(compiler.os, "geteuid")
+    else:
+        monkeypatch.setattr(compiler.os, "geteuid", lambda: user)
+    with compiler._folder("own text") as folder:
+        assert folder.stat().st_mode & 0o777 == rights
+        assert (folder / OWN).read_text(encoding="utf-8") == "own text"
+    assert not folder.exists()
+
+
 @pytest.mark.skipif(compiler_found() is None, reason="there is no C compiler")
 def test_whether_a_compiler_takes_an_option(capfd: pytest.CaptureFixture[str]) -> None:
     """It is asked, and nothing of what it says is shown; who is not there takes none."""

@@ -129,6 +129,17 @@ def test_what_is_right_in_c_is_not_tried(wrong: str, never: str) -> None:
     assert text not in [made for *_, made in changed(function(wrong))]
 
 
+@pytest.mark.parametrize("line", ["static double a = 0;", "do { double a = 1; } while (n < 0);"])
+def test_a_value_that_is_there_is_not_put_again(line: str) -> None:
+    """Whatever the text is that is only copied."""
+    program, texts = read(function(f"{line}\n*y = 1;")), []
+    for edit in c_edits_of(program):
+        with edit.applied(), suppress(NotInCError):
+            texts.append(text_of(program))
+    assert texts
+    assert not any("= 0 = 0" in text or "1 = 0" in text or "memset(a" in text for text in texts)
+
+
 def test_what_was_there_before_is_read_in_its_place() -> None:
     """After an array was written into: at each place of a line, and at all; not where it is written into."""
     program = read(function("*y = dt;\n*p = *y - 2 * *y;"))

@@ -6,7 +6,7 @@ import pytest
 
 from experiments.exercises.c.kinds import Kind
 from experiments.exercises.c.reading import read
-from experiments.exercises.c.tree import Verbatim, functions_in
+from experiments.exercises.c.tree import UnreadableError, Verbatim, functions_in
 
 
 def test_a_functions_names_come_in_its_order_and_structs_last() -> None:
@@ -84,6 +84,15 @@ def test_loops_that_count_up_are_over_a_range(loop: str, counts: bool) -> None:
     """By ones, to an end that the same name is compared with."""
     (function,) = functions_in(read(f"void f(int n)\n{{\n    {loop}\n}}\n").tree)
     assert function.body[0].iter.func.id == ("range" if counts else "for")  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(
+    "begin", ["n += 1", "x[0] = 1", "int i = 0, j = 1", "int i", "int i, j = 1", "n++", "n = 1, m = 2"]
+)
+def test_loops_that_begin_in_another_way_are_not_read(begin: str) -> None:
+    """Nothing is taken for what it is not: one name begins with a value, or none does."""
+    with pytest.raises(UnreadableError):
+        read(f"void f(int n, int m, int *x)\n{{\n    for ({begin}; n < 3; n++) ;\n}}\n")
 
 
 def test_directives_stand_aside_and_lines_stay_where_they_are() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import copy
 from collections.abc import Sequence
 from contextlib import suppress
 from typing import Any
@@ -197,6 +198,13 @@ def test_where_statements_are_moved_the_function_is_written_anew() -> None:
     assert "case 1: return springlab_none_1(p);" in text
 
 
+def within(holder: Any, *body: ast.stmt) -> Any:
+    """The same condition or loop about other statements."""
+    made = copy.copy(holder)
+    made.body = list(body)
+    return made
+
+
 @pytest.mark.parametrize(
     ("body", "in_order"),
     [
@@ -206,6 +214,11 @@ def test_where_statements_are_moved_the_function_is_written_anew() -> None:
         (lambda body: [*body[:2], *body[3:]], True),
         (lambda body: [*body[:4], body[-2], body[4], body[-1]], True),
         (lambda body: body[1:], False),
+        # in a condition, before and after it is declared
+        (lambda body: [*body[:3], within(body[3], body[-1]), *body[4:-1]], False),
+        (lambda body: [*body[:-1], within(body[3], body[-1])], True),
+        (lambda body: [*body[:3], within(body[3], *body[-2:]), *body[4:-2]], True),
+        (lambda body: [*body[:3], within(body[3], *body[-2:]), *body[4:-2], body[-1]], False),
     ],
 )
 def test_moved_statements_find_their_names(body: Any, in_order: bool) -> None:

@@ -155,6 +155,7 @@ def statement(text: str) -> Any:
         ("not a", "!a"),
         ("a and b or dt", "a && b || dt"),
         ("(a or b) and dt", "(a || b) && dt"),
+        ("unknown.masses", "unknown->masses"),  # what is given mostly is a pointer
     ],
 )
 def test_what_changes_bring_is_c(text: str, written: str) -> None:
@@ -222,6 +223,18 @@ def test_statements_and_copies(text: str, plain: str, told: str) -> None:
     assert writer(told=True).plain(statement(text)) == told
 
 
+def test_a_text_is_for_the_compiler_unless_it_is_said_to_be_told() -> None:
+    """What copies an array is in words only for people."""
+    program = read(function("x[0][0] = a;"))
+    own = functions_in(program.tree)[-1]
+    own.body = [statement("x = v.copy()"), *own.body]
+    assert "x = springlab_copied(v, sizeof *(v) * (n));" in text_of(program)
+    assert "x = a copy of v;" in text_of(program, told=True)
+    plain = Writer(program)
+    plain.enter(own)
+    assert "    x = springlab_copied(v, sizeof *(v) * (n));" in plain.function(own)
+
+
 @pytest.mark.parametrize("text", ["a, b = b, a", "s = q.copy()", "_x_given = x", "a: int = 3", "a **= 2", "del a"])
 def test_statements_that_c_has_not(text: str) -> None:
     """Several values at once, a copy of nobody knows what."""
@@ -273,6 +286,6 @@ def test_headers_by_other_names() -> None:
         read("double f(int a)\n{\n    return a;\n}\nstatic int *g(void)\n{\n    return 0;\n}\n").tree
     )
     assert header_of(plain) == "double f(int a)"
-    assert header_of(plain, "other", True) == "static double other(int a)"
-    assert header_of(static, "other", True) == "static int *other(void)"
+    assert header_of(plain, "other") == "static double other(int a)"
+    assert header_of(static, "other") == "static int *other(void)"
     assert header_of(static) == "static int *g(void)"
