@@ -13,6 +13,8 @@ The answer is the first limit, from short steps on; where a step is stable again
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from reference.errors import SolverError
@@ -69,7 +71,10 @@ def stability_limit(scheme: Scheme, rest: Equilibrium, found: Rates | None = Non
     found = found or rates(rest)
     if found.fastest == 0:
         return Limit(None, "nothing moves")
-    scheme = find(SOLVED[scheme.name]) if scheme.name in SOLVED else scheme
+    if scheme.name in SOLVED:
+        limit = stability_limit(find(SOLVED[scheme.name]), rest, found)
+        # what is left undone may move it by more than rounding
+        return replace(limit, certainty="computed") if limit.certainty == "certified" else limit
     linear = rest.linear
     if rest.contacts is not None and not (rest.contacts.flat(rest.system) and keeps_to_surfaces(scheme)):
         return _on_obstacles(scheme, rest, found)

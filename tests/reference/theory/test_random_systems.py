@@ -33,7 +33,7 @@ BELOW = (0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.999)
 
 #: How near to a limit dense eigenvalues are asked, as a part of it: as near as they can tell, 1e-8 at first. Further
 #: off only in steps of less than SHORT of the fastest 1/w, where growth is lost beside 1.
-APART, FURTHER, SHORT = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), (0.1, 1.0), 5e-3
+APART, FURTHER, SHORT = (1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), (0.1, 1.0), 2e-2
 
 
 def random_system(seed: int) -> MassSpringSystem:
@@ -184,8 +184,9 @@ def test_many_more_systems(request: pytest.FixtureRequest) -> None:
 #: What schemes are called among steppers.
 SCHEMES = ("scheme", "in_place", "engine_scheme")
 
-#: A limit is measured to 4e-5 of itself by a scheme's runs, 1e-4 by an engine's: it is between two of its rungs.
-MEASURED = 1e-4
+#: A limit is measured to 4e-5 of itself by a scheme's runs, 1e-4 by an engine's: it is between two of its rungs. What
+#: an iteration that stops early leaves of the damping (`SOLVED`) moves it a little more.
+MEASURED, LEFT = 1e-4, 3e-4
 
 
 def check_measured(row: Row) -> bool:
@@ -202,7 +203,8 @@ def check_measured(row: Row) -> bool:
         too_slow = row.measured.reason.startswith("not measured") or "in longer runs" in row.measured.reason
         assert too_slow, f"{row.stepper}: predicted {row.predicted.dt:.6g} s, measured {row.measured.remark}"
         return False
-    assert abs(row.relative_difference) < MEASURED, f"{row.stepper}: {row.relative_difference:.2g} off"
+    allowed = LEFT if row.stepper in SOLVED else MEASURED
+    assert abs(row.relative_difference) < allowed, f"{row.stepper}: {row.relative_difference:.2g} off"
     return True
 
 

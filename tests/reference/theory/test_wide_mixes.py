@@ -12,7 +12,7 @@ from reference.limit import Limit
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find, schemes, wide_schemes
 from reference.theory.equilibria import Equilibrium, spring_equilibrium
-from reference.theory.limits import stability_limit
+from reference.theory.limits import SOLVED, stability_limit
 from reference.theory.rates import Rates, rates
 from tests.reference.theory.test_random_systems import excess as growth
 
@@ -85,6 +85,8 @@ def checked(seed: int) -> Iterator[tuple[Scheme, Equilibrium, Rates, Limit]]:
         return
     found = rates(rest)
     for scheme in (*schemes().values(), *wide_schemes().values(), *map(find, PARAMETERS)):
+        if scheme.name in SOLVED:  # what is damped until nothing counts is not linear in small perturbations
+            continue
         limit = stability_limit(scheme, rest, found)
         if "drown" not in limit.note:
             yield scheme, rest, found, limit
