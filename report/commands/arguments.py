@@ -35,8 +35,8 @@ def parse_changes(words: Iterable[str]) -> tuple[Change, ...]:
         time, _, setting = word.partition(":")
         key, _, value = setting.partition("=")
         try:
-            numbers = [float(number) for number in value.split(",")]
-            changes.append(Change(float(time), key, numbers[0] if len(numbers) == 1 else numbers))
+            numbers = [float(number) for number in value.split(",")] if "," in value else float(value)
+            changes.append(Change(float(time), key, numbers))
         except ValueError:
             raise InputError(f"--change {word!r}: expected T:KEY=VALUE with two numbers") from None
     return tuple(changes)

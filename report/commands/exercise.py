@@ -107,7 +107,11 @@ def list_command(as_json: bool) -> None:
 @click.argument("exercise")
 @click.argument("folder", required=False, type=click.Path(path_type=Path, file_okay=False))
 @click.option(
-    "--seed", default="example", show_default=True, help="Yours, where an exercise gives everybody other numbers."
+    "--seed",
+    metavar="WORD",
+    default="example",
+    show_default=True,
+    help="Yours, where an exercise gives everybody other numbers.",
 )
 @click.option("--language", type=click.Choice(["python", "c"]), default="python", show_default=True)
 @key_option
@@ -131,7 +135,7 @@ def start_command(
 
 @exercise_command.command("check")
 @click.argument("files", nargs=-1, required=True, type=click.Path(path_type=Path))
-@click.option("--exercise", help="Which it is; what the file says where left out.")
+@click.option("--exercise", metavar="NAME", help="Which it is; what the file says where left out.")
 @key_option
 @click.option(
     "--csv", "table", type=click.Path(path_type=Path, dir_okay=False), help="Grades of a class; goes on from there."

@@ -27,7 +27,7 @@ def register(group: click.Group, key_option: object, exposed_option: object, wit
     "--out", type=_FILE, default=Path("book.csv"), show_default=True, help="The book; its marks by hand stay."
 )
 @click.option("--grades", type=_FILE, help="The table of grades; goes on from there. Beside the book where left out.")
-@click.option("--exercise", help="Which it is; what each file says where left out.")
+@click.option("--exercise", metavar="NAME", help="Which it is; what each file says where left out.")
 @click.option("--students", type=_FILE, help="Who should have handed in: a name a line, or a table; maybe with seeds.")
 @click.option("--due", type=click.DateTime(["%Y-%m-%d", "%Y-%m-%dT%H:%M"]), help="Until when; later files are late.")
 @click.option(

@@ -17,7 +17,13 @@ LOOPBACK = ("127.0.0.1", "localhost", "::1")
 @click.command("live")
 @scene_argument
 @steppers_option("Who steps a lane, up to four of them, files of your own too; kick_drift where left out.")
-@click.option("--host", default="127.0.0.1", show_default=True, help="The address to listen at; 0.0.0.0 is every one.")
+@click.option(
+    "--host",
+    metavar="ADDRESS",
+    default="127.0.0.1",
+    show_default=True,
+    help="The address to listen at; 0.0.0.0 is every one.",
+)
 @click.option("--port", default=8080, show_default=True, help="0 for any that is free.")
 @click.option(
     "--allow-origin",

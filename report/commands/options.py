@@ -103,11 +103,6 @@ def out_option(default: Path | None, text: str | None = None) -> Decorator:
 
 def _refuse_stepper(scene: str) -> None:
     """Raises InputError for a stepper in a scene's place."""
-    from reference.files.setup import is_file
-    from reference.scenes import scenes
-
-    if is_file(scene) or scene in scenes():
-        return
     from experiments.runs.steppers import all_steppers
 
     if scene in all_steppers():
@@ -141,8 +136,11 @@ def setup_options(command: Command) -> Command:
         start_beforehand()
         from reference.files.setup import setup_for
 
-        _refuse_stepper(scene)
-        setup = setup_for(scene, dt, duration, settings, changes, (*ramps, *sines))
+        try:
+            setup = setup_for(scene, dt, duration, settings, changes, (*ramps, *sines))
+        except InputError:
+            _refuse_stepper(scene)
+            raise
         for remark in setup.remarks:
             print(f"springlab: {remark}", file=sys.stderr)
         return command(setup=setup, **others)

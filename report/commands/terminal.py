@@ -35,7 +35,7 @@ def progress(title: str) -> Iterator[Progress]:
     from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
     from rich.progress import Progress as Bar
 
-    left = (TextColumn("left:"), TimeRemainingColumn(elapsed_when_finished=True))
+    left = (TextColumn("left:"), TimeRemainingColumn())
     columns = (BarColumn(20), TextColumn("{task.description}"), TimeElapsedColumn(), *left)
     console = Console(stderr=True)
     with Bar(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:

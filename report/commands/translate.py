@@ -124,8 +124,8 @@ def _typed(translation: Translation, words: Sequence[str]) -> tuple[Translation,
             raise InputError(f"{word!r}: expected SETTING=NUMBER, or numbers as in solref=0.02,1")
         if name == "solref" and len(values) != 2:
             raise InputError(f"{word!r}: expected two numbers, as in solref=0.02,1")
-        parts = {name: values[0]} if len(values) == 1 else {f"{name}_{i}": value for i, value in enumerate(values)}
-        typed |= parts
+        names = [name] if len(values) == 1 else [f"{name}_{i}" for i in range(len(values))]
+        typed |= dict(zip(names, values, strict=True))
     for other in translations().values():
         related = other.name.startswith(f"{translation.name}_")
         if related and typed and not set(typed) <= set(translation.fields) and set(typed) <= set(other.fields):

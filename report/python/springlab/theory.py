@@ -44,8 +44,8 @@ class Stability:
         from experiments.stability import result_of
 
         result = result_of(self._rows)
-        columns, rows = result.tables[0].columns, result.tables[0].rows
-        return Table("", tuple(columns), tuple(map(tuple, rows)), tuple(result.findings))
+        (table,) = result.tables
+        return Table("", tuple(table.columns), tuple(map(tuple, table.rows)), tuple(result.findings))
 
     def plot(self) -> Plot:
         """Predicted limits as bars, measured ones as dots."""

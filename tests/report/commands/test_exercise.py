@@ -11,10 +11,11 @@ from zipfile import ZipFile
 import pytest
 from click.testing import CliRunner
 
+from experiments.exercises.exercise import exercises
 from experiments.exercises.process.sandbox import Limits
 from reference.errors import InputError
 from report.commands import exercise
-from report.commands.exercise import check_command, gradescope_command
+from report.commands.exercise import check_command, gradescope_command, list_command
 
 PROGRAM = 'EXERCISE = "euler"\nSEED = "ada"\n\n\ndef step(y, v, dt, spring):\n    return y, v\n'
 
@@ -215,3 +216,20 @@ def test_of_a_class_equal_seeds_are_told_and_what_was_not_graded_is_the_code(
     assert "Exercise 1: 2 files have the seed a." in err
     assert f"written: {tmp_path / 't.csv'}" in err
     assert "springlab: 2 not graded, which is not their fault: the same command tries them again" in err
+
+
+def test_exercises_are_listed_in_words_and_as_json(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With their numbers, minutes and goals, and how many mistakes are known by different names."""
+    monkeypatch.setenv("COLUMNS", "200")
+    rows = json.loads(CliRunner().invoke(list_command, ["--json"], catch_exceptions=False).output)
+    known = exercises()
+    assert [(row["exercise"], row["name"], row["title"]) for row in rows] == [
+        (number, one.name, one.title) for number, one in known.items()
+    ]
+    assert all(row["minutes"] > 0 and row["goals"] for row in rows)
+    wrong = known[1].mistakes
+    assert 1 < rows[0]["mistakes known"] == len({one.name for one in wrong}) <= len(wrong)
+    said = CliRunner().invoke(list_command, [], catch_exceptions=False).output
+    with pytest.raises(json.JSONDecodeError):
+        json.loads(said)
+    assert all(one.name in said for one in known.values())

@@ -131,7 +131,7 @@ def test_json_has_each_stepper_and_each_mode() -> None:
 
 def test_a_picture_and_a_table_are_written(tmp_path: Path) -> None:
     """Into a folder that is made; the table has what is printed, with all its figures."""
-    out = tmp_path / "new"
+    out = tmp_path / "new" / "out"
     said = springlab("modes", "chain", "--set", "masses=3", "--set", "drag=0.1", "--out", str(out))
     assert said.err.splitlines() == [f"written: {out / name}" for name in ("chain-modes.svg", "chain-modes.csv")]
     assert (out / "chain-modes.svg").read_text().startswith("<svg")

@@ -38,3 +38,9 @@ def test_a_stepper_in_a_scenes_place_is_told_from_an_unknown_scene() -> None:
     said = springlab("simulate", "heun")
     assert said.err == "springlab: scene 'heun': that is a stepper: expected a scene; identify takes STEPPER SCENE\n"
     assert "unknown scene 'hen'" in springlab("simulate", "hen").err
+
+
+def test_an_unknown_command_is_named_with_what_is_like_it() -> None:
+    """Whatever follows it."""
+    said = springlab("simulat", "string", "--json")
+    assert (said.code, said.err) == (2, "springlab: unknown command 'simulat': did you mean 'simulate'?\n")

@@ -64,3 +64,11 @@ def test_a_scene_comes_first_and_then_what_is_set_of_it() -> None:
     for name in ("simulate", "modes", "compare", "identify"):
         first = [one.name for one in command(name).params if one.name != "stepper"][:7]
         assert first == ["scene", "dt", "duration", "settings", "changes", "ramps", "sines"]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_what_takes_a_value_says_which(name: str) -> None:
+    """All others are switches: --json, --open, --fresh ..."""
+    found = {option.opts[0]: option for option in options(command(name)) if not option.hidden}
+    values = {word for word, option in found.items() if not option.is_flag}
+    assert {word for word in values if found[word].metavar is None and found[word].type is click.STRING} == set()
