@@ -36,7 +36,8 @@ def carried_engines(names: Sequence[str]) -> dict[str, Any]:
     engines = [_found(name) for name in dict.fromkeys(names)]
     if not engines:
         return {}
-    home = _package_folder(engines[0].package)
+    (package,) = {engine.package for engine in engines}
+    home = _package_folder(package)
     told = json.loads((home / "package.json").read_text(encoding="utf-8"))
     program = (home / "dist" / Path(PACKAGE).name).read_bytes()
     return {

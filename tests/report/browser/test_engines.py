@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -9,12 +11,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from engines.jolt.soft_body import PACKAGE
 from engines.process.available import how_to_install, interpreter
 from engines.process.packages import APART
 from experiments.runs.steppers import find_steppers
 from reference.changes import Change
 from reference.errors import InputError
 from reference.scenes import find as find_scene
+from report.browser import engines
 from report.browser.engines import CARRIED, carried_engines, refusals
 from report.browser.lab_page import lab_page
 from report.browser.presets import Preset
@@ -92,3 +96,28 @@ def test_engines_that_no_browser_runs_are_refused() -> None:
     said = {name: refusals(["jolt_soft_body"], find_scene(name).system({})) for name in ("string", "barrier")}
     assert said["string"] == {"jolt_soft_body": ""}
     assert "drag" in said["barrier"]["jolt_soft_body"]
+
+
+def test_a_page_carries_the_engines_program_licence_and_what_each_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each once, from the package's folder; without one it is told how to install it."""
+    home = tmp_path / Path(PACKAGE).parents[1]
+    (home / "dist").mkdir(parents=True)
+    (home / "package.json").write_text('{"version": "9.8.7"}', encoding="utf-8")
+    (home / "dist" / Path(PACKAGE).name).write_bytes(b"program")
+    (home / "LICENSE").write_text("a licence", encoding="utf-8")
+    monkeypatch.setattr(engines, "interpreter", lambda package: tmp_path / "bin" / "python")
+    carried = carried_engines(["jolt_soft_body_once", "jolt_soft_body", "jolt_soft_body_once"])
+    assert gzip.decompress(base64.b64decode(carried["program"])) == b"program"
+    assert carried["licence"] == "a licence"
+    assert [engine["name"] for engine in carried["engines"]] == ["jolt_soft_body_once", "jolt_soft_body"]
+    for told in carried["engines"]:
+        engine = CARRIED[told["name"]]
+        assert (told["package"], told["version"]) == (engine.package, "9.8.7")
+        assert (told["precision"], told["semantics"]) == (engine.precision, engine.semantics)
+        assert told["substeps"] == engine.substeps
+        assert told["settings"].split(", ") == [f"{name} = {value}" for name, value in engine.settings.items()]
+    monkeypatch.setattr(engines, "interpreter", lambda package: None)
+    with pytest.raises(InputError, match="jolt-physics"):
+        carried_engines(["jolt_soft_body"])
