@@ -170,6 +170,6 @@ def contact_data(contacts: Contacts, system: MassSpringSystem) -> list[Mapping[s
 def _compact(values: Array) -> Any:
     """One number where all are the same, the sign of zero too."""
     flat = values.ravel()
-    if len(flat) and (flat == flat[0]).all() and (np.signbit(flat) == np.signbit(flat[0])).all():
+    if len(flat) and flat.tobytes() == flat[:1].tobytes() * len(flat):
         return float(flat[0])
     return flat.tolist()

@@ -89,11 +89,13 @@ def solved_equations(scheme: Scheme) -> Equations:
         raise NotLinear(f"{scheme.name} is not linear in the state")
     steps = [_stepped(scheme, h) for h in STEPS]
     rows = [_coefficients(step) for step in steps]
-    if len({found.shape for found in rows}) > 1:
+    shapes = {found.shape for found in rows}
+    if len(shapes) > 1:
         raise NotLinear(f"{scheme.name} is another set of sums at another dt")
+    ((_, count),) = shapes
     remembered = len(steps[0].start) - 2
     terms = ["x", "v", *(f"m{i}" for i in range(remembered))]
-    terms += [f"a{i}" for i in range(rows[0].shape[1] - len(terms))]
+    terms += [f"a{i}" for i in range(count - len(terms))]
     sums = [_named(row, terms) for row in np.stack(rows, axis=1)]
     places = _pairs(sums[2 + remembered :])
     names = {f"m{i}": _name(i, kept, places) for i, kept in enumerate(sums[2 : 2 + remembered])}

@@ -13,7 +13,7 @@ from reference.scenes import find, scenes
 from report.browser.changes import drives_data
 from report.browser.presets import PRESETS, Preset
 from report.browser.recordings import MOST, Recording, largest_error, quantised, recording_data
-from report.browser.system_data import refuse_beyond, scene_data, system_data
+from report.browser.system_data import _compact, refuse_beyond, scene_data, system_data
 
 
 def test_a_number_that_all_have_is_written_once() -> None:
@@ -22,6 +22,16 @@ def test_a_number_that_all_have_is_written_once() -> None:
     assert (data["masses"], data["stiffness"], data["velocities"]) == (0.5, 40.0, 0.0)
     assert len(data["rest_lengths"]) == data["s"]
     assert len(data["positions"]) == data["n"] * data["d"]
+
+
+@pytest.mark.parametrize(
+    ("values", "written"),
+    [([2.0, 2.0], 2.0), ([2.0, 2.0, 3.0], [2.0, 2.0, 3.0]), ([-0.0], -0.0), ([0.0, -0.0], [0.0, -0.0]), ([], [])],
+)
+def test_the_same_is_the_same_to_the_bit(values: list[float], written: object) -> None:
+    """The sign of zero too, which is seen in what it is divided by; a table is written row by row."""
+    assert repr(_compact(np.array(values))) == repr(written)
+    assert _compact(np.array([[1.0, 2.0], [3.0, 1.0]])) == [1.0, 2.0, 3.0, 1.0]
 
 
 def test_a_scene_has_the_command_lines_words_for_it() -> None:
@@ -39,7 +49,7 @@ def test_what_the_page_does_not_know_and_what_is_too_large_is_refused() -> None:
     with pytest.raises(Unsupported, match="collide"):
         refuse_beyond(find("string").system({"radii": 0.01}))
     with pytest.raises(Unsupported, match="pull"):
-        refuse_beyond(replace(find("string").system({}), pulls=np.ones((11, 2))))
+        refuse_beyond(replace(find("string").system({}), pulls=np.eye(11, 2)))
     refuse_beyond(find("slinky").system({}))  # of rest length 0
     with pytest.raises(Unsupported, match="2,500"):
         refuse_beyond(find("cloth").system({"rows": 60, "columns": 60}))

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from experiments.experiment import NAMES
-from report.browser.beside import BESIDE
+from experiments.experiment import NAMES, find
+from report.browser.beside import BESIDE, scenes_beside
 from report.page import written
 
 
@@ -29,3 +29,27 @@ def test_the_lab_is_written_where_a_section_shows_it(
     assert made.file.read_text(encoding="utf-8") == f"page beside {written.LAB if beside else 'nothing'}"
     assert labs == ([tmp_path / "new" / written.LAB] if beside else [])
     assert asked == [{"fresh": True, "full": False}]
+
+
+def test_the_lab_beside_a_report_has_the_scenes_that_its_states_show(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By the names that links have for them: a larger cloth, of another name, is not among them."""
+    made: list[Any] = []
+    monkeypatch.setattr(written, "lab_page", lambda presets: made.extend(presets) or "lab")
+    written._write_lab(tmp_path / "lab.html")
+    assert (tmp_path / "lab.html").read_text(encoding="utf-8") == "lab"
+    names = [preset.name or preset.scene for preset in made]
+    assert {*names} == scenes_beside()
+    assert len(names) == len({*names})
+
+
+def test_which_experiments_are_on_a_page() -> None:
+    """Those named, each once, in that order; of no names those that belong in the report, in full all."""
+    left_out = [name for name in NAMES if not find(name).in_report]
+    assert left_out
+    names = lambda given, full: [one.name for one in written._wanted(given, full)]  # noqa: E731
+    assert names(["maps", left_out[0], "maps"], False) == ["maps", left_out[0]]
+    assert names([], True) == list(NAMES)
+    assert names([], False) == [name for name in NAMES if name not in left_out]
+    assert names(["maps"], True) == ["maps"]

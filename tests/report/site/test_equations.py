@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from reference.compiled.expressions import Expression
+from reference.compiled.expressions import OPERATIONS, Expression
 from reference.compiled.tracing import Program, trace, why_not_compiled
 from reference.forces import SpringMotion
 from reference.motion import Motion
@@ -126,9 +126,11 @@ def test_solved_equations_are_written_as_in_a_textbook() -> None:
     assert "m\u2080" not in bdf2
 
 
-@pytest.mark.parametrize("name", ["euler_in_place", "drift_kick_exponential_damping", "stormer_verlet"])
+@pytest.mark.parametrize(
+    "name", ["euler_in_place", "drift_kick_exponential_damping", "stormer_verlet", "kick_drift_implicit_drag"]
+)
 def test_what_is_no_set_of_sums_has_none(name: str) -> None:
-    """It goes from mass to mass, has exponentials, or divides by dt."""
+    """It goes from mass to mass, has exponentials, divides by dt, or by what drag makes of it."""
     with pytest.raises(NotLinear):
         equations_of(find(name))
 
@@ -161,6 +163,23 @@ def test_what_is_no_sum_is_not_written_as_one() -> None:
         equations(Program(((x, v),), (Expression("{} * {}", (x, x)), v)))
     with pytest.raises(NotLinear):
         equations(Program(((x, v),), (Expression("{} * {}", (Expression("c0"), x)), v), (("exp", np.exp),)))
+
+
+def test_every_operation_is_multiplied_out() -> None:
+    """By hand: 3 (h/2 x - v) / 4 and -(v - +x) h/2, with coefficients before and behind."""
+    x, v, h, three, four = (Expression(name) for name in ("x", "v", "c0", "(3.0)", "4.0"))
+    write = {function.__name__: lambda *parts, t=text: Expression(t, parts) for function, text in OPERATIONS.items()}
+    inner = write["subtract"](write["multiply"](h, x), v)
+    place = write["divide"](write["multiply"](three, inner), four)
+    speed = write["multiply"](write["negative"](write["subtract"](v, write["positive"](x))), h)
+    (made,) = equations(Program(((place, speed),), (x, write["add"](v, x)), (("dt / 2", lambda dt: dt / 2),))).stages
+    assert made == (
+        {"x": {1: Fraction(3, 8)}, "v": {0: Fraction(-3, 4)}},
+        {"v": {1: Fraction(-1, 2)}, "x": {1: Fraction(1, 2)}},
+    )
+    for odd in (write["divide"](x, h), write["divide"](x, v), write["multiply"](x, v), write["square"](x)):
+        with pytest.raises(NotLinear):
+            equations(Program(((x, v),), (odd, v), (("dt / 2", lambda dt: dt / 2),)))
 
 
 def test_a_parameter_is_a_fraction_in_the_equations() -> None:
