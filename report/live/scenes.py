@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from reference.changes import Change
 from reference.errors import InputError
@@ -41,10 +41,10 @@ class OpenedScene:
     name: str
     system: MassSpringSystem
     dt: float
-    settings: Mapping[str, str] = field(default_factory=dict)
-    changes: tuple[Change, ...] = ()
-    as_named: bool = True
-    ground_moves: bool = False
+    settings: Mapping[str, str]
+    changes: tuple[Change, ...]
+    as_named: bool
+    ground_moves: bool
 
     @property
     def stem(self) -> str:

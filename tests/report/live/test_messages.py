@@ -148,6 +148,9 @@ def test_only_a_picture_may_be_large() -> None:
     assert not well_formed(msgspec.msgpack.encode(picture | {"payload": bytes(2**25 + 1)}))
     text = {"type": "GuiUpdateMessage", "uuid": "u", "updates": {"value": "x" * 2**20}}
     assert not well_formed(msgspec.msgpack.encode(text))
+    short = text | {"updates": {"value": "x"}}
+    assert well_formed(msgspec.msgpack.encode(short))
+    assert not well_formed(msgspec.msgpack.encode(text | {"updates": {"value": "x", "removed": True}}))
 
 
 def test_several_numbers_have_to_be_as_many_as_before() -> None:
@@ -156,6 +159,9 @@ def test_several_numbers_have_to_be_as_many_as_before() -> None:
     assert complaint(part, [3, 4]) == ""
     assert complaint(part, [3]) == "slider = [3]: expected 2 numbers"
     assert complaint(part, [3, 401]) == "slider = [3, 401]: expected a number from 0 to 400"
+    from_one = SimpleNamespace(value=3, label="rows", min=1, max=None)
+    assert complaint(from_one, 0) == "rows = 0: expected a number from 1 to inf"
+    assert complaint(SimpleNamespace(value=3, label="any"), "0") == "any = '0': expected a finite number"
     assert complaint(part, [3, True]) == "slider = [3, True]: expected a number from 0 to 400"
 
 

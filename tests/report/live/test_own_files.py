@@ -10,6 +10,7 @@ from reference.errors import InputError
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import find
 from reference.simulate import simulate
+from report.live import own_files
 from report.live.lab import Lab
 from report.live.own_files import admit
 from report.live.status import status
@@ -72,3 +73,25 @@ def test_a_file_that_was_not_named_at_the_start_is_not_run(tmp_path: Path, labs:
     assert admit("heun") == "heun"
     with pytest.raises(InputError, match="expected a file that can be read"):
         admit(str(tmp_path / "nothing.py"))
+
+
+@pytest.mark.parametrize(("damping", "drag"), [((0.1, 0.0, 0.0), 0.0), ((0.0, 0.0, 0.0), 0.2), ((0.0, 0.0, 0.3), 0.2)])
+def test_what_a_file_is_is_found_out_once_for_each_text_and_damping(
+    file: str, damping: tuple[float, ...], drag: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One damped spring is enough; what was written meanwhile is another text."""
+    asked: list[tuple[bool, bool]] = []
+
+    def find_out(stepper: object, damped: bool, dragged: bool) -> str:
+        asked.append((damped, dragged))
+        return f"{damped} {dragged}"
+
+    monkeypatch.setattr(own_files, "identified_on_a_string", find_out)
+    monkeypatch.setattr(own_files, "_FOUND", {})
+    system = find_scene("string").system({"masses": 3}).with_parameter("damping", damping).with_parameter("drag", drag)
+    wanted = any(damping), drag > 0
+    assert [own_files.identified(file, system) for _ in range(2)] == [f"{wanted[0]} {wanted[1]}"] * 2
+    assert asked == [wanted]
+    Path(file).write_text(KICK_DRIFT + "# mended", encoding="utf-8")
+    own_files.identified(file, system)
+    assert asked == [wanted] * 2

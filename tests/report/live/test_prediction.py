@@ -16,7 +16,7 @@ from reference.theory.equilibria import equilibrium_on_obstacles, spring_equilib
 from reference.theory.limits import explicit_damping_limit, stability_limit
 from reference.theory.modes import string_mode
 from report.live import prediction
-from report.live.prediction import GROWTH_UP_TO, MOST, ON_OBSTACLES_UP_TO, Prediction, Predictor, percent, predict
+from report.live.prediction import GROWTH_UP_TO, MOST, ON_OBSTACLES_UP_TO, Predictor, predict
 
 
 @pytest.mark.rotating(3, in_turn=True)
@@ -143,31 +143,6 @@ def test_growth_is_told_where_the_jacobian_is_small() -> None:
     assert found.fastest * found.limit == pytest.approx(2.0, rel=1e-6)
     assert predict("kick_drift", few, 1.1 * found.limit).growth > 1.5
     assert np.isnan(predict("kick_drift", many, 1e-3).growth)
-
-
-def test_what_is_said_of_a_dt_has_its_numbers() -> None:
-    """Over the limit with the growth, below it without; where there is none, why."""
-    known = Prediction(0.01, "", 1.25, "heun", 200.0)
-    over = "dt = 20 ms is 2 times the predicted largest stable dt, 10 ms."
-    assert known.of(0.02) == f"{over} dt times omega is 4, over 2. The fastest mode grows 25 % a step."
-    assert replace(known, fastest=np.nan).of(0.02) == f"{over} The fastest mode grows 25 % a step."
-    assert replace(known, growth=1.0 + 1e-7).of(0.02) == f"{over} dt times omega is 4, over 2."
-    for dt, times in ((0.005, "5 ms is 0.5"), (0.01, "10 ms is 1")):
-        assert known.of(dt) == (
-            f"dt = {times} times the predicted largest stable dt, 10 ms. That limit is for small swings about the "
-            "rest, and these are large."
-        )
-    none = Prediction(None, "unstable at any dt", 2.5, "euler")
-    grows = "The fastest mode grows 2.5-fold a step."
-    assert none.of(0.02) == f"Theory knows no largest stable dt here: unstable at any dt. {grows}"
-    assert [percent(part) for part in (0.001, 0.999, 1.0, 99.0, np.inf, np.nan)] == [
-        "0.1 %",
-        "1e+02 %",
-        "2-fold",
-        "100-fold",
-        "without bound",
-        "without bound",
-    ]
 
 
 def test_a_question_about_another_system_is_not_answered_with_that_of_before(monkeypatch: pytest.MonkeyPatch) -> None:

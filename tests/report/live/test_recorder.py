@@ -168,6 +168,11 @@ def test_plots_go_on_where_they_consist_of_the_same() -> None:
     assert panel.shown()[1:] == before[1:]
     plots.show(recorder([0.0, 1.0], ("heun", "rk4")))
     assert [len(plot.series) for plot in panel.shown()] == [3, 3, 3]
+    made = recorder([0.0, 1.0])
+    made.take(["heun", "euler"])
+    made.record(2.0, 4.0, [lane(1.0), lane(2.0)], SYSTEM.start, SYSTEM)
+    plots.show(made)  # of the one that came nothing is known before
+    assert [[line["label"] for line in plot.series] for plot in panel.shown()] == [["t [s]", "heun", "euler"]] * 3
     plots.show(recorder([0.0]))
     assert panel.shown() == []
     made = Recorder(["heun"])
