@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
 from threading import Event
 
@@ -155,7 +156,10 @@ def test_a_question_about_another_system_is_not_answered_with_that_of_before(mon
         return f"{name} {dt:g}"
 
     monkeypatch.setattr(prediction, "predict", slow)
+    others = {*threading.enumerate()}
     predictor, system = Predictor(), find_scene("string").system({})
+    (thread,) = {*threading.enumerate()} - others
+    assert thread.daemon
     predictor.ask(["heun", "rk4", "heun"], system, 1.0)
     assert begun.wait(600)
     predictor.forget()
@@ -171,3 +175,5 @@ def test_a_question_about_another_system_is_not_answered_with_that_of_before(mon
     predictor.wait(600)
     assert predictor.found == {"euler": "euler 3"}
     predictor.end()
+    thread.join(600)
+    assert not thread.is_alive()
