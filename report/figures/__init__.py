@@ -26,10 +26,13 @@ IDENTIFIED: dict[str, Any] = {"marker": "o", "fillstyle": "none", "markeredgewid
 #: Black that stays black where the page is dark: what is drawn upon a heat map, whose colours stay too.
 BLACK_ON_COLOURS = "#000001"
 
+#: Sizes of words [points]: above a panel, in it or beside it, and where there are many.
+TITLE, NOTE, SMALL = 11, 9, 8
+
 STYLE = {
     "figure.figsize": (9.0, 5.0),
     "figure.constrained_layout.use": True,
-    "font.size": 11,
+    "font.size": TITLE,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,

@@ -8,7 +8,7 @@ from typing import Any
 from experiments.advice.advice import Advice
 from experiments.experiment import Result
 from reference.scenes import Setup
-from report.figures import COLOURS, MEASURED, PREDICTED, Picture, few_ticks, new_figure
+from report.figures import COLOURS, MEASURED, NOTE, PREDICTED, Picture, few_ticks, new_figure
 
 #: The axis goes this many times beyond its numbers to the left; to the right, where words stand, a part of itself.
 LEFT, RIGHT = 2.0, 0.35
@@ -48,9 +48,9 @@ def _row(axes: Any, y: int, advice: Advice, setup: Setup) -> None:
     if advice.predicted.dt is not None:
         axes.plot([advice.predicted.dt] * 2, [y - 0.35, y + 0.35], **{**PREDICTED, "linewidth": 2})
     if advice.measured.dt is not None:
-        axes.plot(advice.measured.dt, y, color=COLOURS[1], markersize=6, **MEASURED)
+        axes.plot(advice.measured.dt, y, color=COLOURS[1], **MEASURED)
     right = max(n for n in (advice.predicted.dt, advice.measured.dt, setup.dt) if n is not None)
-    axes.text(1.12 * right, y, _words(advice, setup), fontsize=9, va="center", color="#555555")
+    axes.text(1.12 * right, y, _words(advice, setup), fontsize=NOTE, va="center", color="#555555")
 
 
 def _words(advice: Advice, setup: Setup) -> str:

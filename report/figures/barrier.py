@@ -11,7 +11,7 @@ from experiments.barrier import OWN, STEPS, Slide, predicted
 from experiments.experiment import Result
 from reference.obstacles import Circle
 from reference.state import Trajectory
-from report.figures import COLOURS, Picture, few_ticks, from_nothing, look, new_figure, powers
+from report.figures import COLOURS, NOTE, SMALL, Picture, few_ticks, from_nothing, look, new_figure, powers
 from report.figures.filmstrip import Strip, draw_row
 
 #: When the string is drawn [s], and how far a frame reaches to either side of the anchor, below and above it [m].
@@ -38,7 +38,7 @@ def draw(result: Result) -> Picture:
     for fraction, says in ((2 / 3, "cos = 2/3: true"), (1 / 2, "cos = 1/2: held on")):
         height = np.degrees(predicted(fraction=fraction))
         angles.axhline(height, color="#333333", linewidth=1, linestyle=":")
-        angles.text(STEPS[-1], height + 1.2, f"predicted, {says}", fontsize=9)
+        angles.text(STEPS[-1], height + 1.2, f"predicted, {says}", fontsize=NOTE)
     angles.set_ylim(0, 70)
     angles.set_ylabel("angle from the top where it leaves, or is in the end [deg]")
     depths.set_ylabel("deepest inside [m]")
@@ -48,7 +48,7 @@ def draw(result: Result) -> Picture:
         plot.set_xlabel("dt [s]")
         few_ticks(plot)
     from_nothing(depths.yaxis, FLOOR, powers(*range(-15, 0, 3)))
-    angles.legend(fontsize=7, loc="center right", bbox_to_anchor=(1.0, 0.35))
+    angles.legend(fontsize=SMALL, loc="center right", bbox_to_anchor=(1.0, 0.35))
     strings = result.data["strings"]
     _film(_row(figure, axes, 1), {name: strings[name] for name in RULES if name in strings}, result.data["circle"])
     engines = {name: strings[name] for name, rule in result.data["slides"] if rule == OWN and name in strings}
@@ -87,7 +87,7 @@ def _film(axes: Any, motions: Mapping[str, Trajectory], circle: Circle) -> None:
         x, y = circle.centre
         axes.add_patch(Disc((2 * FRAME[0] * i + x, y), circle.radius, color="#dddddd", zorder=0))
     handles = [Line2D([], [], label=name, **style) for name, style in styles.items()]
-    axes.legend(handles=handles, fontsize=7, loc="upper left", bbox_to_anchor=(1.0, 1.15))
+    axes.legend(handles=handles, fontsize=SMALL, loc="upper left", bbox_to_anchor=(1.0, 1.15))
 
 
 def _alt(result: Result) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from experiments.cost import ANCHOR, DT, DURATION, MASSES, Cost, anchor, rounded
 from experiments.experiment import Result
 from reference.state import Array
-from report.figures import Picture, look, new_figure
+from report.figures import NOTE, TITLE, Picture, look, new_figure
 
 #: The figure's height [inches], how much of it a line of the legend takes, and how many letters are in one.
 HEIGHT, LINE, LETTERS = 6.0, 0.18, 34
@@ -74,12 +74,12 @@ def draw(result: Result) -> Picture:
         axes.set_yscale("log")
     left.set_xlabel(f"wall time of {DURATION:g} s of motion [s]")
     left.set_ylabel("largest distance of any mass from the true motion at the end [m]")
-    left.set_title(f"Measured: a string of {MASSES[0]} masses, five dt", loc="left", fontsize=11)
+    left.set_title(f"Measured: a string of {MASSES[0]} masses, five dt", loc="left", fontsize=TITLE)
     right.set_xlabel("masses [1]")
     right.set_ylabel("steps per second [1/s]")
-    right.set_title("Measured: speed on larger strings", loc="left", fontsize=11)
+    right.set_title("Measured: speed on larger strings", loc="left", fontsize=TITLE)
     title = "scheme: engines (solid), our own (dashed);\nshaded: from cheapest to dearest"
-    figure.legend(loc="outside right center", title=title, alignment="left", fontsize=9, title_fontsize=9)
+    figure.legend(loc="outside right center", title=title, alignment="left", fontsize=NOTE, title_fontsize=NOTE)
     return Picture(figure, _alt(costs))
 
 
@@ -95,7 +95,7 @@ def _groups(costs: Sequence[Cost]) -> list[Group]:
 
 def _errors(axes: Any, group: Group, style: dict[str, str]) -> None:
     cheapest, dearest, errors = group.errors
-    axes.plot(cheapest, errors, _dashes(group), label=group.label, linewidth=1.2, markersize=5, **style)
+    axes.plot(cheapest, errors, _dashes(group), label=group.label, linewidth=1.2, **style)
     if len(group.costs) > 1:
         known = np.isfinite(errors)
         axes.fill_betweenx(errors[known], cheapest[known], dearest[known], color=style["color"], alpha=0.2, linewidth=0)
@@ -103,7 +103,7 @@ def _errors(axes: Any, group: Group, style: dict[str, str]) -> None:
 
 def _speeds(axes: Any, group: Group, style: dict[str, str]) -> None:
     masses, least, most = group.speeds
-    axes.plot(masses, most, _dashes(group), linewidth=1.2, markersize=5, **style)
+    axes.plot(masses, most, _dashes(group), linewidth=1.2, **style)
     if len(group.costs) > 1:
         axes.fill_between(masses, least, most, color=style["color"], alpha=0.2, linewidth=0)
 

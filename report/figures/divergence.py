@@ -11,7 +11,7 @@ import numpy as np
 from experiments.experiment import Result
 from experiments.runs.comparison import Comparison, Run
 from reference.state import Array
-from report.figures import IDENTIFIED, Picture, from_nothing, look, new_figure, powers
+from report.figures import IDENTIFIED, TITLE, Picture, from_nothing, look, new_figure, powers
 from report.figures.labels import End, label_ends
 
 #: Where no difference at all is drawn: a logarithm has no place for it.
@@ -52,7 +52,7 @@ def draw_runs(comparison: Comparison, wanted: Sequence[Run]) -> Picture:
         ends.append(End(times[len(error) - 1], float(_shown(error)[-1]), _label(group), look(i)["color"]))
         if deviation is not None:
             _line(axes, times, deviation, i, len(groups), "--", IDENTIFIED)
-    note = {"transform": axes.get_yaxis_transform(), "fontsize": 11, "fontweight": "bold", "color": "#333333"}
+    note = {"transform": axes.get_yaxis_transform(), "fontsize": TITLE, "fontweight": "bold", "color": "#333333"}
     axes.text(0.01, 2.0, "measured: from the true motion (full markers)", **note)
     axes.text(0.05, 1e-12, "identified: from the scheme named on the right (hollow, dashed)", **note)
     label_ends(axes, [end for end in ends if np.isfinite(end.y)], LINE / figure.get_figheight() * 1.15, fontsize=8.5)

@@ -11,7 +11,7 @@ import numpy as np
 from experiments.drape import DIRECTIONS, LENGTHS, RADIUS, SPACING, SUPPORT, folds, rows_of
 from experiments.experiment import Result
 from reference.scenes.drape import disc
-from report.figures import COLOURS, Picture, few_ticks, look, new_figure
+from report.figures import COLOURS, NOTE, TITLE, Picture, few_ticks, look, new_figure
 
 #: The bending lengths [m] of the cloths that are shown.
 SHOWN = (LENGTHS[0], LENGTHS[2], LENGTHS[4])
@@ -56,7 +56,7 @@ def _coefficients(axes: Any, cloths: Sequence[Mapping[str, Any]]) -> None:
     axes.set_ylim(0, 1)
     axes.set_xlabel("bending length [mm]")
     axes.set_ylabel("drape coefficient, measured [1]")
-    axes.legend(fontsize=9, loc="upper left")
+    axes.legend(fontsize=NOTE, loc="upper left")
 
 
 def _cloth(axes: Any, one: Mapping[str, Any]) -> None:
@@ -70,7 +70,7 @@ def _cloth(axes: Any, one: Mapping[str, Any]) -> None:
     axes.set_zlim(1e3 * (SUPPORT - RADIUS), 0)
     axes.view_init(elev=32, azim=-60)
     axes.set_axis_off()
-    axes.set_title(f"bending length {1e3 * one['length']:g} mm", fontsize=11)
+    axes.set_title(f"bending length {1e3 * one['length']:g} mm", fontsize=TITLE)
 
 
 def _shadow(axes: Any, one: Mapping[str, Any]) -> None:
@@ -84,7 +84,7 @@ def _shadow(axes: Any, one: Mapping[str, Any]) -> None:
     axes.set_ylabel("z [mm]")
     count, amplitude = folds(one["outline"])
     said = f"DC {one['coefficient']:.2f}, {count} folds of {1e3 * amplitude:.0f} mm"
-    axes.set_title(said, fontsize=10)
+    axes.set_title(said, fontsize=TITLE)
 
 
 def _alt(cloths: Sequence[Mapping[str, Any]]) -> str:

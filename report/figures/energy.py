@@ -12,7 +12,7 @@ from experiments.energy import DURATION, Row
 from experiments.experiment import Result
 from reference.state import Array
 from reference.theory.energy_trend import TRENDS
-from report.figures import COLOURS, Picture, from_nothing, new_figure, powers
+from report.figures import COLOURS, NOTE, TITLE, Picture, from_nothing, new_figure, powers
 from report.figures.labels import End, label_ends
 
 #: Each kind of energy's colour and marker; there is no marker if it could not be told.
@@ -62,14 +62,14 @@ def _energy(axes: Any, rows: Sequence[Row]) -> None:
     axes.set_title(
         "Measured: energy of an undamped string (dashed: distance constraints for springs; rings: engines)",
         loc="left",
-        fontsize=11,
+        fontsize=TITLE,
     )
     ends: list[End] = []
     diverged: list[End] = []
     for group in _groups(rows):
         times, errors = _largest(group[0].times, group[0].errors)
         look, line = LOOKS[group[0].measured], "--" if _on_constraints(group[0]) else "-"
-        axes.plot(times, errors, line, markersize=5, markevery=3, **look)
+        axes.plot(times, errors, line, markevery=3, **look)
         if any(row.stepper.kind == "engine" for row in group):
             axes.plot(times, errors, "o", fillstyle="none", color="#000000", markersize=9, markevery=(1, 7))
         end = End(float(times[-1]), float(errors[-1]), _label(group), look["color"])
@@ -77,7 +77,7 @@ def _energy(axes: Any, rows: Sequence[Row]) -> None:
     label_ends(axes, ends, line=0.031)
     beside = max((end.x for end in diverged), default=0.0) / DURATION + 0.04
     for i, end in enumerate(diverged):
-        place = {"textcoords": "axes fraction", "fontsize": 9, "color": "#222222", "va": "center"}
+        place = {"textcoords": "axes fraction", "fontsize": NOTE, "color": "#222222", "va": "center"}
         leader = {"arrowstyle": "-", "color": end.color, "relpos": (0, 0.5)}
         text = f"{end.text}, diverged at {end.x:.2g} s"
         axes.annotate(text, (end.x, end.y), (beside, 0.9 - 0.035 * i), arrowprops=leader, **place)
@@ -116,20 +116,20 @@ def _momentum(axes: Any, rows: Sequence[Row], rounding: float) -> None:
     for y, row in enumerate(rows):
         linear, angular = (max(value or 0.0, FLOOR) for value in (row.momentum, row.angular_momentum))
         axes.plot([linear, angular], [y, y], "-", color="#bbbbbb", linewidth=1)
-        axes.plot(linear, y, "o", color=COLOURS[6], markersize=6)
-        axes.plot(angular, y, "D", color=COLOURS[3], markersize=6, fillstyle="none", markeredgewidth=1.6)
+        axes.plot(linear, y, "o", color=COLOURS[6])
+        axes.plot(angular, y, "D", color=COLOURS[3], fillstyle="none", markeredgewidth=1.6)
     axes.axvline(rounding, color="#777777", linewidth=1)
-    axes.text(rounding, -1.1, " rounding up to here", fontsize=9, color="#555555", va="center")
+    axes.text(rounding, -1.1, " rounding up to here", fontsize=NOTE, color="#555555", va="center")
     axes.set_xscale("log")
     axes.set_xlim(FLOOR / 2, 5)
     from_nothing(axes.xaxis, FLOOR, powers(*range(-15, 1, 3)))
     axes.set_ylim(len(rows) - 0.4, -1.8)
-    axes.set_yticks(range(len(rows)), [row.stepper.name for row in rows], fontsize=9)
+    axes.set_yticks(range(len(rows)), [row.stepper.name for row in rows], fontsize=NOTE)
     axes.set_xlabel(
         "largest error [1]: dots, of momentum, as a part of sum m |v|;\n"
         "diamonds, of angular momentum, as a part of that times size"
     )
-    axes.set_title("Measured: momentum of a free string", loc="left", fontsize=11)
+    axes.set_title("Measured: momentum of a free string", loc="left", fontsize=TITLE)
 
 
 def _alt(rows: Sequence[Row], free: Sequence[Row]) -> str:

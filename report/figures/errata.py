@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from experiments.experiment import Result
-from report.figures import Picture, few_ticks, look, new_figure
+from report.figures import TITLE, Picture, few_ticks, look, new_figure
 
 
 def draw(result: Result) -> Picture:
@@ -16,7 +16,7 @@ def draw(result: Result) -> Picture:
         left.loglog(steps, errors, label=f"{name}: order {order:.2f}", **look(i))
     left.set_xlabel("dt [s]")
     left.set_ylabel("error after 0.1 s [m]")
-    left.set_title("Advanced link by link, Heun is of first order", loc="left", fontsize=11)
+    left.set_title("Advanced link by link, Heun is of first order", loc="left", fontsize=TITLE)
     few_ticks(left)
     left.legend(loc="center left", bbox_to_anchor=(0, 0.42))
     angles, printed, projected = result.data["barrier"]
@@ -31,7 +31,7 @@ def draw(result: Result) -> Picture:
     right.set_ylim(-1.3, 1.3)
     right.set_xlabel("place on the circle")
     right.set_ylabel("velocity along it that is kept [m/s of 1 m/s]")
-    right.set_title("The barrier's printed rule turns motion round on half the circle", loc="left", fontsize=11)
+    right.set_title("The barrier's printed rule turns motion round on half the circle", loc="left", fontsize=TITLE)
     found = ", ".join(f"{name} {order:.2f}" for name, (_, _, order) in orders.items())
     return Picture(
         figure,

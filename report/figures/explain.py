@@ -11,7 +11,7 @@ from reference.derivation.oscillators import matrices_at, runs_of
 from reference.derivation.swings import swing_matrices
 from reference.state import Array
 from reference.stepper import Stepper
-from report.figures import COLOURS, Picture, new_figure
+from report.figures import COLOURS, TITLE, Picture, new_figure
 
 #: The plane is shown so far beyond the first limits, and up to here at most; this far where there is no limit.
 BEYOND, MOST, UNLIMITED = 1.3, 5.0, 4.0
@@ -27,7 +27,7 @@ def draw(explanation: Explanation, stepper: Stepper) -> Picture:
     """Where a step of the damped oscillator does not grow: the derived region as a field, measured steps as marks."""
     figure, axes = new_figure(figsize=(7.5, 5.4))
     title = f"{explanation.stepper}: where a step of the damped oscillator does not grow"
-    axes.set_title(title, loc="left", fontsize=11)
+    axes.set_title(title, loc="left", fontsize=TITLE)
     axes.set_xlabel("h w = h sqrt(k/m) [1]")
     matrix, follows = explanation.matrix, explanation.follows
     if matrix is None or follows is None:
@@ -48,8 +48,8 @@ def draw(explanation: Explanation, stepper: Stepper) -> Picture:
     measure = swing_matrices if matrix.of_swings else matrices_at
     measured = measure(runs_of(stepper), Samples(x**2, *_damped(y, across)))
     grows = _growth(measured) > NONE
-    axes.plot(x[~grows], y[~grows], "o", color=COLOURS[0], markersize=5, label="measured: does not grow")
-    axes.plot(x[grows], y[grows], "x", color=COLOURS[1], markersize=6, label="measured: grows")
+    axes.plot(x[~grows], y[~grows], "o", color=COLOURS[0], label="measured: does not grow")
+    axes.plot(x[grows], y[grows], "x", color=COLOURS[1], label="measured: grows")
     axes.plot([], [], "-", color=COLOURS[6], label="derived: limit")
     axes.set_xlim(0, widest)
     axes.set_ylim(0, highest)

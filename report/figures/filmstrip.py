@@ -36,7 +36,7 @@ def draw_row(axes: Any, strips: Sequence[Strip], times: Sequence[float], frame: 
             if positions is not None:
                 (drawn,) = axes.plot(middle + positions[:, 0], positions[:, 1], **strip.style)
                 drawn.set_clip_path(window)  # afterwards: whoever is plotted is clipped by the axes
-        axes.plot(middle, 0, marker="v", markersize=6, color="#333333")
+        axes.plot(middle, 0, marker="v", color="#333333")
         if i:
             axes.axvline(middle - side, color="#cccccc", linewidth=0.8)
     axes.set_xlim(-side, 2 * side * len(times) - side)

@@ -8,7 +8,7 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.first_order_instability import DT, GROWING, TIMES, Fate, last
-from report.figures import Picture, look, new_figure
+from report.figures import TITLE, Picture, look, new_figure
 from report.figures.filmstrip import Strip, draw_row
 
 #: How far a frame reaches from the anchor to either side, below and above [m].
@@ -25,7 +25,7 @@ def draw(result: Result) -> Picture:
     for i, (row, fate) in enumerate(zip(axes, fates, strict=False)):
         style = {**look(i), "markersize": 3, "linewidth": 1.2}
         draw_row(row, [Strip(result.data["true"], TRUE), Strip(fate.motion, style)], TIMES, FRAME)
-        row.set_title(f"{fate.scheme.name}, dt = {DT:g} s (true motion in grey)", loc="left", fontsize=11)
+        row.set_title(f"{fate.scheme.name}, dt = {DT:g} s (true motion in grey)", loc="left", fontsize=TITLE)
     _distances(axes[-1], fates)
     return Picture(figure, _alt(fates))
 
@@ -34,7 +34,7 @@ def _distances(axes: Any, fates: list[Fate]) -> None:
     for i, fate in enumerate(fates):
         times = DT * np.arange(len(fate.distance))
         shown = np.where(np.isfinite(fate.distance) & (fate.distance > 0), fate.distance, np.nan)
-        axes.plot(times, shown, markevery=100, markersize=5, **look(i))
+        axes.plot(times, shown, markevery=100, **look(i))
         axes.plot(times[: len(fate.mode)], fate.mode, color=look(i)["color"], linewidth=0.9)
         end = np.flatnonzero(np.isfinite(shown))[-1]
         axes.annotate(fate.scheme.name, (times[end], shown[end]), (6, 0), textcoords="offset points", va="center")
@@ -46,7 +46,7 @@ def _distances(axes: Any, fates: list[Fate]) -> None:
     axes.set_xlabel("time [s]")
     axes.set_ylabel("distance from the true motion [m]")
     what = "Measured: largest distance of any mass (markers), and its part in the fastest mode (thin)"
-    axes.set_title(what, loc="left", fontsize=11)
+    axes.set_title(what, loc="left", fontsize=TITLE)
 
 
 def _predicted(axes: Any, fate: Fate, times: Any) -> None:

@@ -11,7 +11,7 @@ from experiments.experiment import Result
 from experiments.ground_motion import DT, SPEEDS, SWEEP, Ran, off_the_line, peak
 from reference.state import Array
 from reference.system import IntArray
-from report.figures import COLOURS, MARKERS, Picture, look, new_figure
+from report.figures import COLOURS, MARKERS, NOTE, SMALL, Picture, look, new_figure
 
 #: What is predicted lies on what is measured, and is dotted so that both can be seen.
 PREDICTED = {"color": "#333333", "linewidth": 1.2, "linestyle": ":"}
@@ -43,7 +43,7 @@ def _draw_sway(axes: Any, rows: Mapping[str, Ran], natural: Array, linear: Array
     for frequency in natural:
         axes.axvline(frequency, color="#999999", linewidth=1)
         says = f"natural frequency, predicted: {frequency:.2f} Hz"
-        axes.text(frequency, 1.01, says, transform=axes.get_xaxis_transform(), fontsize=9, ha="center")
+        axes.text(frequency, 1.01, says, transform=axes.get_xaxis_transform(), fontsize=NOTE, ha="center")
     for i, (name, ran) in enumerate(rows.items()):
         at = crests(ran.shaken)
         frequencies = SWEEP.frequency(at * DT)
@@ -52,14 +52,13 @@ def _draw_sway(axes: Any, rows: Mapping[str, Ran], natural: Array, linear: Array
             1e3 * np.abs(ran.shaken[at]),
             label=name,
             linewidth=3.2 - 0.5 * i,
-            markersize=5,
             markevery=(2 * i, 10),
             **look(i),
         )
     axes.set_xlabel("frequency of the ground [Hz]")
     axes.set_ylabel("amplitude of the sway of the middle [mm]")
     axes.set_ylim(0, HEADROOM * 1e3 * max(np.abs(sway).max() for sway in (linear, *(r.shaken for r in rows.values()))))
-    axes.legend(fontsize=8, loc="upper right")
+    axes.legend(fontsize=SMALL, loc="upper right")
 
 
 def _draw_truck(axes: Any, rows: Mapping[str, Ran], line: tuple[Array, Array]) -> None:
@@ -75,7 +74,7 @@ def _draw_truck(axes: Any, rows: Mapping[str, Ran], line: tuple[Array, Array]) -
     axes.invert_yaxis()
     axes.set_xlabel("position of the truck [m]")
     axes.set_ylabel("sag of the middle [mm]")
-    axes.legend(fontsize=8)
+    axes.legend(fontsize=SMALL)
 
 
 def _alt(result: Result) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from reference.errors import InputError
 from reference.identification import Identification
-from report.figures import COLOURS, IDENTIFIED, MEASURED, Picture, from_nothing, new_figure, powers
+from report.figures import COLOURS, IDENTIFIED, MEASURED, SMALL, TITLE, Picture, from_nothing, new_figure, powers
 
 #: So many schemes are drawn, the nearest; and where no difference at all is drawn [m].
 MOST, FLOOR = 15, 1e-18
@@ -30,13 +30,18 @@ def draw(found: Identification) -> Picture:
         axes.plot(min(max(error, FLOOR), beyond), y, color=COLOURS[2 if same else 1], markersize=8, **look)
     axes.axvline(max(found.tolerance, FLOOR), color="#777777", linestyle="--", linewidth=1)
     axes.annotate(
-        "named up to here ", (max(found.tolerance, FLOOR), -0.75), fontsize=8, color="#555555", ha="right", va="center"
+        "named up to here ",
+        (max(found.tolerance, FLOOR), -0.75),
+        fontsize=SMALL,
+        color="#555555",
+        ha="right",
+        va="center",
     )
     from_nothing(axes.xaxis, FLOOR, powers(*range(-16, 2, 2)))
     axes.set_yticks(range(len(shown)), [match.scheme for match in shown])
     axes.set_ylim(len(shown) - 0.5, -1.2)
     axes.set_xlim(FLOOR / 3, max(3 * beyond, 10 * found.tolerance, 1e-2))
     axes.set_xlabel("largest distance in a step [m]" if found.by_single_steps else "largest distance [m]")
-    axes.set_title(f"{found.stepper}: its distance from schemes of the catalogue", fontsize=11, loc="left")
+    axes.set_title(f"{found.stepper}: its distance from schemes of the catalogue", fontsize=TITLE, loc="left")
     each = (f"{match.scheme}: {match.error:.1e} m" for match in shown)
     return Picture(figure, f"{found}. {'; '.join(each)}.")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from reference.state import Array
+from report.figures import NOTE
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,7 @@ class End:
     color: str
 
 
-def label_ends(axes: Any, ends: Sequence[End], line: float, fontsize: float = 9, together: float = 0.0) -> None:
+def label_ends(axes: Any, ends: Sequence[End], line: float, fontsize: float = NOTE, together: float = 0.0) -> None:
     """Write the texts to the right of the axes, each joined to its line's end. The axes' limits must be set.
 
     Args:

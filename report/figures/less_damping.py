@@ -8,7 +8,7 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.less_damping import DURATION, TIMES, Swing
-from report.figures import Picture, look, new_figure
+from report.figures import TITLE, Picture, look, new_figure
 from report.figures.filmstrip import Strip, draw_row
 
 #: How far the string reaches from its anchor to either side, below and above [m].
@@ -22,7 +22,7 @@ def draw(result: Result) -> Picture:
     for i, (row, swing) in enumerate(zip(axes, swings, strict=False)):
         style = {**look(i), "markersize": 3, "linewidth": 1.2}
         draw_row(row, [Strip(swing.motion, style)], TIMES, FRAME)
-        row.set_title(f"drag {swing.drag:g} N s/m", loc="left", fontsize=11, color=look(i)["color"])
+        row.set_title(f"drag {swing.drag:g} N s/m", loc="left", fontsize=TITLE, color=look(i)["color"])
     _energies(axes[-1], swings)
     return Picture(figure, _alt(swings))
 
@@ -30,7 +30,7 @@ def draw(result: Result) -> Picture:
 def _energies(axes: Any, swings: list[Swing]) -> None:
     for i, swing in enumerate(swings):
         times = swing.motion.times
-        axes.plot(times, swing.energies, markevery=200, markersize=5, **look(i))
+        axes.plot(times, swing.energies, markevery=200, **look(i))
         small = swing.energies[0] * np.exp(-times / swing.predicted)
         axes.plot(times, small, ":", color="#333333")
         if swing.measured is not None:
@@ -44,7 +44,9 @@ def _energies(axes: Any, swings: list[Swing]) -> None:
     axes.set_xlabel("time [s]")
     axes.set_ylabel("energy above rest [J]")
     axes.set_title(
-        "Measured (star: fallen to 1/e), and predicted for small swings (dotted): exp(-t Cd/m)", loc="left", fontsize=11
+        "Measured (star: fallen to 1/e), and predicted for small swings (dotted): exp(-t Cd/m)",
+        loc="left",
+        fontsize=TITLE,
     )
 
 

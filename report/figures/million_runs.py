@@ -8,7 +8,7 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.million_runs import CORES, Hand, Kind, in_words, predicted
-from report.figures import Picture, look, new_figure
+from report.figures import NOTE, Picture, look, new_figure
 
 
 def draw(result: Result) -> Picture:
@@ -24,7 +24,7 @@ def draw(result: Result) -> Picture:
         axes.plot(CORES, hours, linestyle="none", label=f"{kind.name}: {1e3 * kind.seconds:.0f} ms", **style)
     floor = predicted(kinds[-1], hands, cores[-1]) / 3600
     text = "flat: the one process that hands out tasks and keeps results"
-    axes.annotate(text, (cores[-1], 0.9 * floor), ha="right", va="top", fontsize=9)
+    axes.annotate(text, (cores[-1], 0.9 * floor), ha="right", va="top", fontsize=NOTE)
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_ylim(bottom=floor / 2)

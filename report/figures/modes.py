@@ -12,7 +12,7 @@ from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
 from reference.system import IntArray
-from report.figures import Picture, look, new_figure
+from report.figures import NOTE, TITLE, Picture, look, new_figure
 from report.film.contact_sheet import Shot
 from report.film.film import Film, film_of
 from report.film.view import view_of
@@ -40,14 +40,14 @@ def draw(modes: Modes) -> Picture:
         _springs(panel, project(rest), system.springs, "#bbbbbb", 1.0)
         places = project(moved) if rest.shape[1] > 1 else _sideways(rest, moved)
         _springs(panel, places, system.springs, look(i)["color"], 1.4)
-        panel.set_title(_title(modes, i), fontsize=9)
+        panel.set_title(_title(modes, i), fontsize=NOTE)
         panel.set_aspect("equal", adjustable="datalim")
         if rest.shape[1] == 3:  # seen from a corner: the picture's axes are none of the scene's
             panel.set_axis_off()
         panel.set_xlabel("x [m]")
         panel.set_ylabel("y [m]")
     more = f", the slowest {count} of {modes.asked}" if count < modes.asked else ""
-    figure.suptitle(f"{modes.setup.name}: natural modes about its rest (grey){more}", fontsize=11)
+    figure.suptitle(f"{modes.setup.name}: natural modes about its rest (grey){more}", fontsize=TITLE)
     said = ", ".join(f"{f:.3g}" for f in modes.natural.frequencies[:count])
     return Picture(figure, f"Shapes of the slowest modes of {modes.setup.name}, at {said} Hz.")
 

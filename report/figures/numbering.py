@@ -9,7 +9,7 @@ import numpy as np
 from experiments.experiment import Result
 from experiments.numbering import DAMPINGS, ROUNDS, Convergence, Row, names
 from experiments.runs.permutation import CHANGES
-from report.figures import Picture, from_nothing, look, new_figure, powers
+from report.figures import TITLE, Picture, from_nothing, look, new_figure, powers
 
 #: Where no difference at all is drawn: a logarithm has no place for it.
 FLOOR = 1e-18
@@ -26,12 +26,12 @@ def draw(result: Result) -> Picture:
 
 
 def _dots(axes: Any, rows: list[Row], rounding: float) -> None:
-    axes.axvspan(FLOOR / 10, rounding, color="#f0f0f0", zorder=0)
+    axes.axvspan(FLOOR / 10, rounding, color="#f0f0f0")
     axes.axvline(rounding, color="#777777", linewidth=1)
     for i, change in enumerate(CHANGES):
         # One under the other, so that all can be seen where they are equal.
         places = [(max(row.effects.distances[change], FLOOR), y + 0.24 * (i - 1)) for y, row in _placed(rows, change)]
-        axes.plot(*zip(*places, strict=True), linestyle="none", markersize=6, label=change, **look(i))
+        axes.plot(*zip(*places, strict=True), linestyle="none", label=change, **look(i))
     axes.set_xscale("log")
     axes.set_xlim(FLOOR / 4, 1)
     from_nothing(axes.xaxis, FLOOR, powers(*range(-15, 1, 3)))
@@ -46,7 +46,7 @@ def _dots(axes: Any, rows: list[Row], rounding: float) -> None:
     axes.text(1.02, 1.05, "predicted:\norder of", transform=axes.transAxes, va="bottom", color="#333333")
     for y, row in enumerate(rows):
         axes.text(1.02, y, names(row.predicted) or "-", fontweight="bold" if row.predicted else None, **beside)
-    axes.set_title(f"Measured: springs damped with {DAMPINGS[0]:g} N s/m", loc="left", fontsize=11, pad=28)
+    axes.set_title(f"Measured: springs damped with {DAMPINGS[0]:g} N s/m", loc="left", fontsize=TITLE, pad=28)
     axes.legend(
         loc="lower left",
         bbox_to_anchor=(0, 1.0),
@@ -64,11 +64,11 @@ def _placed(rows: list[Row], change: str) -> list[tuple[int, Row]]:
 
 
 def _lines(axes: Any, convergences: list[Convergence], rounding: float) -> None:
-    axes.axhspan(FLOOR / 10, rounding, color="#f0f0f0", zorder=0)
+    axes.axhspan(FLOOR / 10, rounding, color="#f0f0f0")
     axes.axhline(rounding, color="#777777", linewidth=1)
     for i, side, c in zip((3, 7), (-8, 8), convergences, strict=True):
         distances = np.maximum(c.distances, FLOOR)
-        axes.plot(ROUNDS, distances, "-", markersize=6, **look(i))
+        axes.plot(ROUNDS, distances, "-", **look(i))
         default = ROUNDS.index(10)
         more = np.arange(ROUNDS[default], ROUNDS[-1] + 1)
         slope = distances[default] * c.predicted ** (more - ROUNDS[default])
@@ -85,7 +85,7 @@ def _lines(axes: Any, convergences: list[Convergence], rounding: float) -> None:
     from_nothing(axes.yaxis, FLOOR, powers(*range(-15, 1, 3)))
     axes.set_xlabel("rounds of sequential impulses in a step [1]")
     axes.set_ylabel("largest distance from the motion before the permutation [m]")
-    axes.set_title("Measured: Pymunk, springs reversed", loc="left", fontsize=11)
+    axes.set_title("Measured: Pymunk, springs reversed", loc="left", fontsize=TITLE)
 
 
 def _alt(rows: list[Row], convergences: list[Convergence], rounding: float) -> str:

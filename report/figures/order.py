@@ -9,7 +9,7 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.order import DTS, DURATION, Row
-from report.figures import Picture, look, new_figure
+from report.figures import NOTE, TITLE, Picture, look, new_figure
 from report.figures.labels import End, label_ends
 
 #: Slopes to compare with, each with an error [m] at the largest dt that keeps it off the lines.
@@ -64,7 +64,7 @@ def _panel(axes: Any, title: str, rows: Sequence[Row], line: float) -> None:
     axes.set_yscale("log")
     axes.set_xlim(0.8 * DTS[-1], 1.25 * DTS[0])
     axes.set_ylim(LOWEST, HIGHEST)
-    axes.set_title(title, loc="left", fontsize=11)
+    axes.set_title(title, loc="left", fontsize=TITLE)
     for slope, error in SLOPES.items():
         axes.plot(DTS, error * (DTS / DTS[0]) ** slope, ":", color="#777777", linewidth=1.2)
         middle = len(DTS) // 2
@@ -74,7 +74,7 @@ def _panel(axes: Any, title: str, rows: Sequence[Row], line: float) -> None:
             (-2, 4),
             textcoords="offset points",
             color="#555555",
-            fontsize=9,
+            fontsize=NOTE,
             ha="right",
         )
     lines = [row for row in rows if row.stepper.kind != "engine" and np.isfinite(row.errors[0])]
@@ -82,7 +82,7 @@ def _panel(axes: Any, title: str, rows: Sequence[Row], line: float) -> None:
     ends = []
     for i, row in enumerate(lines):
         # Markers of different lines at different dt: where lines lie on one another, all can still be seen.
-        axes.plot(DTS, row.errors, "-", markevery=(i % 3, 3), markersize=5, **look(i))
+        axes.plot(DTS, row.errors, "-", markevery=(i % 3, 3), **look(i))
         ends.append(End(DTS[0], row.errors[0], _label(row, rings), look(i)["color"]))
     for row in rings:
         axes.plot(DTS, row.errors, "o", fillstyle="none", color="#000000", markersize=9, markeredgewidth=0.9)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from report.figures import COLOURS, IDENTIFIED, MEASURED, Picture, from_nothing, new_figure, powers
+from report.figures import COLOURS, IDENTIFIED, MEASURED, NOTE, SMALL, Picture, from_nothing, new_figure, powers
 
 #: Lengths that people know [m].
 KNOWN = {1e-3: "1 mm", 1e-6: "1 µm", 1e-10: "an atom", 1e-15: "a proton"}
@@ -43,12 +43,14 @@ def draw(engines: Sequence[Explained]) -> Picture:
     axes.set_xscale("log")
     axes.set_xlim(LOWEST, max([HIGHEST, *(3 * row.error for row in rows)]))
     axes.set_ylim(len(rows) - 0.4, -1.7)
-    axes.set_yticks(range(len(rows)), [f"{row.engine} = {row.scheme or 'not identified'}" for row in rows], fontsize=9)
+    axes.set_yticks(
+        range(len(rows)), [f"{row.engine} = {row.scheme or 'not identified'}" for row in rows], fontsize=NOTE
+    )
     axes.tick_params(axis="y", length=0)
     axes.grid(visible=False, axis="y")
     from_nothing(axes.xaxis, NOTHING, powers(*range(-15, 1, 3)))
     axes.set_xlabel("largest distance of any mass within half a second [m]")
-    axes.text(0.7 * ROUNDING, -0.5, "rounding", color="#555555", fontsize=8, ha="right", va="center")
+    axes.text(0.7 * ROUNDING, -0.5, "rounding", color="#555555", fontsize=SMALL, ha="right", va="center")
     _words(axes, rows)
     _known_lengths(axes)
     return Picture(figure, _alt(rows))
@@ -64,7 +66,7 @@ def _words(axes: Any, rows: Sequence[Explained]) -> None:
 
 def _known_lengths(axes: Any) -> None:
     above = axes.secondary_xaxis("top")
-    above.set_xticks([*KNOWN], [*KNOWN.values()], fontsize=9)
+    above.set_xticks([*KNOWN], [*KNOWN.values()], fontsize=NOTE)
     above.minorticks_off()
     above.tick_params(length=3)
     above.spines["top"].set_visible(False)

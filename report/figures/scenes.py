@@ -11,7 +11,7 @@ from experiments.experiment import Result
 from experiments.scenes import SHOWN_BY
 from reference.state import Trajectory
 from reference.system import MassSpringSystem
-from report.figures import Picture, new_figure
+from report.figures import TITLE, Picture, new_figure
 from report.film.drawing import Drawing, add_length, add_strain_bar, strain
 from report.film.film import look_at
 
@@ -27,7 +27,9 @@ def draw(result: Result) -> Picture:
     places = axes.ravel().tolist()
     for place, (name, (system, motion)) in zip(places, motions.items(), strict=False):
         still(figure, place, system, motion)
-        place.set_title(f"{name}, {motion.times[-1]:g} s, dt {result.data['dts'][name]:g} s", loc="left", fontsize=10)
+        place.set_title(
+            f"{name}, {motion.times[-1]:g} s, dt {result.data['dts'][name]:g} s", loc="left", fontsize=TITLE
+        )
     for place in places[len(motions) :]:
         place.set_visible(False)
     return Picture(figure, _alt(motions))

@@ -14,7 +14,7 @@ from experiments.simulation.spring_state import energies, spring_frames
 from reference.errors import InputError
 from reference.state import Array
 from reference.system import IntArray
-from report.figures import Picture, look, new_figure
+from report.figures import TITLE, Picture, look, new_figure
 from report.figures.labels import End, label_ends
 
 #: Of larger scenes so many masses or springs are drawn, evenly chosen; and times.
@@ -95,16 +95,16 @@ def _paths(simulation: Simulation, runs: Sequence[Run]) -> Picture:
             across = x[:, mass, 0] if system.dimension > 1 else run.motion.trajectory.times[_times(run)]
             up = x[:, mass, min(1, system.dimension - 1)]
             panel.plot(across, up, color=look(i)["color"], linewidth=1)
-            panel.plot(across[-1], up[-1], marker=look(i)["marker"], color=look(i)["color"], markersize=5)
+            panel.plot(across[-1], up[-1], marker=look(i)["marker"], color=look(i)["color"])
         fixed = np.flatnonzero(system.fixed)
         if system.dimension > 1:
             panel.plot(x[0, fixed, 0], x[0, fixed, 1], "s", color="#333333", markersize=4)
             panel.set_aspect("equal", adjustable="datalim")
-        panel.set_title(run.stepper.name, fontsize=10)
+        panel.set_title(run.stepper.name, fontsize=TITLE)
         panel.set_xlabel("x [m]" if system.dimension > 1 else "time [s]")
     panels[0].set_ylabel("y [m]" if system.dimension > 1 else "x [m]")
     some = f" of {len(chosen)} of its masses" if len(chosen) < (~system.fixed).sum() else ""
-    figure.suptitle(f"{simulation.setup.name}: paths{some}, a marker at the end", fontsize=11)
+    figure.suptitle(f"{simulation.setup.name}: paths{some}, a marker at the end", fontsize=TITLE)
     return Picture(figure, f"Paths of the masses of {simulation.setup.name} under {_names(runs)}.")
 
 
@@ -118,10 +118,10 @@ def _energy(simulation: Simulation, runs: Sequence[Run]) -> Picture:
         for i, name in enumerate(ENERGIES):
             _line(panel, times, found[name], i, len(ENERGIES))
             ends.append(End(float(times[-1]), float(found[name][-1]), name, look(i)["color"]))
-        panel.set_title(run.stepper.name, fontsize=10)
+        panel.set_title(run.stepper.name, fontsize=TITLE)
         _over_time(panel, "energy [J]" if panel is panels[0] else "", None)
         label_ends(panel, [end for end in ends if np.isfinite(end.y)], 0.06)
-    figure.suptitle(f"{simulation.setup.name}: energies, gravitational from height zero", fontsize=11)
+    figure.suptitle(f"{simulation.setup.name}: energies, gravitational from height zero", fontsize=TITLE)
     return Picture(figure, f"Kinetic, elastic, gravitational and total energy over time under {_names(runs)}.")
 
 
@@ -139,12 +139,12 @@ def _forces(simulation: Simulation, runs: Sequence[Run]) -> Picture:
         for i, spring in enumerate(chosen):
             _line(panel, times, force[:, spring], i, len(chosen))
             ends.append(End(float(times[-1]), float(force[-1, spring]), f"{spring}", look(i)["color"]))
-        panel.set_title(run.stepper.name, fontsize=10)
+        panel.set_title(run.stepper.name, fontsize=TITLE)
         _over_time(panel, "spring force [N], tension positive" if panel is panels[0] else "", None)
         label_ends(panel, [end for end in ends if np.isfinite(end.y)], 0.05)
     count = len(simulation.setup.system.springs)
     some = f", {len(chosen)} of {count}" if len(chosen) < count else ""
-    figure.suptitle(f"{simulation.setup.name}: forces of springs, by their number{some}", fontsize=11)
+    figure.suptitle(f"{simulation.setup.name}: forces of springs, by their number{some}", fontsize=TITLE)
     return Picture(figure, f"Forces of springs over time under {_names(known)}.")
 
 
@@ -178,7 +178,7 @@ def _over_time(axes: Any, what: str, simulation: Simulation | None) -> None:
     axes.set_ylabel(what)
     axes.set_ylim(axes.get_ylim())  # for labels, which come next
     if simulation is not None:
-        axes.set_title(f"{simulation.setup.name}, dt = {simulation.setup.dt:g} s", fontsize=11)
+        axes.set_title(f"{simulation.setup.name}, dt = {simulation.setup.dt:g} s", fontsize=TITLE)
 
 
 def _names(runs: Sequence[Run]) -> str:

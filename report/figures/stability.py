@@ -9,7 +9,7 @@ import numpy as np
 
 from experiments.experiment import Result
 from experiments.limits.limit_rows import Row
-from report.figures import COLOURS, MEASURED, PREDICTED, Picture, new_figure
+from report.figures import COLOURS, MEASURED, PREDICTED, SMALL, TITLE, Picture, new_figure
 
 
 def draw(result: Result) -> Picture:
@@ -22,7 +22,7 @@ def draw(result: Result) -> Picture:
     )
     for panel, case in zip(panels.flat, cases, strict=True):
         _panel(panel, case, [row for row in rows if _case(row) == case], names)
-    figure.suptitle("largest stable dt: predicted (bar) and measured (dot)", x=0.01, ha="left", fontsize=12)
+    figure.suptitle("largest stable dt: predicted (bar) and measured (dot)", x=0.01, ha="left", fontsize=TITLE)
     return Picture(figure, _alt(rows))
 
 
@@ -37,9 +37,9 @@ def _panel(axes: Any, case: str, rows: Sequence[Row], names: Sequence[str]) -> N
             axes.plot([row.predicted.at_most] * 2, [y - 0.4, y + 0.4], linewidth=2, **PREDICTED)
             axes.plot([row.predicted.dt, row.predicted.at_most], [y, y], linewidth=1, **PREDICTED)
         if row.measured.dt is not None:
-            axes.plot(row.measured.dt, y, color=COLOURS[1], markersize=5, **MEASURED)
+            axes.plot(row.measured.dt, y, color=COLOURS[1], **MEASURED)
         if row.measured.dt is None:
-            beside = {"va": "center", "fontsize": 8, "color": "#555555"}
+            beside = {"va": "center", "fontsize": SMALL, "color": "#555555"}
             if row.predicted.dt is not None:
                 axes.text(1.2 * row.predicted.dt, y, _measured(row), **beside)
             else:
@@ -52,7 +52,7 @@ def _panel(axes: Any, case: str, rows: Sequence[Row], names: Sequence[str]) -> N
     axes.set_ylim(len(names) - 0.5, -0.5)
     axes.set_xscale("log")
     axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.set_title(case, fontsize=10, loc="left")
+    axes.set_title(case, fontsize=TITLE, loc="left")
     axes.set_xlabel("dt [s]")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from experiments.limits.stability_map import StabilityMap
 from reference.state import Array
-from report.figures import BLACK_ON_COLOURS, Picture, new_figure
+from report.figures import BLACK_ON_COLOURS, TITLE, Picture, new_figure
 
 #: Growth per step at which the colours end, and below which it counts as none.
 MOST, LEAST = 0.05, 1e-3
@@ -40,7 +40,7 @@ def draw_field(axes: Any, found: StabilityMap) -> Any:
     axes.grid(visible=False)
     axes.set_xlabel(found.x.heading)
     axes.set_ylabel(found.y.heading)
-    axes.set_title(f"{found.stepper}\n{_prediction(found)}", loc="left", fontsize=11)
+    axes.set_title(f"{found.stepper}\n{_prediction(found)}", loc="left", fontsize=TITLE)
     return field
 
 

@@ -15,7 +15,7 @@ def draw(result: Result) -> Picture:
     figure, axes = new_figure(figsize=(8, 4.8))
     axes.plot(stiffness, to_pendulum[-1] * stiffness[-1] / stiffness, ":", color="#555555")
     axes.plot(stiffness, to_pendulum, linestyle="none", markersize=13, **look(0))
-    axes.plot(stiffness, to_cable, linestyle="none", markersize=6, **look(1))
+    axes.plot(stiffness, to_cable, linestyle="none", **look(1))
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("stiffness of the springs [N/m]")

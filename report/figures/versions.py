@@ -10,7 +10,7 @@ from experiments.engine_versions.changes import same
 from experiments.engine_versions.conformance import Value
 from experiments.engine_versions.versions import VersionMeasurements
 from experiments.experiment import Result
-from report.figures import COLOURS, Picture, new_figure
+from report.figures import COLOURS, NOTE, Picture, new_figure
 
 #: Letters in a line of a cell and lines in a cell, at most; inches for a line, a version's column, the names' column.
 LETTERS, LINES = 34, 3
@@ -35,7 +35,7 @@ def draw(result: Result) -> Picture:
     top = 2.0
     for row, words, height in zip(rows, cells, heights, strict=True):
         axes.axhline(top, color="#dddddd", linewidth=0.8)
-        axes.text(0.05, top + height / 2, words[0], va="center", fontsize=9)
+        axes.text(0.05, top + height / 2, words[0], va="center", fontsize=NOTE)
         for i, text in enumerate(words[1:]):
             _cell(axes, NAMES + COLUMN * i, top, height, text, _changed(row[2:], i))
         top += height

@@ -11,6 +11,7 @@ from typing import Any
 from reference.outcome import Outcome
 from reference.state import Trajectory
 from reference.system import MassSpringSystem
+from report.figures import NOTE, SMALL, TITLE
 from report.film.drawing import Drawing, Look, add_length, add_strain_bar
 from report.film.view import Window
 
@@ -18,7 +19,7 @@ from report.film.view import Window
 WIDE, HIGH, PIXELS, LEAST, HIGHEST = 12.4, 8.6, 100, 0.8, 5.2
 
 #: The least room of titles [inches], however narrow the panels are.
-TITLE = 2.3
+TITLES = 2.3
 
 #: Room for the line above all, for a line of a panel's title, between panels, and for the colours [inches].
 TOP, LINE, BETWEEN, BAR = 0.5, 0.165, 0.15, 1.1
@@ -85,7 +86,7 @@ class Grid:
     def sheet(self) -> tuple[float, float]:
         """Width and height of the whole [inches]: even numbers of pixels, as some formats want it."""
         wide, high = self.size
-        across = max(self.columns * (max(wide, TITLE) + BETWEEN) + BETWEEN + BAR, 6.0)
+        across = max(self.columns * (max(wide, TITLES) + BETWEEN) + BETWEEN + BAR, 6.0)
         tall = TOP + sum(self.titles) + len(self.titles) * high + BETWEEN
         return 2 * round(across * PIXELS / 2) / PIXELS, 2 * round(tall * PIXELS / 2) / PIXELS
 
@@ -93,14 +94,14 @@ class Grid:
         """The lower left corner of panel i [inches from the sheet's]."""
         row, column = divmod(i, self.columns)
         above = TOP + sum(self.titles[: row + 1]) + (row + 1) * self.size[1]
-        return BETWEEN + column * (max(self.size[0], TITLE) + BETWEEN), self.sheet[1] - above
+        return BETWEEN + column * (max(self.size[0], TITLES) + BETWEEN), self.sheet[1] - above
 
 
 def grid(shots: Sequence[Shot], window: Window) -> Grid:
     """That in which panels are largest; of several, as where all have the least size, the one with the fewest rows."""
     ratio = (window[1] - window[0]) / (window[3] - window[2])
     grids = []
-    most = max(1, int((WIDE - BAR - BETWEEN) / (TITLE + BETWEEN)))
+    most = max(1, int((WIDE - BAR - BETWEEN) / (TITLES + BETWEEN)))
     for columns in range(1, min(len(shots), most) + 1):
         rows, high = ceil(len(shots) / columns), 1.0
         titles: tuple[float, ...] = ()
@@ -133,14 +134,14 @@ def contact_sheet(system: MassSpringSystem, shots: Sequence[Shot], look: Look, t
     bar = ((wide - BAR + 0.1) / wide, (BETWEEN + (room - tall) / 2) / high, 0.14 / wide, tall / high)
     add_strain_bar(figure, figure.add_axes(bar), look.most)
     line = 1 - 0.28 / high
-    figure.text(BETWEEN / wide, line, title, fontsize=12, va="center")
-    clock = figure.text(1 - BETWEEN / wide, line, "", fontsize=12, va="center", ha="right", family="monospace")
+    figure.text(BETWEEN / wide, line, title, fontsize=TITLE, va="center")
+    clock = figure.text(1 - BETWEEN / wide, line, "", fontsize=TITLE, va="center", ha="right", family="monospace")
     return ContactSheet(figure, drawings, clock, notes)
 
 
 def _title(shot: Shot, wide: float) -> tuple[list[str], list[str]]:
     """The steppers' names, and their scheme, in lines that go above a panel so wide [inches]."""
-    room = max(wide, TITLE)
+    room = max(wide, TITLES)
     return textwrap.wrap(", ".join(shot.names), int(12.5 * room)), textwrap.wrap(shot.caption, int(17 * room))
 
 
@@ -148,10 +149,10 @@ def _titled(axes: Any, shot: Shot, wide: float) -> Any:
     """Names and scheme above a panel; what is returned is the note that masses have left it."""
     above: dict[str, Any] = {"xy": (0, 1), "xycoords": "axes fraction", "textcoords": "offset points"}
     names, caption = _title(shot, wide)
-    axes.annotate("\n".join(caption), xytext=(0, 3), fontsize=8, color="#555555", **above)
+    axes.annotate("\n".join(caption), xytext=(0, 3), fontsize=SMALL, color="#555555", **above)
     place = (0, 3 + 11 * len(caption))
-    axes.annotate("\n".join(names), xytext=place, fontsize=9, fontweight="bold", linespacing=1.1, **above)
+    axes.annotate("\n".join(names), xytext=place, fontsize=NOTE, fontweight="bold", linespacing=1.1, **above)
     says = "" if shot.left is None else f"left the picture\nat t = {shot.left:.3f} s"
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 2}
     where = (0.03, 0.97, says)
-    return axes.text(*where, transform=axes.transAxes, fontsize=8, va="top", color="#a32a00", zorder=6, bbox=box)
+    return axes.text(*where, transform=axes.transAxes, fontsize=SMALL, va="top", color="#a32a00", zorder=6, bbox=box)

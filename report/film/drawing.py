@@ -10,6 +10,7 @@ import numpy as np
 from reference.springs.breaking import without_force
 from reference.state import Array
 from reference.system import BoolArray, MassSpringSystem
+from report.figures import NOTE, SMALL
 from report.film.obstacle_image import HIDDEN, ObstacleImage
 from report.film.view import View, Window
 
@@ -205,7 +206,7 @@ def add_length(axes: Any, window: Window) -> None:
     length = nice((right - left) / 10)
     x, y = left + 0.04 * (right - left), bottom + 0.04 * (top - bottom)
     axes.plot([x, x + length], [y, y], color="#444444", linewidth=2, solid_capstyle="butt", zorder=5)
-    beside: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": 8, "color": "#444444"}
+    beside: dict[str, Any] = {"textcoords": "offset points", "va": "center", "fontsize": SMALL, "color": "#444444"}
     axes.annotate(f"{length:g} m", (x + length, y), (4, 0), zorder=5, **beside)
 
 
@@ -217,7 +218,7 @@ def add_strain_bar(
     from matplotlib.colors import Normalize
 
     bar = figure.colorbar(ScalarMappable(Normalize(-100 * most, 100 * most), colour_map()), cax=axes, extend="both")
-    bar.set_label(label, fontsize=9)
-    bar.ax.tick_params(labelsize=9)
+    bar.set_label(label, fontsize=NOTE)
+    bar.ax.tick_params(labelsize=NOTE)
     bar.ax.grid(visible=False)
     bar.outline.set_visible(False)

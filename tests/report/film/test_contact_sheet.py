@@ -18,7 +18,7 @@ from report.film.contact_sheet import (
     HIGH,
     HIGHEST,
     LEAST,
-    TITLE,
+    TITLES,
     TOP,
     WIDE,
     ContactSheet,
@@ -150,7 +150,7 @@ def test_as_many_columns_as_make_the_panels_largest(count: int, ratio: float, co
     assert found.columns == columns
     assert len(found.titles) == math.ceil(count / columns)
     assert found.size[0] == pytest.approx(ratio * found.size[1])
-    across = columns * (max(found.size[0], TITLE) + BETWEEN)
+    across = columns * (max(found.size[0], TITLES) + BETWEEN)
     down = sum(found.titles) + len(found.titles) * found.size[1]
     slack = [WIDE - BAR - BETWEEN - across, HIGH - TOP - BETWEEN - down, HIGHEST - found.size[1]]
     assert min(slack) == pytest.approx(0, abs=1e-9)
@@ -165,7 +165,7 @@ def test_titles_of_a_row_have_room_for_the_longest() -> None:
         needed = [sum(map(len, _title(shot, found.size[0]))) for shot in (long, short)]
         assert found.titles == pytest.approx([0.165 * lines + 0.1 for lines in needed])
         assert needed[0] > needed[1] == 2
-    in_lines = [len(_title(long, width)[0]) for width in (1.0, TITLE, 2 * TITLE)]
+    in_lines = [len(_title(long, width)[0]) for width in (1.0, TITLES, 2 * TITLES)]
     assert in_lines[0] == in_lines[1] > in_lines[2]
 
 
