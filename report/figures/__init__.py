@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Mapping
 from dataclasses import dataclass
 from io import StringIO
 from threading import RLock
@@ -88,14 +87,14 @@ def few_ticks(axes: Any) -> None:
     axes.xaxis.set_minor_formatter(NullFormatter())
 
 
-def from_nothing(axis: Any, nothing: float, labels: Mapping[float, str]) -> None:
-    """Label a logarithmic axis that has a place for zero, too, which has no logarithm.
+def from_nothing(axis: Any, nothing: float) -> None:
+    """Label a logarithmic axis that has a place for zero, too, which has no logarithm: every third power of ten.
 
     Args:
-        axis: one of the axes' two.
+        axis: one of the axes' two, with its limits.
         nothing: where zero is drawn.
-        labels: what else is labelled, and how.
     """
+    labels = {place: text for place, text in powers(*range(-15, 1, 3)).items() if place <= axis.get_view_interval()[1]}
     axis.set_ticks([nothing, *labels], ["none", *labels.values()])
     axis.set_ticks([], minor=True)
 

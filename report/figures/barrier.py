@@ -11,7 +11,7 @@ from experiments.barrier import OWN, STEPS, Slide, predicted
 from experiments.experiment import Result
 from reference.obstacles import Circle
 from reference.state import Trajectory
-from report.figures import COLOURS, NOTE, SMALL, Picture, few_ticks, from_nothing, look, new_figure, powers
+from report.figures import COLOURS, NOTE, SMALL, Picture, few_ticks, from_nothing, look, new_figure
 from report.figures.filmstrip import Strip, draw_row
 
 #: When the string is drawn [s], and how far a frame reaches to either side of the anchor, below and above it [m].
@@ -47,7 +47,7 @@ def draw(result: Result) -> Picture:
         plot.set_xscale("log")
         plot.set_xlabel("dt [s]")
         few_ticks(plot)
-    from_nothing(depths.yaxis, FLOOR, powers(*range(-15, 0, 3)))
+    from_nothing(depths.yaxis, FLOOR)
     angles.legend(fontsize=SMALL, loc="center right", bbox_to_anchor=(1.0, 0.35))
     strings = result.data["strings"]
     _film(_row(figure, axes, 1), {name: strings[name] for name in RULES if name in strings}, result.data["circle"])

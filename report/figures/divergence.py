@@ -11,7 +11,7 @@ import numpy as np
 from experiments.experiment import Result
 from experiments.runs.comparison import Comparison, Run
 from reference.state import Array
-from report.figures import IDENTIFIED, TITLE, Picture, from_nothing, look, new_figure, powers
+from report.figures import IDENTIFIED, TITLE, Picture, from_nothing, look, new_figure
 from report.figures.labels import End, label_ends
 
 #: Where no difference at all is drawn: a logarithm has no place for it.
@@ -40,7 +40,7 @@ def draw_runs(comparison: Comparison, wanted: Sequence[Run]) -> Picture:
     times = comparison.times
     axes.set_yscale("log")
     axes.set_ylim(FLOOR / 2, max(10.0, 3 * max((_most(run.error) for run in runs), default=0.0)))
-    from_nothing(axes.yaxis, FLOOR, powers(*range(-15, 2, 3)))
+    from_nothing(axes.yaxis, FLOOR)
     axes.set_xlim(0, times[-1])
     axes.set_xlabel("time [s]")
     axes.set_ylabel("largest distance of any mass [m]")

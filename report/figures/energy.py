@@ -122,7 +122,7 @@ def _momentum(axes: Any, rows: Sequence[Row], rounding: float) -> None:
     axes.text(rounding, -1.1, " rounding up to here", fontsize=NOTE, color="#555555", va="center")
     axes.set_xscale("log")
     axes.set_xlim(FLOOR / 2, 5)
-    from_nothing(axes.xaxis, FLOOR, powers(*range(-15, 1, 3)))
+    from_nothing(axes.xaxis, FLOOR)
     axes.set_ylim(len(rows) - 0.4, -1.8)
     axes.set_yticks(range(len(rows)), [row.stepper.name for row in rows], fontsize=NOTE)
     axes.set_xlabel(

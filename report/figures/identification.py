@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from reference.errors import InputError
 from reference.identification import Identification
-from report.figures import COLOURS, IDENTIFIED, MEASURED, SMALL, TITLE, Picture, from_nothing, new_figure, powers
+from report.figures import COLOURS, IDENTIFIED, MEASURED, SMALL, TITLE, Picture, from_nothing, new_figure
 
 #: So many schemes are drawn, the nearest; and where no difference at all is drawn [m].
 MOST, FLOOR = 15, 1e-18
@@ -37,10 +37,10 @@ def draw(found: Identification) -> Picture:
         ha="right",
         va="center",
     )
-    from_nothing(axes.xaxis, FLOOR, powers(*range(-16, 2, 2)))
     axes.set_yticks(range(len(shown)), [match.scheme for match in shown])
     axes.set_ylim(len(shown) - 0.5, -1.2)
     axes.set_xlim(FLOOR / 3, max(3 * beyond, 10 * found.tolerance, 1e-2))
+    from_nothing(axes.xaxis, FLOOR)
     axes.set_xlabel("largest distance in a step [m]" if found.by_single_steps else "largest distance [m]")
     axes.set_title(f"{found.stepper}: its distance from schemes of the catalogue", fontsize=TITLE, loc="left")
     each = (f"{match.scheme}: {match.error:.1e} m" for match in shown)

@@ -9,7 +9,7 @@ import numpy as np
 from experiments.experiment import Result
 from experiments.numbering import DAMPINGS, ROUNDS, Convergence, Row, names
 from experiments.runs.permutation import CHANGES
-from report.figures import TITLE, Picture, from_nothing, look, new_figure, powers
+from report.figures import TITLE, Picture, from_nothing, look, new_figure
 
 #: Where no difference at all is drawn: a logarithm has no place for it.
 FLOOR = 1e-18
@@ -34,7 +34,7 @@ def _dots(axes: Any, rows: list[Row], rounding: float) -> None:
         axes.plot(*zip(*places, strict=True), linestyle="none", label=change, **look(i))
     axes.set_xscale("log")
     axes.set_xlim(FLOOR / 4, 1)
-    from_nothing(axes.xaxis, FLOOR, powers(*range(-15, 1, 3)))
+    from_nothing(axes.xaxis, FLOOR)
     axes.set_ylim(len(rows) - 0.4, -0.6)
     axes.set_yticks(range(len(rows)), [row.stepper.name for row in rows])
     axes.set_xlabel("largest distance from the motion before the permutation [m]")
@@ -82,7 +82,7 @@ def _lines(axes: Any, convergences: list[Convergence], rounding: float) -> None:
     axes.set_yscale("log")
     axes.set_xlim(0, 1.15 * ROUNDS[-1])
     axes.set_ylim(FLOOR / 4, 1)
-    from_nothing(axes.yaxis, FLOOR, powers(*range(-15, 1, 3)))
+    from_nothing(axes.yaxis, FLOOR)
     axes.set_xlabel("rounds of sequential impulses in a step [1]")
     axes.set_ylabel("largest distance from the motion before the permutation [m]")
     axes.set_title("Measured: Pymunk, springs reversed", loc="left", fontsize=TITLE)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from report.figures import COLOURS, IDENTIFIED, MEASURED, NOTE, SMALL, Picture, from_nothing, new_figure, powers
+from report.figures import COLOURS, IDENTIFIED, MEASURED, NOTE, SMALL, Picture, from_nothing, new_figure
 
 #: Lengths that people know [m].
 KNOWN = {1e-3: "1 mm", 1e-6: "1 µm", 1e-10: "an atom", 1e-15: "a proton"}
@@ -42,13 +42,13 @@ def draw(engines: Sequence[Explained]) -> Picture:
         axes.plot(left, y, color=COLOURS[0], markersize=7, **IDENTIFIED)
     axes.set_xscale("log")
     axes.set_xlim(LOWEST, max([HIGHEST, *(3 * row.error for row in rows)]))
+    from_nothing(axes.xaxis, NOTHING)
     axes.set_ylim(len(rows) - 0.4, -1.7)
     axes.set_yticks(
         range(len(rows)), [f"{row.engine} = {row.scheme or 'not identified'}" for row in rows], fontsize=NOTE
     )
     axes.tick_params(axis="y", length=0)
     axes.grid(visible=False, axis="y")
-    from_nothing(axes.xaxis, NOTHING, powers(*range(-15, 1, 3)))
     axes.set_xlabel("largest distance of any mass within half a second [m]")
     axes.text(0.7 * ROUNDING, -0.5, "rounding", color="#555555", fontsize=SMALL, ha="right", va="center")
     _words(axes, rows)

@@ -16,7 +16,7 @@ from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
 from reference.state import Array
@@ -231,3 +231,33 @@ def segments(axes: Axes) -> Array:
     """Of all collections of lines: their ends, shape (s, 2, 2)."""
     found = [np.array(c.get_segments()) for c in axes.collections if isinstance(c, LineCollection)]
     return np.concatenate([segments for segments in found if len(segments)])
+
+
+# --- Whether its measures are those of a figure ---
+
+
+def odd_measures(figure: Figure) -> list[str]:
+    """What is too large or too small: the figure, lines, markers, words, and how far notes are from their places.
+
+    Also rows that have not half a row of room below the last, and some above the first, which is on top.
+    """
+    width, height = figure.get_size_inches()
+    found = [f"{width} x {height} inches"] * (not (6.5 <= width <= 14 and 1.9 <= height <= 16))
+    words = [text for text in figure.findobj(Text) if text.get_text()]
+    found += [f"{text.get_text()!r} of {text.get_fontsize()}" for text in words if not 8 <= text.get_fontsize() <= 13.2]
+    for axes in figure.get_axes():
+        found += [f"a line {line.get_linewidth()} wide" for line in axes.lines if not 0.6 <= line.get_linewidth() <= 4]
+        marks = [line for line in axes.lines if line.get_marker() not in ("None", "")]
+        found += [f"a marker of {mark.get_markersize()}" for mark in marks if not 3 <= mark.get_markersize() <= 13]
+        edges = [mark.get_markeredgewidth() for mark in marks if mark.get_fillstyle() == "none"]
+        found += [f"a ring {edge} wide" for edge in edges if not 0.9 <= edge <= 1.6]
+        layers = [artist.get_alpha() for artist in (*axes.collections, *axes.patches) if artist.get_alpha() is not None]
+        found += [f"a part of {alpha} seen through" for alpha in layers if not 0.2 <= alpha <= 0.5]
+        notes = [text for text in axes.texts if isinstance(text, Annotation) and text.anncoords == "offset points"]
+        found += [f"{note.get_text()!r} at {note.xyann}" for note in notes if np.abs(note.xyann).max() > 25]
+        rows = tick_labels(axes.yaxis)
+        if len(rows) > 1 and [*rows] == [*range(len(rows))] and not any(map(_is_number, rows.values())):
+            bottom, top = axes.get_ylim()
+            good = 0.3 <= bottom - (len(rows) - 1) <= 0.7 and -2 <= top <= -0.4
+            found += [f"{len(rows)} rows from {bottom} to {top}"] * (not good)
+    return found

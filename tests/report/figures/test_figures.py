@@ -20,6 +20,7 @@ from tests.report.figures.artists import (
     hidden_by_legend,
     laid_out,
     legend,
+    odd_measures,
     out_of_sight,
     overlaps,
     unlabelled,
@@ -48,6 +49,7 @@ def test_every_experiment_has_a_figure_and_a_result_to_draw_it_of() -> None:
 def test_it_is_drawn_with_what_there_is_and_has_words_that_stand_for_it(name: str, case: str) -> None:
     """However little that is."""
     assert len(shown(name, case).alt) > 40
+    assert odd_measures(shown(name, case).figure) == []
 
 
 @pytest.mark.rotating(8)
@@ -65,7 +67,7 @@ def test_all_of_it_can_be_seen(name: str) -> None:
 
 def a_figure() -> Figure:
     """A line with its label in the legend, a note, and axes with units."""
-    figure, axes = new_figure((5, 4))
+    figure, axes = new_figure((7, 4))
     axes.plot([0, 1, 2], [0, 1, 4], label="a line", **look(0))
     axes.set_xlabel("time [s]")
     axes.set_ylabel("place [m]")
@@ -79,6 +81,13 @@ def test_a_figure_is_well_where_nothing_is_wrong() -> None:
     figure = a_figure()
     assert unlabelled(figure) == overlaps(figure) == cut_off(figure) == out_of_sight(figure.axes[0]) == []
     assert hidden_by_legend(figure.axes[0]) == 0
+    assert odd_measures(figure) == []
+
+
+def rows(figure: Figure) -> None:
+    """Three of them, the first on top."""
+    figure.axes[0].set_yticks(range(3), ["heun", "rk4", "euler"])
+    figure.axes[0].set_ylim(2.6, -0.6)
 
 
 SPOILT: dict[str, tuple[Callable[[Figure], object], Callable[[Figure], object]]] = {
@@ -87,6 +96,15 @@ SPOILT: dict[str, tuple[Callable[[Figure], object], Callable[[Figure], object]]]
     "a note over a tick's label": (lambda figure: figure.axes[0].text(-0.3, 2.9, "far out"), overlaps),
     "a note beyond the paper": (lambda figure: figure.text(0.95, 0.5, "too long for this"), cut_off),
     "a point outside": (lambda figure: figure.axes[0].set_xlim(0, 1.5), lambda figure: out_of_sight(figure.axes[0])),
+    "a line too wide": (lambda figure: figure.axes[0].lines[0].set_linewidth(16), odd_measures),
+    "markers too small": (lambda figure: figure.axes[0].lines[0].set_markersize(-6), odd_measures),
+    "words too large": (lambda figure: figure.axes[0].texts[0].set_fontsize(90), odd_measures),
+    "too wide": (lambda figure: figure.set_size_inches(20, 4), odd_measures),
+    "a note far from its place": (
+        lambda figure: figure.axes[0].annotate("far", (1, 1), (60, 4), textcoords="offset points"),
+        odd_measures,
+    ),
+    "a row cut in two": (lambda figure: (rows(figure), figure.axes[0].set_ylim(2.0, -0.6)), odd_measures),
     "a legend on the line": (
         lambda figure: figure.axes[0].legend(loc="lower left"),
         lambda figure: hidden_by_legend(figure.axes[0]),
