@@ -29,7 +29,6 @@ BLACK_ON_COLOURS = "#000001"
 TITLE, NOTE, SMALL = 11, 9, 8
 
 STYLE = {
-    "figure.figsize": (9.0, 5.0),
     "figure.constrained_layout.use": True,
     "font.size": TITLE,
     "axes.spines.top": False,

@@ -71,7 +71,7 @@ def _row(figure: Any, axes: Any, row: int) -> Any:
     """Both places of a row as one."""
     for place in axes[row]:
         place.remove()
-    return figure.add_subplot(axes[0, 0].get_gridspec()[row, :])
+    return figure.add_subplot(place.get_gridspec()[row, :])
 
 
 def _film(axes: Any, motions: Mapping[str, Trajectory], circle: Circle) -> None:

@@ -90,7 +90,7 @@ def _line(axes: Any, times: Array, values: Array, i: int, count: int, style: str
     every = max(1, len(times) // 6)
     # Markers of different lines at different times: where lines lie on one another, all can still be seen.
     start = 1 + i * every // max(count, 1)
-    looks = {"markersize": 6, **look(i), **{name: value for name, value in marks.items() if name != "marker"}}
+    looks = {**look(i), **{name: value for name, value in marks.items() if name != "marker"}}
     axes.plot(times[: len(values)], _shown(values), style, markevery=(start, every), **looks)
 
 

@@ -21,9 +21,9 @@ def draw(result: Result) -> Picture:
     """A plot, three cloths and three shadows."""
     cloths = result.data["cloths"]
     figure, axes = new_figure(figsize=(11, 10), nrows=3, ncols=3, gridspec_kw={"height_ratios": (1.5, 1.2, 1)})
-    grid = axes[0, 0].get_gridspec()
     for place in [*axes[0], *axes[1]]:
         place.remove()
+    grid = place.get_gridspec()
     _coefficients(figure.add_subplot(grid[0, :]), cloths)
     shown = [one for c in SHOWN for one in cloths if _is(one, c)]
     for i, place in enumerate(axes[2]):

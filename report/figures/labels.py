@@ -47,7 +47,7 @@ def label_ends(axes: Any, ends: Sequence[End], line: float, fontsize: float = NO
             fontsize=fontsize,
             va="center",
             annotation_clip=False,
-            arrowprops={"arrowstyle": "-", "color": end.color, "linewidth": 1.0, "shrinkB": 2, "relpos": (0, 0.5)},
+            arrowprops={"arrowstyle": "-", "color": end.color, "relpos": (0, 0.5)},
         )
 
 

@@ -16,7 +16,7 @@ def draw(result: Result) -> Picture:
     kinds: Sequence[Kind] = sorted(result.data["kinds"], key=lambda kind: -kind.seconds)
     hands: Sequence[Hand] = result.data["hands"]
     figure, axes = new_figure(figsize=(9, 5))
-    cores = np.geomspace(1, 10 * max(CORES), 200)
+    cores = np.geomspace(1, 10 * max(CORES))
     for i, kind in enumerate(kinds):
         style = look(i)
         axes.plot(cores, [predicted(kind, hands, n) / 3600 for n in cores], color=style["color"])

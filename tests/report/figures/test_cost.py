@@ -59,6 +59,11 @@ def test_engines_are_solid_ours_dashed_and_a_scheme_has_one_colour() -> None:
     for scheme in ("kick_drift", "rk4"):
         assert len({looks(handle) for label, handle in handles.items() if label.startswith(scheme)}) == 1
     assert "engines (solid), our own (dashed)" in figure.legends[0].get_title().get_text()
+    for case in ("usual", "full"):
+        drawn = shown("cost", case).figure
+        lines_of_text = sum(1 + label.count("\n") for label in legend(drawn))
+        assert drawn.get_figheight() >= max(6.0, 0.17 * lines_of_text)
+        assert drawn.get_figheight() < max(6.5, 0.2 * (lines_of_text + 4))
 
 
 def test_what_lies_between_cheapest_and_dearest_is_shaded() -> None:

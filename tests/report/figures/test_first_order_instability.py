@@ -58,6 +58,8 @@ def test_a_row_for_each_scheme_over_the_true_motion() -> None:
         grey, own = marks(row, color="#bbbbbb", linewidth=4), marks(row, color=look(i)["color"])
         assert len(grey) == len(own) == len(TIMES)
         assert row.lines.index(grey[0]) < row.lines.index(own[0])
+        bottom, top = row.get_ylim()
+        assert 0 < top < 1 < -bottom < 2  # a metre of string hangs from the anchor at 0
 
 
 def test_what_is_nowhere_is_told_in_the_words() -> None:

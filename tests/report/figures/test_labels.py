@@ -57,6 +57,7 @@ def test_each_label_is_joined_to_its_end() -> None:
     assert high.get_position()[1] > too.get_position()[1] > low.get_position()[1]
     assert all(text.get_position()[0] > 1 and text.anncoords == "axes fraction" for text in axes.texts)
     assert [text.arrowprops["color"] for text in axes.texts] == list(COLOURS[:3])
+    assert {text.arrowprops["relpos"] for text in axes.texts} == {(0, 0.5)}  # from the middle of its left border
     label_ends(axes, ends, line=0.05, together=0.01)
     assert [(text.get_text(), text.arrowprops["color"]) for text in axes.texts[3:]] == [
         ("low\ntoo", "#777777"),

@@ -9,7 +9,7 @@ from experiments.less_damping import DRAGS, DURATION, TIMES
 from report.figures import look
 from tests.experiments.canned.less_damping import MASS, START
 from tests.experiments.canned.reading import records
-from tests.report.figures.artists import data, marks, text, tick_labels
+from tests.report.figures.artists import data, marks, out_of_sight, text, tick_labels
 from tests.report.figures.shown import result, shown
 
 
@@ -57,6 +57,9 @@ def test_a_row_of_the_film_for_each_drag_in_its_colour() -> None:
         assert row.get_title(loc="left") == f"drag {drag:g} N s/m"
         assert len(marks(row, color=look(i)["color"])) == len(TIMES)
         assert [*tick_labels(row.xaxis).values()] == [f"{time:g} s" for time in TIMES]
+        assert out_of_sight(row) == []
+        bottom, top = row.get_ylim()
+        assert 0 < top < 0.5 < -bottom < 2  # a metre of string hangs from the anchor at 0
 
 
 def test_the_words_for_it_have_what_is_left() -> None:

@@ -38,6 +38,10 @@ def test_dots_are_the_table_of_damped_springs() -> None:
         x, y = data(line(left(), change))
         assert dict(zip((names[round(at)] for at in y), x, strict=True)) == expected
     assert [*legend(left())] == [*CHANGES]
+    first = [data(line(left(), change))[1][0] for change in CHANGES]
+    assert first == sorted(first)
+    assert np.diff(first) == pytest.approx([first[1] - first[0]] * 2)
+    assert 0.4 < first[2] - first[0] < 0.6  # one under the other, well within their row
     assert len({(handle.get_color(), handle.get_marker()) for handle in legend(left()).values()}) == 3
 
 
@@ -77,6 +81,8 @@ def test_rounding_is_where_it_is_and_shaded_below() -> None:
     rounding = result("numbering").data["rounding"]
     assert verticals(left()) == [rounding]
     assert horizontals(right()) == [rounding]
+    assert left().patches[0].get_x() <= left().get_xlim()[0]
+    assert right().patches[0].get_y() <= right().get_ylim()[0]
     assert left().patches[0].get_x() + left().patches[0].get_width() == pytest.approx(rounding)
     assert right().patches[0].get_y() + right().patches[0].get_height() == pytest.approx(rounding)
 

@@ -11,6 +11,7 @@ from tests.report.figures.artists import (
     data,
     laid_out,
     marks,
+    odd_measures,
     out_of_sight,
     overlaps,
     text,
@@ -70,7 +71,14 @@ def test_known_lengths_are_where_they_are() -> None:
 def test_all_of_it_can_be_seen() -> None:
     """Also what is farther away than the axis goes by itself."""
     figure = laid_out(draw(ENGINES).figure)
-    assert unlabelled(figure) == overlaps(figure) == cut_off(figure) == out_of_sight(figure.axes[0]) == []
+    assert (
+        unlabelled(figure)
+        == overlaps(figure)
+        == odd_measures(figure)
+        == cut_off(figure)
+        == out_of_sight(figure.axes[0])
+        == []
+    )
 
 
 def test_without_a_scheme_there_is_no_word_of_one() -> None:

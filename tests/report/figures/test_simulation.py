@@ -12,7 +12,7 @@ from experiments.simulation.simulation import Motion, Simulation, simulate_all
 from reference.conserved import energy_parts
 from reference.files.setup import setup_for
 from report.figures.simulation import ENERGIES, FEW, Wanted, draw, wanted
-from tests.report.figures.artists import cut_off, data, laid_out, overlaps, unlabelled
+from tests.report.figures.artists import cut_off, data, laid_out, odd_measures, overlaps, unlabelled
 
 
 @cache
@@ -68,7 +68,7 @@ def test_energies_are_those_of_the_states() -> None:
 def test_all_of_it_can_be_read(word: str) -> None:
     """Axes with units, nothing over anything else, nothing cut off."""
     figure = laid_out(draw(simulation(), wanted(word, 3, 2)).figure)
-    assert unlabelled(figure) == overlaps(figure) == cut_off(figure) == []
+    assert unlabelled(figure) == overlaps(figure) == odd_measures(figure) == cut_off(figure) == []
 
 
 def test_forces_are_those_of_the_springs() -> None:

@@ -22,6 +22,9 @@ def test_cells_are_the_table_in_the_columns_of_their_versions() -> None:
         ]
         for i, version in enumerate(versions)
     }
+    heads = [t for t in axes.texts if t.get_text() in (*versions, "spring")]
+    assert {t.get_position()[1] for t in heads} == {1}
+    assert {t.get_fontweight() for t in heads} == {"bold"}
     for version in versions:
         cells = [row[version] for row in records(result("versions"))]
         expected = ["not asked" if c is None else f"{c:.7g}" if isinstance(c, float) else c for c in cells]

@@ -75,6 +75,15 @@ def test_a_window_has_room_about_what_moves(boxes: list[Window], wanted: Window)
     assert window_around(boxes) == pytest.approx(wanted)
 
 
+def test_a_window_goes_with_what_it_shows() -> None:
+    """Elsewhere it is elsewhere, and of what is larger it is larger: with several boxes that reach out of one another."""
+    boxes = np.array([(1.0, 4.0, -2.0, 3.0), (0.8, 9.0, -2.5, 2.0), (2.0, 3.0, -9.0, 4.0)])
+    found = np.array(window_around([tuple(box) for box in boxes]))
+    shift = np.array([5.0, 5.0, -7.0, -7.0])
+    assert window_around([tuple(box) for box in boxes + shift]) == pytest.approx(found + shift)
+    assert window_around([tuple(box) for box in 3 * boxes]) == pytest.approx(3 * found)
+
+
 def test_how_much_others_may_add_is_a_part_of_the_first() -> None:
     """Half of it, where that is asked for."""
     one, other = (0.0, 2.0, 0.0, 2.0), (-9.0, 2.0, 0.0, 9.0)
