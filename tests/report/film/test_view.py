@@ -76,7 +76,7 @@ def test_a_window_has_room_about_what_moves(boxes: list[Window], wanted: Window)
 
 
 def test_a_window_goes_with_what_it_shows() -> None:
-    """Elsewhere it is elsewhere, and of what is larger it is larger: with several boxes that reach out of one another."""
+    """Elsewhere it is elsewhere, and of what is larger it is larger, whichever box reaches out of which."""
     boxes = np.array([(1.0, 4.0, -2.0, 3.0), (0.8, 9.0, -2.5, 2.0), (2.0, 3.0, -9.0, 4.0)])
     found = np.array(window_around([tuple(box) for box in boxes]))
     shift = np.array([5.0, 5.0, -7.0, -7.0])
