@@ -171,7 +171,7 @@ class _Changes:
 
     def _taken_in(self, place: Site, before: Sequence[ast.stmt], one: Any, after: Sequence[ast.stmt]) -> Iterator[Edit]:
         """What follows a loop or a condition, taken into it: there were no braces, or a semicolon too much."""
-        ends = len(one.body) == 1 and isinstance(one.body[0], ast.Pass)
+        ends = [type(statement_) for statement_ in one.body] == [ast.Pass]
         for by in range(1, min(FARTHEST, len(after)) + 1):
             body = [*([] if ends else one.body), *after[:by]]
             line, cost = (one.lineno, 1.2) if ends else (after[0].lineno, 1.8 + 0.1 * by)

@@ -127,7 +127,6 @@ def call(node: Any, name: str, *arguments: ast.expr) -> ast.Call:
 
 def at(node: Any, made: Any) -> Any:
     """At the line of a node."""
-    line, column = (node.coord.line, node.coord.column or 0) if node.coord is not None else (1, 0)
-    made.lineno = made.end_lineno = line
-    made.col_offset = made.end_col_offset = column
+    made.lineno = made.end_lineno = node.coord.line if node.coord is not None else 1
+    made.col_offset = made.end_col_offset = 0
     return made

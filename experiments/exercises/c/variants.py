@@ -119,12 +119,9 @@ class Variants:
         holder, name, place = site
         if name == "func":
             return None
-        if isinstance(holder, HOLDERS) and name in ("body", "orelse"):
-            if isinstance(holder, ast.FunctionDef) and place is None:
-                return holder, holder
-            inside = what_stands_at(site) if place is not None else holder
-            return self._owners.get(id(inside))
-        return self._owners.get(id(holder))
+        if isinstance(holder, HOLDERS) and place is not None:  # one of its statements
+            return self._owners.get(id(what_stands_at(site)))
+        return (holder, holder) if isinstance(holder, ast.FunctionDef) else self._owners.get(id(holder))
 
     def _anew(self, function: ast.FunctionDef, edit: Edit) -> tuple[Switch, ...]:
         """The whole function, changed."""

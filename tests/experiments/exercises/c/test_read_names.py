@@ -44,6 +44,23 @@ def test_the_kind_of_a_declared_name(declared: str, kind: Kind) -> None:
     assert program.kinds["f"]["a"] == kind
 
 
+@pytest.mark.parametrize(
+    ("declared", "free"),
+    [
+        ("double a = 1;", "double springlab_value"),
+        ("const double a = 1;", "double springlab_value"),
+        ("const double *a = p;", "const double *springlab_value"),
+        ("double *const a = p;", "double *springlab_value"),
+        ("const double (*a)[2] = p;", "const double (*springlab_value)[2]"),
+    ],
+)
+def test_a_name_that_can_be_written_into_is_declared_as_the_given_one(declared: str, free: str) -> None:
+    """What a pointer leads to stays what it is."""
+    (own,) = functions_in(read(f"void f(void *p)\n{{\n    {declared}\n}}\n").tree)
+    assert own.body[0].free == free  # type: ignore[attr-defined]
+    assert own.body[0].declared.replace("* const", "*const") == declared.partition(" =")[0]  # type: ignore[attr-defined]
+
+
 def test_fields_of_structs_and_what_stands_outside() -> None:
     """Those of the exercise and those of the text; names outside are known in what follows, functions as such."""
     text = (

@@ -80,10 +80,10 @@ def test_every_number_that_the_other_scheme_has_counts(given: list[float], told:
     solved = {"other": [2.0, 3.0, np.nan], "right": [np.inf, 3.0, np.inf]}
     exercise: Any = SimpleNamespace(
         told_aside=[other],
-        answer=lambda question, parameters: [[np.array(solved[parameters.get("scheme", "right")])]],
+        answer=lambda question, parameters: [[np.array(solved[parameters.get("scheme", "right")])], [np.zeros(3)]],
     )
     question = Question("step", (), ("x",), "")
-    found = told_by_overflow(exercise, [question], [{"values": [[np.array(given)]]}])
+    found = told_by_overflow(exercise, [question], [{"values": [[np.array(given)], [np.ones(3)]]}])
     assert found == (other if told else None)
 
 

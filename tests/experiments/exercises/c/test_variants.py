@@ -135,6 +135,9 @@ def test_a_change_is_in_one_function() -> None:
     """Not in two, and not of what is called."""
     one, other = ("a / 2", expression("a / 3")), ("late * 5", expression("late + 1"))
     assert on([one], [other], [one, other]) == [((0, 1),), ((1, 1),), ()]
+    # nor where one of two places gets what is not known there
+    fits, not_known = ("dt + 7", expression("dt + 8")), ("dt * 3", expression("dt * late"))
+    assert on([fits], [not_known], [fits, not_known], [not_known, fits]) == [((0, 1),), (), (), ()]
     program = read(TEXT)
     call = what_stands_at(site_of(program, "half(i)"))
     assert Variants(

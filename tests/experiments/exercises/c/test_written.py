@@ -155,6 +155,7 @@ def statement(text: str) -> Any:
         ("not a", "!a"),
         ("a and b or dt", "a && b || dt"),
         ("(a or b) and dt", "(a || b) && dt"),
+        ("_half(a)", "_half(a)"),
         ("unknown.masses", "unknown->masses"),  # what is given mostly is a pointer
     ],
 )
@@ -221,6 +222,15 @@ def test_statements_and_copies(text: str, plain: str, told: str) -> None:
     """Of arrays as many as there are masses; in words where it is told to people."""
     assert writer().plain(statement(text)) == plain
     assert writer(told=True).plain(statement(text)) == told
+
+
+@pytest.mark.parametrize(("value", "written"), [(3, "3u"), (5, "5"), (3.0, "3.0"), (True, "1"), (-3, "-3")])
+def test_a_number_is_written_as_it_was_while_it_is_the_same(value: float, written: str) -> None:
+    """Another value, or another type, has its own words."""
+    number: Any = ast.Constant(value)
+    number.as_written = (3, "3u")
+    assert writer().expression(number) == written
+    assert writer().expression(ast.Constant(value)) == written.replace("u", "")
 
 
 def test_a_text_is_for_the_compiler_unless_it_is_said_to_be_told() -> None:
