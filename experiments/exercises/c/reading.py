@@ -159,8 +159,8 @@ class _Reader(Expressions):
             self._note(inner)
         made = at(node, Verbatim())
         made.names = [python_name(inner.name) for inner in declared]
-        text = self.written.visit(node)
-        made.text = text if text.rstrip().endswith(("}", ";")) and not _needs_end(node) else f"{text};"
+        text = self.written.visit(node).rstrip()
+        made.text = text if text.endswith(";") or (text.endswith("}") and not _declares(node)) else f"{text};"
         return made
 
     def _note(self, declared: c_ast.Decl) -> None:
@@ -254,12 +254,10 @@ def kind_of(declared: Any, types: Mapping[str, Kind]) -> Kind:
         return Kind("function", 0)
     inner = getattr(declared, "type", None)
     if isinstance(inner, c_ast.IdentifierType):
-        words = set(inner.names)
-        if inner.names[0] in types:
-            kind = types[inner.names[0]]
-            return Kind(kind.base, kind.depth + depth)
-        base = "number" if words & {"double", "float"} else "whole" if words & WHOLE_WORDS else " ".join(inner.names)
-        return Kind(base, depth)
+        words, name = set(inner.names), " ".join(inner.names)
+        if name in types:
+            return Kind(types[name].base, types[name].depth + depth)
+        return Kind("number" if words & {"double", "float"} else "whole" if words & WHOLE_WORDS else name, depth)
     return Kind(kind_of_struct(inner), depth)
 
 
@@ -284,8 +282,9 @@ def _below(node: Any) -> Iterator[Any]:
         yield from _below(inner)
 
 
-def _needs_end(node: Any) -> bool:
-    return isinstance(node, c_ast.Decl | c_ast.Typedef | c_ast.Goto | c_ast.DoWhile)
+def _declares(node: Any) -> bool:
+    """Whether a semicolon ends it, also after braces."""
+    return isinstance(node, c_ast.Decl | c_ast.Typedef)
 
 
 def _counts_up(node: c_ast.For, name: str) -> bool:

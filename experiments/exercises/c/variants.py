@@ -277,8 +277,9 @@ class _Switching(Writer):
         if not plain.startswith("{"):
             free: str = node.free  # type: ignore[attr-defined]
             return [f"{declared} = {_chosen(free, number, texts, plain, 'springlab_value = {};')};"]
-        assert isinstance(node.targets[0], ast.Name)
-        name = c_name(node.targets[0].id)
+        (target,) = node.targets
+        assert isinstance(target, ast.Name)
+        name = c_name(target.id)
         put = [(i, f"memcpy((void *)&{name}, &(__typeof__({name})){text}, sizeof {name});") for i, text in texts]
         return [f"{declared} = {plain};", *_switched(number, put, ";")]
 
@@ -336,8 +337,9 @@ def _names_of(statement: ast.stmt) -> frozenset[str]:
     """The names that are declared by a statement, for those after it."""
     if isinstance(statement, Verbatim):
         return frozenset(statement.names)
-    if isinstance(statement, ast.Assign) and _is_declared(statement) and isinstance(statement.targets[0], ast.Name):
-        return frozenset([statement.targets[0].id])
+    match statement:
+        case ast.Assign([ast.Name(name)]) if _is_declared(statement):
+            return frozenset([name])
     return frozenset()
 
 

@@ -145,10 +145,10 @@ class Writer:
 
     def _assignment(self, node: ast.Assign) -> str:
         targets, value = node.targets, node.value
-        first = targets[0]
-        if isinstance(first, ast.Name) and first.id.startswith("_") and first.id.endswith(("_before", "_given")):
-            return self._kept(first.id, value)
-        if isinstance(first, ast.Tuple):
+        match targets:
+            case [ast.Name(name)] if name.startswith("_") and name.endswith(("_before", "_given")):
+                return self._kept(name, value)
+        if any(isinstance(target, ast.Tuple) for target in targets):
             raise NotInCError("several values")
         if getattr(node, "declared", None):
             return f"{node.declared} = {self.value(value)};"  # type: ignore[attr-defined]
@@ -284,18 +284,20 @@ class Writer:
         if name == ",":
             return ", ".join(self.expression(part, ASSIGNED) for part in node.args), COMMA
         if name.startswith("(") and len(node.args) == 1:
-            return name + self.expression(node.args[0], UNARY), UNARY
+            (inner,) = node.args
+            return name + self.expression(inner, UNARY), UNARY
         if not (name[0].isalpha() or name[0] == "_") or name in ("p++", "p--"):
             return self._of_operator(name, node.args)
-        inner = [self.expression(part, ASSIGNED) for part in node.args]
-        return f"{IN_C.get(name) or c_name(name)}({', '.join(inner)})", POSTFIX
+        parts = [self.expression(part, ASSIGNED) for part in node.args]
+        return f"{IN_C.get(name) or c_name(name)}({', '.join(parts)})", POSTFIX
 
     def _of_operator(self, name: str, given: Sequence[ast.expr]) -> tuple[str, int]:
         if len(given) == 2 and name.endswith("="):
             target, value = self.expression(given[0], UNARY), self.expression(given[1], ASSIGNED)
             return f"{target} {name} {value}", ASSIGNED
         if len(given) == 1:
-            inner = self.expression(given[0], UNARY)
+            (one,) = given
+            inner = self.expression(one, UNARY)
             return (inner + name[1:], POSTFIX) if name in ("p++", "p--") else (name + inner, UNARY)
         raise NotInCError(name)
 

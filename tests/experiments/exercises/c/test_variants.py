@@ -208,6 +208,18 @@ def within(holder: Any, *body: ast.stmt) -> Any:
     return made
 
 
+def test_a_change_that_moves_anything_is_written_anew() -> None:
+    """Whatever else it changes beside."""
+    program = read(TEXT)
+    own, body = statements(program, "step")
+    moved: tuple[Site, Any] = ((own, "body", None), [*body[:3], body[4], body[3], *body[5:]])
+    beside = (site_of(program, "late * 5"), expression("late + 1"))
+    for sites in ((moved, beside), (beside, moved)):
+        text = Variants(program, [Edit(1, "order", 1.0, sites)]).text()
+        assert "static void springlab_step_1(" in text
+        assert "SPRINGLAB_AT(1)" not in text
+
+
 @pytest.mark.parametrize(
     ("body", "in_order"),
     [

@@ -233,6 +233,34 @@ def test_a_number_is_written_as_it_was_while_it_is_the_same(value: float, writte
     assert writer().expression(ast.Constant(value)) == written.replace("u", "")
 
 
+@pytest.mark.parametrize(("name", "count"), [("++", 2), ("&", 2), ("-=", 3), ("(int)", 2), ("p++", 2)])
+def test_an_operator_has_as_many_sides_as_in_c(name: str, count: int) -> None:
+    """Two where something is written into one, else one."""
+    call = ast.Call(ast.Name(name, ast.Load()), [ast.Name("n", ast.Load())] * count, [])
+    with pytest.raises(NotInCError):
+        writer().expression(call)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "struct own\n{\n    int a;\n};\n",
+        "int a;\n",
+        "typedef double row[2];\n",
+        "void own(int n)\n{\n    int a;\n    switch (n)\n    {\n      case 1:\n        n = 2;\n    }\n    n = 3;\n}\n",
+        "void own(int n)\n{\n    do\n    {\n        n--;\n    }\n    while (n > 3);\n}\n",
+        "void own(int n)\n{\n    struct own b;\n    goto end;\n    end:\n    n = 3;\n}\n",
+    ],
+)
+def test_what_is_copied_ends_once(text: str) -> None:
+    """A declaration by a semicolon, what has braces by them."""
+    own = "struct own\n{\n    int a;\n};\n" if "struct own b" in text else ""
+    written, wanted = (
+        [line.strip() for line in one.splitlines() if line] for one in (text_of(read(own + text)), own + text)
+    )
+    assert [line for line in written if line] == wanted
+
+
 def test_a_text_is_for_the_compiler_unless_it_is_said_to_be_told() -> None:
     """What copies an array is in words only for people."""
     program = read(function("x[0][0] = a;"))
