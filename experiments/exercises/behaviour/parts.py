@@ -134,7 +134,7 @@ def _lines_of_part(
             if called is not None and called not in seen:
                 yield from _lines_of_part(tree, called, place, count, [*seen, called])
                 continue
-            if count > 1 and isinstance(value, ast.Tuple | ast.List) and len(value.elts) == count:
+            if isinstance(value, ast.Tuple | ast.List) and len(value.elts) == count:
                 value = value.elts[place]
             elif count > 1:
                 continue

@@ -44,10 +44,7 @@ def expression(text: str, at: ast.AST) -> ast.expr:
 
 @lru_cache(maxsize=100_000)
 def _expression(text: str, line: int) -> ast.expr:
-    made = ast.parse(text, mode="eval").body
-    for node in ast.walk(made):
-        ast.copy_location(node, ast.Pass(lineno=line, col_offset=0, end_lineno=line, end_col_offset=0))
-    return made
+    return ast.increment_lineno(ast.parse(text, mode="eval").body, line - 1)
 
 
 def statement(text: str, at: ast.stmt) -> ast.stmt:

@@ -110,6 +110,8 @@ def test_the_lines_are_told_where_they_are_few() -> None:
         ("for v in x:\n        pass\n    return x, v", 1, 2, [4]),
         ("if x:\n        return x, 1\n    return x, 2", 1, 2, [3, 4]),
         ("v = 1\n    return v", 0, 1, [2]),
+        ("v = 1\n    return (v,)", 0, 1, [2]),
+        ("v = 1\n    return v, v", 0, 1, [3]),
         ("v = x, 1\n    return v", 1, 2, []),
         ("return x, 1, 2", 1, 2, []),
         ("return", 0, 1, []),

@@ -112,6 +112,18 @@ def test_loops_that_begin_in_another_way_are_not_read(begin: str) -> None:
         read(f"void f(int n, int m, int *x)\n{{\n    for ({begin}; n < 3; n++) ;\n}}\n")
 
 
+def test_what_stands_in_quotes_is_no_comment() -> None:
+    """And a quote in a comment begins nothing."""
+    body = """    f("a // b"); // "no
+    f('/'); /* it's
+    */ f("/* c */");
+    f(\"'\");
+"""
+    (own,) = functions_in(read(f"void own(int n)\n{{\n{body}}}\n").tree)
+    assert [one.value.args[0].text for one in own.body] == ['"a // b"', "'/'", '"/* c */"', '"\'"']  # type: ignore[attr-defined]
+    assert [one.lineno for one in own.body] == [3, 4, 5, 6]
+
+
 def test_directives_stand_aside_and_lines_stay_where_they_are() -> None:
     """Also those that go on in the next line; comments are no lines less."""
     text = '#define A \\\n    1\n/* one\n   two */ #include "b.h"\nint f(int a)\n{\n    // no\n    return a;\n}\n'

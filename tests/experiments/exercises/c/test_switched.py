@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable
 from typing import Any
 
@@ -77,6 +78,14 @@ def test_a_change_can_matter_where_one_of_its_places_is_come_to() -> None:
         *[True] * 3,
         *[False] * 2,
     ]
+
+
+def test_with_each_call_loops_are_counted_anew_and_memory_is_given_back() -> None:
+    """From nothing."""
+    program = SwitchedProgram.__new__(SwitchedProgram)
+    program._rounds, program._taken = ctypes.c_int(7), ctypes.c_size_t(8)
+    program.begin_call()
+    assert (program._rounds.value, program._taken.value) == (0, 0)
 
 
 @pytest.mark.parametrize(("second", "searched"), [(right, True), (fails, False)])
