@@ -147,7 +147,10 @@ def _function_called(tree: ast.Module, value: ast.expr) -> ast.FunctionDef | Non
     called = value.func if isinstance(value, ast.Call) else None
     name = called.attr if isinstance(called, ast.Attribute) else called.id if isinstance(called, ast.Name) else None
     found = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name == name]
-    return found[0] if len(found) == 1 else None
+    match found:
+        case [only]:
+            return only
+    return None
 
 
 def _sources(function: ast.FunctionDef | None, name: ast.Name) -> Iterator[int]:

@@ -126,7 +126,7 @@ def call(node: Any, name: str, *arguments: ast.expr) -> ast.Call:
 
 
 def at(node: Any, made: Any) -> Any:
-    """At the line of a node."""
-    made.lineno = made.end_lineno = node.coord.line if node.coord is not None else 1
-    made.col_offset = made.end_col_offset = 0
+    """At the line of a node, where it has one; else it will be that of what it is in."""
+    if node.coord is not None:
+        made.lineno = made.end_lineno = node.coord.line
     return made

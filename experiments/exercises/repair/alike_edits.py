@@ -122,6 +122,6 @@ def _of_ranges(sites: Sequence[Site], names: Names) -> Iterator[Edit]:
 
 def _edit(sites: Sequence[Site], changes: Sequence[Replacement]) -> Edit:
     put = tuple((site, change.node) for site, change in zip(sites, changes, strict=True))
-    line = getattr(what_stands_at(sites[0]), "lineno", 0)
+    line = what_stands_at(sites[0]).lineno
     change, *_ = changes
     return Edit(line, change.family, change.cost + MORE * (len(sites) - 1), put)

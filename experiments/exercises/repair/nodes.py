@@ -37,9 +37,9 @@ def at_place(parts: list[Any], place: int, new: Any) -> list[Any]:
     return [*parts[:place], new, *parts[place + 1 :]]
 
 
-def expression(text: str, at: ast.AST) -> ast.expr:
+def expression(text: str, at: ast.expr | ast.stmt) -> ast.expr:
     """What the text says, at the line of a node; one and the same for one line, so it is not to be changed."""
-    return _expression(text, getattr(at, "lineno", 1))
+    return _expression(text, at.lineno)
 
 
 @lru_cache(maxsize=100_000)

@@ -53,4 +53,4 @@ def _changes(site: Site, names: Names) -> Iterator[Edit]:
     if written and not isinstance(node, ast.Subscript | ast.Tuple):
         return
     for family, cost, new in replacements(node, names, site[0]):
-        yield Edit(getattr(node, "lineno", 0), family, cost, ((site, new),))
+        yield Edit(node.lineno, family, cost, ((site, new),))

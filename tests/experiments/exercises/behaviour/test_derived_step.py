@@ -109,6 +109,8 @@ SPRING = dict.fromkeys(("mass", "stiffness", "rest_length", "damping", "gravity"
         (SPRING, ("y", "v"), 4, True),
         (STRING, ("x", "v"), 4, True),
         ({**SPRING, "more": 1.0}, ("y", "v"), 4, True),
+        (dict.fromkeys(derived_step.SPRING, 1.0), ("y", "v"), 4, True),
+        (dict.fromkeys(derived_step.STRING, 1.0), ("x", "v"), 4, True),
         ({**STRING, "damping": 1.0}, ("x", "v"), 4, False),
         ({"centre": 1.0, "radius": 1.0}, ("x", "v"), 4, False),
         ({name: 1.0 for name in SPRING if name != "mass"}, ("y", "v"), 4, False),

@@ -129,6 +129,14 @@ def test_what_is_right_in_c_is_not_tried(wrong: str, never: str) -> None:
     assert text not in [made for *_, made in changed(function(wrong))]
 
 
+def test_the_more_is_taken_in_the_more_it_costs() -> None:
+    """Into a condition, from what follows it; a change costs about as much for each statement."""
+    wrong = function("if (n > 0) *y = 1;\n*p = 2;\n*y = 3;\n*p = 4;")
+    costs = [cost for line, family, cost, made in changed(wrong) if family == "order" and "*y = 1;\n    }" not in made]
+    assert costs[:3] == sorted(set(costs[:3]))
+    assert len(costs) >= 3
+
+
 @pytest.mark.parametrize("line", ["static double a = 0;", "do { double a = 1; } while (n < 0);"])
 def test_a_value_that_is_there_is_not_put_again(line: str) -> None:
     """Whatever the text is that is only copied."""

@@ -73,6 +73,7 @@ def test_all_layers_are_applied_before_anything_runs(monkeypatch: pytest.MonkeyP
         ("landlock", 5),
     ]
     assert ("nobody",) not in ran(monkeypatch, tmp_path)
+    assert Path(sys.path[-1]) == Path(process.__file__).parents[3]
 
 
 @pytest.mark.parametrize(

@@ -52,8 +52,8 @@ def other(by: float) -> Step:
     ("plain", "changed", "same"),
     [
         (right, right, True),
-        (right, other(1e-11), True),
-        (right, other(1e-7), False),
+        (right, other(3e-10), True),
+        (right, other(3e-9), False),
         (right, lambda x, v: (right(x, v)[0], 1.0), False),
         (right, lambda x, v: (0.0, np.nan), False),
         (lambda x, v: (0.0, 0.0), lambda x, v: (1e-12, 0.0), False),
@@ -78,6 +78,23 @@ def test_a_change_can_matter_where_one_of_its_places_is_come_to() -> None:
         *[True] * 3,
         *[False] * 2,
     ]
+
+
+def test_two_changes_at_one_place_are_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither as it is nor anew; else what they make is there for a while, and nothing is switched on afterwards."""
+    program = SwitchedProgram.__new__(SwitchedProgram)
+    program._names, program._at = {"step": right}, (ctypes.c_int * 4)(9, 9, 9, 9)  # type: ignore[assignment]
+    monkeypatch.setattr(program, "anew", lambda: {"anew": fails}, raising=False)
+    one, other, same = Switched(1.0, [(0, 3)]), Switched(1.0, [(2, 4), (3, 5)]), Switched(1.0, [(3, 6)])
+    with program.changed([one, other]) as names:
+        assert names == {"step": right}
+        assert list(program._at) == [3, 0, 4, 5]
+    assert list(program._at) == [0] * 4
+    with program.changed_anew([one, other]) as names:
+        assert names == {"anew": fails}
+    for changed in (program.changed, program.changed_anew):
+        with changed([other, same]) as names:
+            assert names is None
 
 
 def test_with_each_call_loops_are_counted_anew_and_memory_is_given_back() -> None:

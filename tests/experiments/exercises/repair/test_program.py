@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import ast
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
 import pytest
 
 from experiments.exercises.repair.edit import Edit
-from experiments.exercises.repair.program import Program, TooLongError, _units
+from experiments.exercises.repair.program import MOST_ROUNDS, Program, TooLongError, _units
 from experiments.exercises.repair.source_edits import edits_of
 
 #: A function that others call, a method, one that is called at once, one that has another name, and a class of a class.
@@ -200,6 +201,20 @@ def test_every_name_of_a_change_has_to_fit() -> None:
         added.right = ast.Name(name, ast.Load())
         assert program.can_matter(Edit(2, "name", 1.0, (((pair, "elts", 0), added),)), {1}) == fits
     assert not program.can_matter(Edit(2, "name", 1.0, (((pair, "elts", 0), ast.Name("b", ast.Load())),)), {2})
+
+
+def test_loops_may_go_round_so_often_in_each_call() -> None:
+    """And while the module is made; no more."""
+    program = Program(ast.parse("def own(a):\n    while a > 0:\n        a -= 1\n    return a"))
+    names = program.anew()
+    assert names is not None
+    for count, stops in ((MOST_ROUNDS, False), (MOST_ROUNDS, False), (MOST_ROUNDS + 1, True)):
+        program.begin_call()
+        with pytest.raises(TooLongError) if stops else nullcontext():
+            assert names["own"](count) == 0
+    for count, is_made in ((MOST_ROUNDS, True), (MOST_ROUNDS + 1, False)):
+        program = Program(ast.parse(f"a = {count}\nwhile a > 0:\n    a -= 1\n"))
+        assert (program.anew() is not None) == is_made
 
 
 def test_what_cannot_be_read_has_no_names() -> None:

@@ -186,6 +186,7 @@ def test_time_that_is_used_up_is_told() -> None:
         "singles_done": True,
         "pairs_done": False,
     }
+    assert found([Add(2.0), Add(3.0)], pair_seconds=0.9)["repairs"] == [[1, 0], [0, 1]]
     search = Search([Add(2.0), Add(3.0)], Adding(), [question(1.0)], np.copy, lambda a, b: not np.array_equal(a, b))
     search._mattering = [0, 1]
     assert search._pairs([(Nearness(0, 0.5), 0)], [question(1.0)], -1.0) == ([], False)
@@ -309,6 +310,7 @@ def test_pairs_count_in_any_order() -> None:
         assert share(same, pairs, pairs=True) == 1.0
     assert share([[0, 1], [1, 2], [0, 2]], pairs, pairs=True) < 1.0
     assert share([], np.zeros((0, 2)), pairs=True) == 1.0
+    assert share([], [[0, 0]], pairs=True) == share([[0, 0]], np.zeros((0, 2)), pairs=True) == 0.0
     assert share([[0, 1, 2]], pairs, pairs=True) == 0.0
     assert share([0, 1], pairs, pairs=True) == 0.0
     assert share([["0", "1"], ["1", "2"], ["0", "3"]], pairs, pairs=True) == 0.0
