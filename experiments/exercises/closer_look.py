@@ -172,7 +172,7 @@ def _look_closer_at_c(
     if reply.ended != "done" or reply.error is not None:
         return CloserLook(warned, complete=False)
     seen = (*warned, *looks.seen(reply.answers, source, "c"))
-    if changes is None or not reply.search:
+    if changes is None:
         return CloserLook(seen)
     with PARSING:
         repaired = [r for found in reply.search for r in changes.repairs(found["repairs"])]

@@ -211,7 +211,8 @@ class Exercise:
 
     def right_at_first(self, question: Question) -> list[Array]:
         """The parts of the right answer; where there are many steps, of the first."""
-        return self.answer(question, {}, 1)[0]
+        (parts,) = self.answer(question, {}, 1)
+        return parts
 
     def comparable(self, question: Question, answer: Answer) -> Answer:
         """An answer in the form in which answers are compared."""

@@ -16,7 +16,7 @@ from experiments.exercises.exercise import Exercise
 from experiments.exercises.handed_in.submission import Submission, read
 from experiments.exercises.process.sandbox import Limits
 from experiments.exercises.process.sandbox_errors import NotGradedError
-from experiments.exercises.teaching.table_file import read_table, written
+from experiments.exercises.teaching.table_file import columns_of, read_table, written
 from experiments.exercises.teaching.writing import require_folder, write_anew
 from experiments.exercises.verdict.findings import clean
 from experiments.exercises.verdict.judge import Verdict, judge, not_asked
@@ -231,16 +231,9 @@ def _earlier(table: Path) -> dict[str, dict[str, str]]:
     """The whole rows of a table, by file; a last line that was cut off is left out."""
     if not table.exists():
         return {}
-    rows = read_table(table)
-    named = set(rows[0]) if rows else set(COLUMNS) if _begins_as_one(table) else set()
-    if not set(COLUMNS) <= named:
+    if not set(COLUMNS) <= set(columns_of(table)):
         raise InputError(f"{table} is not a table of grades: expected the columns {', '.join(COLUMNS)}")
-    return {row["file"]: row for row in rows if row["digest"]}
-
-
-def _begins_as_one(table: Path) -> bool:
-    """Whether a table without rows is one of grades."""
-    return COLUMNS[0] in table.read_bytes()[:200].decode("utf-8-sig", "replace")
+    return {row["file"]: row for row in read_table(table) if row["digest"]}
 
 
 def _write(table: Path, rows: Iterable[dict[str, str]]) -> None:

@@ -132,18 +132,11 @@ def files_in(paths: Sequence[Path], unpacked: Path) -> list[tuple[Path, str]]:
     """
     found: list[tuple[Path, str]] = []
     for i, path in enumerate(paths):
-        holds_zips = path.is_dir() and any(p.suffix.lower() == ".zip" for p in path.rglob("*"))
-        if holds_zips or path.suffix.lower() == ".zip":
+        if path.is_dir() or path.suffix.lower() == ".zip":
             found += [(file.path, file.name) for file in collect(path, unpacked / f"path{i}")]
         else:
             found += files_of([path])
-            found += _without_programs(path, unpacked) if path.is_dir() else []
     return found
-
-
-def _without_programs(folder: Path, unpacked: Path) -> list[tuple[Path, str]]:
-    """What those have handed in who have handed in no program: it is told, not left out."""
-    return [(file.path, file.name) for file in collect(folder, unpacked) if file.path.suffix.lower() not in SUFFIXES]
 
 
 def _of_zip(path: Path, name: str, prefix: str, into: Path, inner: bool) -> list[HandedIn]:

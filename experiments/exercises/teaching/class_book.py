@@ -17,7 +17,7 @@ from experiments.exercises.c.text import without_comments
 from experiments.exercises.handed_in.collected import HandedIn
 from experiments.exercises.handed_in.parsing import parsed
 from experiments.exercises.handed_in.submission import IN_C, source_of
-from experiments.exercises.teaching.table_file import as_meant, read_table, written
+from experiments.exercises.teaching.table_file import as_meant, columns_of, read_table, written
 from experiments.exercises.teaching.writing import write_anew
 from reference.errors import InputError
 
@@ -53,7 +53,7 @@ def students_in(file: Path) -> dict[str, str]:
     A text file has a name on each line; a table a column `student` (or name, full name, username), and maybe `seed`.
     """
     rows = read_table(file)
-    columns = {str(name).strip().lower(): name for name in (rows[0] if rows else {})}
+    columns = {name.strip().lower(): name for name in columns_of(file)}
     name = next((columns[n] for n in NAMES if n in columns), None)
     if name is None:
         lines = file.read_bytes().decode("utf-8-sig").splitlines()

@@ -74,12 +74,13 @@ source/exercise.json
 
 def results(submission: Submission, given: Grade) -> dict[str, Any]:
     """A grade in Gradescope's format: the public check is seen at once, the hidden one when grades are published."""
-    tests = [_test("Public check", "1", given.public.right, given.public.passed, "visible")]
-    alone = "\n".join(paragraphs(submission, Grade(given.public, None, given.seconds)))
-    tests[0]["output"] = alone if given.hidden is None else alone.replace(UNSEEN, "The hidden one is told later.")
+    said = "\n".join(paragraphs(submission, Grade(given.public, None, given.seconds)))
     if given.hidden is not None:
-        tests.append(_test("Hidden check", "2", given.hidden.right, given.hidden.passed, "after_published"))
-        tests[1]["output"] = "\n".join(paragraphs(submission, given))
+        said = said.replace(UNSEEN, "The hidden one is told later.")
+    tests = [_test("Public check", "1", given.public.right, given.public.passed, "visible", said)]
+    if given.hidden is not None:
+        said = "\n".join(paragraphs(submission, given))
+        tests.append(_test("Hidden check", "2", given.hidden.right, given.hidden.passed, "after_published", said))
     return {
         "score": round(given.score, 2),
         "execution_time": round(given.seconds, 2),
@@ -96,7 +97,7 @@ def results(submission: Submission, given: Grade) -> dict[str, Any]:
     }
 
 
-def _test(name: str, number: str, right: bool, passed: tuple[bool, ...], visibility: str) -> dict[str, Any]:
+def _test(name: str, number: str, right: bool, passed: tuple[bool, ...], visibility: str, said: str) -> dict[str, Any]:
     return {
         "name": name,
         "number": number,
@@ -105,12 +106,13 @@ def _test(name: str, number: str, right: bool, passed: tuple[bool, ...], visibil
         "status": "passed" if right else "failed",
         "output_format": "text",
         "visibility": visibility,
+        "output": said,
     }
 
 
 def refused(reason: str) -> dict[str, Any]:
     """What is said of a submission that cannot be graded."""
-    test = {**_test("Public check", "1", False, (), "visible"), "output": reason}
+    test = _test("Public check", "1", False, (), "visible", reason)
     return {"score": 0.0, "output": reason, "visibility": "visible", "stdout_visibility": "hidden", "tests": [test]}
 
 
@@ -132,7 +134,8 @@ def grade_folder(folder: Path, settings: Mapping[str, Any]) -> dict[str, Any]:
         named = [f for f in files if Path(f[1]).stem == exercise.name] or files
         if len(named) != 1:
             raise InputError(f"{len(named)} files: expected one, {exercise.name}.py{_or_c(exercise)}")
-        submission = read(*named[0], exercise, bool(settings.get("keyed", True)))
+        ((path, name),) = named
+        submission = read(path, name, exercise, bool(settings.get("keyed", True)))
     except InputError as error:
         return refused(str(error))
     try:

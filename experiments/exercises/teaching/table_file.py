@@ -20,6 +20,15 @@ def read_table(file: Path) -> list[dict[str, str]]:
     Raises:
         InputError: where it is no text.
     """
+    return [row for row in _reader(file) if None not in row and all(isinstance(value, str) for value in row.values())]
+
+
+def columns_of(file: Path) -> list[str]:
+    """The names in the first line of a table. Raises InputError where it is no text."""
+    return list(_reader(file).fieldnames or ())
+
+
+def _reader(file: Path) -> csv.DictReader[str]:
     data = file.read_bytes()
     try:
         text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
@@ -29,8 +38,7 @@ def read_table(file: Path) -> list[dict[str, str]]:
         except UnicodeDecodeError:
             raise InputError(f"{file}: expected a table in UTF-8") from None
     first = text.partition("\n")[0]
-    reader = csv.DictReader(StringIO(text, newline=""), delimiter=max(BETWEEN, key=first.count))
-    return [row for row in reader if None not in row and all(isinstance(value, str) for value in row.values())]
+    return csv.DictReader(StringIO(text, newline=""), delimiter=max(BETWEEN, key=first.count))
 
 
 def written(columns: Sequence[str], rows: Iterable[Mapping[str, str]], guarded: bool = False) -> str:

@@ -160,10 +160,9 @@ IN_C = (
 
 def in_c(finding: Finding) -> Finding:
     """The same, in words for a C program: there nothing is returned, arrays are written into."""
-    words, hint = finding.words, finding.hint
     for python, c in IN_C:
-        words, hint = words.replace(python, c), hint.replace(python, c)
-    return replace(finding, words=words, hint=hint)
+        finding = replace(finding, words=finding.words.replace(python, c), hint=finding.hint.replace(python, c))
+    return finding
 
 
 def of_whole_division(line: int, words: str) -> Finding:

@@ -114,7 +114,7 @@ def _lines(question: Question, answer: Answer, right: Answer, p: int, index: tup
         alike = list(takewhile(lambda step: step[p].shape == want.shape, answer))  # what has another shape has no place
         both = [[float(step[p][index]) for step in steps] for steps in (right, alike)]
         return Lines("step", name + place + unit, np.array(both[0]), np.array(both[1]))
-    rows = [np.array([row[axis] for row in steps[0][p]], dtype=float) for steps in (right, answer)]
+    rows = [np.array([row[axis] for row in step[p]], dtype=float) for (step,) in (right, answer)]
     return Lines(question.item, name + (f"[:, {axis[0]}]" if axis else "") + unit, *rows)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from experiments.exercises.c.compiler import DoesNotCompileError, MissingFunctionError, compiled
 from experiments.exercises.c.text import told_by_overflow, unwritten_in_c
-from experiments.exercises.exercise import TOLERANCE, Answer, Exercise, Mistake
+from experiments.exercises.exercise import Answer, Exercise, Mistake
 from experiments.exercises.handed_in.submission import Language
 from experiments.exercises.process import sandbox
 from experiments.exercises.process.reply import Reply
@@ -25,6 +25,7 @@ from experiments.exercises.verdict.findings import Finding
 from experiments.exercises.verdict.first_difference import FirstDifference, Lines, first_difference
 from experiments.exercises.verdict.naming import SINGLE, identify
 from experiments.exercises.verdict.unwritten import unwritten
+from reference.state import Array
 
 #: What a verdict says in a word.
 Outcome = Literal[
@@ -212,11 +213,15 @@ def _error(catalogue: AnswerCatalogue, reply: Reply) -> Finding | None:
 
 
 def _comparable(catalogue: AnswerCatalogue, reply: Reply) -> list[Answer] | None:
-    """The answers in the form in which answers are compared; None unless they are as many arrays as were asked for."""
+    """The answers in the form in which answers are compared; None unless they are arrays of as many steps as there are.
+
+    Raises:
+        ValueError: where a step has more or fewer parts.
+    """
     given: list[Answer] = []
     for question, told in zip(catalogue.questions, reply.answers, strict=True):
         steps = told["values"]
-        if not 1 <= len(steps) <= max(1, question.steps) or any(len(step) != len(question.parts) for step in steps):
+        if not 1 <= len(steps) <= max(1, question.steps):
             return None
         if not all(isinstance(part, np.ndarray) for step in steps for part in step):
             return None
@@ -233,9 +238,9 @@ def _verdict_on_answers(
 ) -> Verdict:
     """The verdict on answers that can be read: their form first, then their numbers."""
     tolerance = catalogue.exercise.tolerance
-    different, lines = first_difference(catalogue, given, max(tolerance, TOLERANCE))
+    different, lines = first_difference(catalogue, given, tolerance)
     found: dict[str, Any] = {"first_difference": different, "lines": lines}
-    if not all(_same_arrays(a["values"][0], a.get("again")) for a in reply.answers):
+    if not all(_same_arrays(a["values"][0], a["again"]) for a in reply.answers):
         return _failed(catalogue, "mistake", Finding("not_repeatable", ""), **found)
     distances = catalogue.distances(given, catalogue.right)
     found["right_error"] = max(distances)
@@ -277,7 +282,7 @@ def _verdict_where_finite(
     rows = zip(catalogue.questions, given, strict=True)
     finite = [(q, a) for q, a in rows if all(np.isfinite(part).all() for part in a[0] if part.dtype.kind == "f")]
     rest, answers = AnswerCatalogue(catalogue.exercise, [q for q, _ in finite]), [a for _, a in finite]
-    different, lines = first_difference(rest, answers, max(catalogue.exercise.tolerance, TOLERANCE))
+    different, lines = first_difference(rest, answers, catalogue.exercise.tolerance)
     if different is None:
         return Verdict("mistake", (finding,), passed, **found)
     explained = identify(rest, answers)
@@ -312,17 +317,15 @@ def _verdict_on_numbers(
     if not mistakes:
         passed = (False,) * len(passed)
     named = (*(Finding(m.name, m.words, m.hint) for m in mistakes), *beside)
-    outcome: Outcome = "mistakes" if len(named) > 1 else "another scheme" if _is_another(mistakes) else "mistake"
+    outcome: Outcome = (
+        "mistakes" if len(named) > 1 else "another scheme" if any(m.another for m in mistakes) else "mistake"
+    )
     return Verdict(outcome, named, passed, error, **found)
 
 
-def _is_another(mistakes: Sequence[Mistake]) -> bool:
-    return bool(mistakes) and mistakes[0].another
-
-
-def _same_arrays(one: Any, other: Any) -> bool:
+def _same_arrays(one: Sequence[Array], other: Sequence[Array]) -> bool:
     """Whether two lists of arrays are the same, bit by bit."""
-    if not isinstance(other, list) or len(one) != len(other):
+    if len(one) != len(other):
         return False
     return all(a.shape == b.shape and a.tobytes() == b.tobytes() for a, b in zip(one, other, strict=True))
 

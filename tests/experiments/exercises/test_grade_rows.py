@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
 from typing import Any
 
 import pytest
@@ -19,6 +22,7 @@ from experiments.exercises.teaching.table_file import read_table
 from experiments.exercises.verdict.findings import Finding
 from experiments.exercises.verdict.first_difference import FirstDifference
 from experiments.exercises.verdict.judge import Outcome, Verdict
+from reference.errors import InputError
 
 RIGHT = Verdict("right", (), (True, True))
 WRONG = Verdict("mistake", (Finding("sign", "It has another sign."),), (True, False))
@@ -191,7 +195,7 @@ def test_a_class_is_graded_in_a_table(tmp_path: Path, monkeypatch: pytest.Monkey
     assert told == ["1 of 3", "2 of 3", "3 of 3"]
     assert all(given[4] is limits for given in stage.looked)
     text = table.read_text(encoding="utf-8").splitlines()
-    text = [f"{text[0]},mine", *(f"{line},note {i}" for i, line in enumerate(text[1:]))]
+    text = [f"{text[0]},mine", *(f"{line},=1+{i}" for i, line in enumerate(text[1:]))]
     table.write_text("\n".join(text) + "\n", encoding="utf-8")
     (tmp_path / "bob.py").write_text("EXERCISE = 1\n# bob again\n", encoding="utf-8")
     del stage.asked[:], told[:]
@@ -208,10 +212,66 @@ def test_a_class_is_graded_in_a_table(tmp_path: Path, monkeypatch: pytest.Monkey
     assert {len(row) for row in so_far[-1]} == {len(grading.COLUMNS) + 1}
     found = {row["file"]: row for row in read_table(table)}
     assert list(found) == ["ada.py", "bob.py", "eve.py"]
-    assert [row["mine"] for row in found.values()] == ["note 0", "", "note 2"]
+    assert [row["mine"] for row in found.values()] == ["=1+0", "", "=1+2"]
     # another key is another grade
     grade_class(files, table, key="k")
     assert len(stage.asked) == 1 + 2 * 3
+
+
+def test_what_is_no_table_of_grades_is_left_as_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """With rows and without, also where it has files in it; one of grades is gone on with, whatever else it has."""
+    table, own_file = tmp_path / "grades.csv", tmp_path / "own.py"
+    own_file.write_text("EXERCISE = 1\n", encoding="utf-8")
+    stage = Stage(monkeypatch, WRONG)
+    for text in ("file,mark\n", "file,mark\na.py,1\n", "", ",".join(grading.COLUMNS[1:]) + "\n"):
+        table.write_text(text, encoding="utf-8")
+        with pytest.raises(InputError, match=r"grades\.csv is not a table of grades: expected the columns file, exer"):
+            grade_class([(own_file, "own.py")], table)
+        assert table.read_text(encoding="utf-8") == text
+    assert stage.asked == []
+    table.write_text(";".join([*reversed(grading.COLUMNS), "mine"]) + "\n", encoding="utf-8-sig")
+    grade_class([(own_file, "own.py")], table)
+    assert [row["file"] for row in read_table(table)] == ["own.py"]
+
+
+@pytest.mark.parametrize("workers", [None, 3])
+def test_submissions_that_wait_are_left_where_it_is_ended(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, workers: int | None
+) -> None:
+    """As many are done at once as are asked for, or as there are cores."""
+    pools: list[Pool] = []
+
+    class Pool(ThreadPoolExecutor):
+        """What it was told."""
+
+        def __init__(self, workers: int) -> None:
+            super().__init__(1)
+            self.told: list[object] = [workers]
+            pools.append(self)
+
+        def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+            """Nothing more is begun; what is being done waits for this."""
+            super().shutdown(False, cancel_futures=cancel_futures)
+            ended.set()
+            super().shutdown(True)
+
+    ended, begun = Event(), []
+
+    def once(path: Path, name: str, *_: object) -> dict[str, str]:
+        begun.append(name)
+        if len(begun) > 1:
+            ended.wait()
+        return {"file": name, "digest": ""}
+
+    def end(_: str) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(grading, "ThreadPoolExecutor", Pool)
+    monkeypatch.setattr(grading, "_graded", once)
+    with pytest.raises(KeyboardInterrupt):
+        grade_class([(tmp_path / str(i), str(i)) for i in range(5)], tmp_path / "g.csv", workers=workers, tell=end)
+    assert pools[0].told == [workers or os.cpu_count()]
+    assert len(begun) <= 2
 
 
 def test_what_goes_wrong_with_a_file_is_in_its_row(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -247,6 +247,7 @@ def test_a_program_in_c_is_run_without_its_changes_where_these_end_it(
     assert len(runs) == (1 if with_changes or not readable else 2)
     assert [r.places for r in closer.repairs] == ([((7, "sign"),)] if with_changes else [])
     assert closer.tried == (4 if with_changes else 0)
+    assert closer.complete == (with_changes or not readable)
     if readable:
         _, task, compiled, number, variants = runs[0]["given"]
         assert (compiled, number, variants) == (made, 1, Changes.library)

@@ -80,8 +80,23 @@ def test_strings_are_stepped_a_dozen_times_and_others_once(hidden: bool) -> None
         assert question.arguments[2] == pytest.approx(dt, rel=0.1)
         assert question.arguments[2] != dt
     assert {(q.function, q.parts, q.units) for q in questions} == {("step", ("x", "v"), ("m", "m/s"))}
+    for question in questions:
+        assert_of_a_string(question)
     steps = [q.arguments[2] / DT for seed in range(30) for q in asked("whole_state", hidden, seed)[:4]]
     assert (min(steps) < 0.55, max(steps) > 0.95) == (True, True)
+
+
+def assert_of_a_string(question: Question) -> None:
+    """Positions come first: they hang together by springs of a few rest lengths; masses move by themselves."""
+    x, v, string = question.arguments[0], question.arguments[1], question.arguments[-1]
+    rest = string["rest_lengths"]
+    lengths = np.linalg.norm(np.diff(x, axis=0, prepend=string["anchor"][None]), axis=1)
+    assert (lengths < 5 * rest).all()
+    crumpled = question.about == "crumpled string"
+    assert (lengths[crumpled:] > 0.2 * rest[crumpled:]).all()
+    assert np.abs(v).max() <= (120 if question.about == "string flung about" else 1.0)
+    if len(x) > 2:
+        assert not (np.linalg.norm(np.diff(v, axis=0, prepend=string["anchor"][None]), axis=1) < 5 * rest).all()
 
 
 @pytest.mark.parametrize("hidden", [False, True])
@@ -93,6 +108,8 @@ def test_forces_are_asked_of_the_same_strings(hidden: bool) -> None:
     assert [q.arguments[2]["gravity"] for q in questions] == [EARTH, EARTH, MOON, EARTH, EARTH, MOON]
     assert {(q.function, q.parts, q.units, q.steps) for q in questions} == {("forces", ("the force",), ("N",), 0)}
     assert [q.about for q in questions[-2:]] == ["string flung about", "crumpled string"]
+    for question in questions:
+        assert_of_a_string(question)
 
 
 @pytest.mark.parametrize("name", ["euler", "heun"])
@@ -141,6 +158,15 @@ def test_springs_are_far_out_as_their_words_say() -> None:
             (y, v, dt, spring), (share, stiffer, speed, took) = question.arguments, wanted[question.about]
             assert (-y / spring["rest_length"] / share, v / speed, dt / took) == pytest.approx((1, 1, 1), abs=0.05)
             assert_of_a_spring(spring, stiffer)
+
+
+def test_numbers_far_out_are_drawn_each_by_itself() -> None:
+    """How long the spring is, how fast its mass, and dt: none follows from another."""
+    drawn = []
+    for seed in range(30):
+        y, v, dt, spring = asked("euler", False, seed)[-4].arguments
+        drawn.append((-y / spring["rest_length"], v, dt))
+    assert np.abs(np.corrcoef(np.array(drawn).T) - np.eye(3)).max() < 0.6
 
 
 def test_numbers_fill_their_ranges() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from types import SimpleNamespace
 
@@ -10,9 +11,33 @@ import pytest
 
 from experiments.exercises.e10_bridge.exercise import heaviest
 from experiments.exercises.exercise import Exercise, exercises, find
+from experiments.exercises.handed_in.submission import header
 from experiments.exercises.solutions.links import random_string
 from experiments.exercises.solutions.on_strings import crumpled_string, wild_string
 from tests.reference.systems import label
+
+
+def test_a_starter_is_of_its_exercise_and_claims_nothing() -> None:
+    """Its number; what its functions return is what they were given, in the order of the answer, or nothing.
+
+    A cloth's is one spring, from the first mass to the second. Exercises take some quarters of an hour.
+    """
+    for number, exercise in exercises().items():
+        assert header(exercise.starter)["EXERCISE"] == number
+        assert (exercise.minutes % 15, 30 <= exercise.minutes <= 90) == (0, True)
+        starter = ast.parse(exercise.starter)
+        functions = {f.name: f for f in starter.body if isinstance(f, ast.FunctionDef)}
+        for question in exercise.questions(np.random.default_rng(0), False, "ada"):
+            returned = functions[question.function].body[-1]
+            assert isinstance(returned, ast.Return)
+            assert returned.value is not None
+            words = ast.unparse(returned.value)
+            if exercise.name == "cloth":
+                assert words == "[(0, 1)]"
+            elif question.parts in (("x", "v"), ("y", "v")):
+                assert words == f"({', '.join(question.parts)})"
+            else:
+                assert not re.search(r"[1-9]", words), words
 
 
 @pytest.mark.parametrize("exercise", exercises().values(), ids=label)

@@ -144,6 +144,35 @@ def test_masses_are_inside_and_outside_come_and_go(hidden: bool, seed: int) -> N
             assert (0.2 <= slides[i] <= 1) if fives % 2 else (-1 <= slides[i] <= -0.2)
 
 
+@pytest.mark.parametrize("hidden", [False, True])
+def test_of_all_kinds_each_depth_comes_in_and_slides_each_way(hidden: bool) -> None:
+    """At every depth four speeds inwards with four along: fast, slow, and the other way; each to a tenth, by itself."""
+    *_, (question, offset, leads, slides) = asked(hidden, 1)
+    far = np.linalg.norm(offset, axis=1)
+    assert (question.parts, question.units, question.function) == (("x", "v"), ("m", "m/s"), "push_out")
+    assert question.about == "224 masses of all kinds about a circle"
+    assert 1.2 <= question.arguments[2]["radius"] <= 1.6
+    inwards, along = np.array([1.0, -1.0, 1e-4, 20.0]), np.array([1.0, -1.0, 20.0, -1e-4])
+    kinds = set()
+    for depth, lead, slide in zip(far, leads, slides, strict=True):
+        near = [(i, j) for i, a in enumerate(inwards) for j, b in enumerate(along) if is_near(-lead, a, slide, b)]
+        assert len(near) == 1
+        kinds.add((round(float(depth), 6), *near[0]))
+    assert len(kinds) == 14 * 4 * 4
+    assert (min(far) < 2e-3, sum(0.99 < d < 1 for d in far), sum(1 < d < 1.01 for d in far)) == (True, 16, 16)
+    # neither speed is drawn with the other, nor by its place
+    first, second = np.abs(leads) / 10.0 ** np.round(np.log10(np.abs(leads))), np.abs(slides)
+    ordinary = (np.abs(np.abs(leads) - 1) < 0.2) & (np.abs(second - 1) < 0.2)
+    assert abs(np.corrcoef(first[ordinary], second[ordinary])[0, 1]) < 0.5
+    assert np.any(np.diff(far) > 0)
+    assert np.any(np.diff(far) < 0)
+
+
+def is_near(lead: float, inwards: float, slide: float, along: float) -> bool:
+    """Whether both speeds are these, to a tenth."""
+    return bool(abs(lead / inwards - 1) <= 0.1 + 1e-9 and abs(slide / along - 1) <= 0.1 + 1e-9)
+
+
 def test_masses_are_on_all_sides() -> None:
     """Of every kind some are in each quarter."""
     quarters: dict[int, set[tuple[bool, bool]]] = {kind: set() for kind in range(5)}

@@ -30,6 +30,7 @@ def test_a_file_is_the_same_whatever_the_editor(tmp_path: Path, prefix: bytes, e
     """A byte order mark and the ends of lines change neither what it says nor its digest."""
     read_ = read(written(tmp_path, prefix + TEXT.replace("\n", ending).encode()), "own.py")
     assert (read_.source, read_.exercise.number, read_.seed, read_.keyed) == (TEXT, 8, "ada", True)
+    assert (read_.says_keyed, read(written(tmp_path, b"EXERCISE = 1"), "own.py").says_keyed) == (True, False)
     assert read_.digest("k") == Submission("own.py", TEXT, find("8"), "ada", True).digest("k")
 
 
@@ -69,9 +70,12 @@ def test_latin_1_is_read_where_nothing_else_is_said(tmp_path: Path, text: str) -
         (b"EXERCISE = 1\n\0", "zero"),
         (b"x = 1\n", "EXERCISE"),
         (b"EXERCISE = 8\n", "SEED"),
+        (b"EXERCISE = 8\nSEED = '" + b"x" * 101 + b"'", "has no seed"),
+        (b"EXERCISE = 1\n#\n# coding: x\n\xff\x01", "control"),
+        (b"EXERCISE = 1\n# coding: x\n\xff\x01", "UTF-8"),
         (b"EXERCISE = 1\n" + b"#" * 200, "213"),
     ],
-    ids=["no text", "no letter", "zero byte", "no exercise", "no seed", "too large"],
+    ids=["no text", "no letter", "zero byte", "no exercise", "no seed", "long seed", "line 3", "line 2", "too large"],
 )
 def test_what_is_not_a_submission_is_refused_by_name(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, data: bytes, told: str
@@ -80,6 +84,15 @@ def test_what_is_not_a_submission_is_refused_by_name(
     monkeypatch.setattr(submission, "LARGEST", 200)
     with pytest.raises(InputError, match=rf"^own\.py.*{told}"):
         read(written(tmp_path, data), "own.py")
+
+
+def test_which_line_is_missing_is_told_in_the_language(tmp_path: Path) -> None:
+    """Of the program; a seed may have a hundred letters."""
+    for name, line in (("own.py", "EXERCISE = 4"), ("own.c", "#define EXERCISE 4")):
+        (tmp_path / name).write_text("\n", encoding="utf-8")
+        with pytest.raises(InputError, match=f"expected a line such as {line}$"):
+            read(tmp_path / name, name)
+    assert len(read(written(tmp_path, b"EXERCISE = 8\nSEED = '" + b"x" * 100 + b"'"), "own.py").seed) == 100
 
 
 def test_the_last_line_that_says_something_counts() -> None:

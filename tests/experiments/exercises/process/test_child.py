@@ -61,6 +61,8 @@ def test_steps_end_where_what_is_returned_cannot_be_given_again() -> None:
     assert len(asked(lambda x, v: ([[x]], v), 1.0, V, steps=3)["values"]) == 1
     assert len(asked(lambda x, v: (x.astype(float), v), np.array([1, 2]), V, steps=3)["values"]) == 3
     assert len(asked(lambda x, v: (x, v > 0), X, V, steps=3)["values"]) == 1
+    # by the step that has it
+    assert len(asked(lambda x, v: (x + 1, v[int(x[0] > 1) :]), X, V, steps=9)["values"]) == 2
 
 
 def test_what_is_changed_beside_is_told() -> None:
@@ -201,6 +203,22 @@ def test_what_can_be_an_array_is_one(value: Any, numbers: Any) -> None:
     assert made.tolist() == [1.0, 2.0]
 
 
+def test_functions_and_complex_numbers_are_no_answer() -> None:
+    """Also one complex number among others; what can be called may be an array."""
+    with pytest.raises(OddAnswerError, match="x is a function: it was not called"):
+        array_of(len, "x")
+    with pytest.raises(OddAnswerError, match="x has complex numbers in it"):
+        array_of([1.0, 2j], "x")
+
+    class Own:
+        def __call__(self) -> None: ...
+
+        def __array__(self, dtype: object = None, copy: object = None) -> Any:
+            return np.array([1.0, 2.0])
+
+    assert array_of(Own(), "x").tolist() == [1.0, 2.0]
+
+
 def test_the_count_is_told_in_words() -> None:
     """One thing, two things; of one part it is not counted."""
     for value, words in ((1.0, "1 thing: expected"), ((1, 2, 3), "3 things: expected x, v"), ([], "0 things")):
@@ -277,6 +295,26 @@ def test_an_error_that_comes_later_is_told() -> None:
     answers = [ask(module, question)]
     ask_firsts_again(module, [question], answers)
     assert answers[0]["error"]["words"] == "tired"
+
+
+@pytest.mark.parametrize("late", ["error", "again"])
+def test_what_comes_later_is_told_of_its_own_function(late: str) -> None:
+    """Of the second of two: what it raises, or what it answers then."""
+    calls: list[int] = []
+
+    def tired(x: Any) -> Any:
+        calls.append(1)
+        if late == "error" and len(calls) > 2:
+            raise ValueError
+        return x + (len(calls) > 2)
+
+    module = cast(ModuleType, SimpleNamespace(plain=lambda x: 2 * x, tired=tired))
+    questions = [{"function": name, "arguments": [X], "parts": ["x"], "steps": 0} for name in ("plain", "tired")]
+    answers = [ask(module, question) for question in questions]
+    ask_firsts_again(module, questions, answers)
+    assert ["error" in answer for answer in answers] == [False, late == "error"]
+    assert plain([answers[0]["again"]]) == [[[2.0, 4.0]]]
+    assert plain([answers[1]["again"]]) == [[[1.0, 2.0] if late == "error" else [2.0, 3.0]]]
 
 
 def test_a_whole_task_is_answered(tmp_path: Path) -> None:

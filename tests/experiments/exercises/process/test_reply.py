@@ -80,6 +80,7 @@ def answers(**changed: Any) -> dict[str, Any]:
         {**GOOD, "search": [{**FOUND, "repairs": [[1, 2, 3]]}]},
         {**GOOD, "search": [{**FOUND, "repairs": [["1"]]}]},
         {**GOOD, "search": [{**FOUND, "repairs": [[-1]]}]},
+        {**GOOD, "search": [{**FOUND, "repairs": [[1, -1]]}]},
         {**GOOD, "search": [{**FOUND, "repairs": [[0]] * 100}]},
         {**GOOD, "search": [{**FOUND, "change": "x"}]},
         {**GOOD, "search": [FOUND] * 20},
@@ -87,6 +88,7 @@ def answers(**changed: Any) -> dict[str, Any]:
         answers(again=None),
         answers(values=None),
         answers(values=[[1, 2]]),
+        answers(values=[[np.ones(2), 1]]),
         answers(values=[np.ones(2)]),
         answers(modified=1),
         answers(score=100),
@@ -126,6 +128,26 @@ def raw(head: str, rest: bytes = b"") -> bytes:
 def test_bytes_of_other_kinds_are_refused(data: bytes) -> None:
     """Cut short, nested, of shapes that no memory holds, letters that are none."""
     assert read(MARK, data, 2).ended == "crashed"
+
+
+@pytest.mark.parametrize(
+    ("head", "told"),
+    [
+        ({"dtype": "<M8[s]", "shape": [1]}, "not handed over"),
+        ({"dtype": "<f8", "shape": [1, -1]}, "not handed over"),
+        ({"dtype": "<f8", "shape": [1] * 9}, "not handed over"),
+        ({"dtype": "<f8", "shape": [2]}, "cut short"),
+        ({"dtype": "<f8", "shape": [1] * 8}, ""),
+    ],
+)
+def test_arrays_of_other_kinds_are_not_unpacked(head: dict[str, Any], told: str) -> None:
+    """Dates, shapes of less than nothing or of more than eight axes, what has no bytes: each by what it is."""
+    data = raw(json.dumps(head), struct.pack("<d", 2.5))
+    if told:
+        with pytest.raises(ValueError, match=told):
+            child.unpack(data)
+    else:
+        assert child.unpack(data).ravel().tolist() == [2.5]
 
 
 @pytest.mark.parametrize("numbers", [(65, 0xD800), (0xDFFF, 65), (65, 0x110000), (0x110000, 65)])

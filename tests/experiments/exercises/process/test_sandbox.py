@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import signal
 import stat
+import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -144,6 +145,21 @@ def test_the_cause_of_an_end_is_told(code: int, computed: float, ending: str, wo
     process = object.__new__(sandbox._Process)
     process._limits = Limits()
     assert process._cause(code, computed) == (ending, words)
+
+
+def test_a_process_is_begun_with_nothing_of_the_checkers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A session of its own, so that all it starts ends with it; its folder, no variable of the environment but four."""
+    begun: dict[str, Any] = {}
+    monkeypatch.setenv("SECRET", "sesame")
+    monkeypatch.setattr(subprocess, "Popen", lambda command, **given: begun.update(given, command=command))
+    with sandbox._file() as asked, sandbox._file() as said, sandbox._file() as printed, sandbox._file() as mark:
+        sandbox._Process(asked, said, printed, mark, tmp_path, Limits())
+        assert (begun["stdin"], begun["stdout"], begun["stderr"]) == (asked, said, printed)
+        assert begun["pass_fds"] == (mark.fileno(),)
+    assert (begun["start_new_session"], begun["cwd"]) == (True, tmp_path)
+    one = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+    assert begun["env"] == {"HOME": str(tmp_path), "TMPDIR": str(tmp_path), **one}
+    assert {"-I", "-S", "-B"} < set(begun["command"])
 
 
 def test_a_folder_can_be_read_by_all_written_by_none_and_goes_away() -> None:

@@ -324,6 +324,24 @@ def test_a_day_that_has_begun_is_a_day_late(when: tuple[int, int], late: str) ->
     assert book(graded, [file])[0]["days_late"] == ""
 
 
+def test_the_newest_file_counts_and_marks_by_hand_stay_without_one() -> None:
+    """Whichever is first in the list; of who is missing the mark by hand, else none."""
+    files = [HandedIn(Path(f"{day}.py"), f"{day}.py", "ada", datetime(2026, 11, day)) for day in (4, 7, 5)]
+    graded = [{"file": file.name, "exercise": "1", "score": f"{file.when.day}.0"} for file in files]
+    before = [{"student": "eve", "exercise": "", "by_hand": "50"}, {"student": "ada", "exercise": "", "by_hand": "9"}]
+    ada, eve, max_ = book(graded, files, {"eve": "", "ada": "", "max": ""}, before=before)
+    assert (ada["file"], ada["mark"], ada["earlier_files"], ada["handed_in"]) == (
+        "7.py",
+        "7.0",
+        "2",
+        "2026-11-07 00:00",
+    )
+    assert [(row["student"], row["mark"], row["by_hand"], row["outcome"]) for row in (eve, max_)] == [
+        ("eve", "50", "50", "missing"),
+        ("max", "0.0", "", "missing"),
+    ]
+
+
 def test_a_file_of_no_exercise_has_a_row_where_its_student_has_no_other() -> None:
     """Ada has one of an exercise too, Bob has not; and what Eve has handed in says nothing of them."""
     named = {"a1.py": ("ada", "1"), "a2.py": ("ada", ""), "b.py": ("bob", ""), "e.py": ("eve", "3")}
@@ -336,6 +354,7 @@ def test_a_file_of_no_exercise_has_a_row_where_its_student_has_no_other() -> Non
     ("name", "one", "other", "same"),
     [
         ("py", 'SEED = "a"\ndef f(x):\n    "Mine."\n    return 2 * x', 'SEED = "b"\ndef f(x): return 2*x  # so', True),
+        ("py", 'SEED = OTHER = "a"\nx = 1', 'SEED = OTHER = "b"\nx = 1', True),
         ("py", "def f(x):\n    return 2 * x", "def f(x):\n    return 3 * x", False),
         ("py", "EXERCISE = 1\nRATE = 2", "EXERCISE = 1\nRATE = 3", False),
         ("py", "def f(:", "def f(:", False),

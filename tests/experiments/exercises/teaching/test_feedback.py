@@ -43,3 +43,5 @@ def test_two_exercises_of_a_student_stand_in_one_folder(tmp_path: Path) -> None:
     assert text == f"Ada <L.>: exercise 3, {find('3').title}\n\nMark: 40 of 100.\nk < c & m\n"
     assert f"<h1>Ada &lt;L.&gt;: exercise 3, {find('3').title}</h1>\n<p>Mark: 40 of 100.</p>" in page
     assert "<p>k &lt; c &amp; m</p>" in page
+    long, _ = write_feedback([{**rows[0], "student": "x" * 120}], tmp_path / "back")
+    assert long.parent.name == "x" * 100

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -62,6 +63,14 @@ def test_who_is_refused_has_no_points_and_who_could_not_be_graded_no_score() -> 
     document = gradescope.refused("no file")
     (test,) = document["tests"]
     assert (document["score"], test["score"], test["status"], test["output"]) == (0.0, 0.0, "failed", "no file")
+    assert (test["name"], test["number"], test["max_score"], test["visibility"]) == (
+        "Public check",
+        "1",
+        100.0,
+        "visible",
+    )
+    alone = gradescope.results(OWN, Grade(replace(RIGHT, passed=(True,)), None, 1.0))["tests"]
+    assert [(test["score"], test["max_score"]) for test in alone] == [(100.0, 100.0)]
     assert "score" not in gradescope.not_graded("no memory")
     assert "not your fault: no memory." in gradescope.not_graded("no memory")["output"]
 

@@ -23,6 +23,8 @@ def test_handouts_of_several_exercises_go_into_one_new_folder(tmp_path: Path) ->
     assert (folder / "text.md").read_text(encoding="utf-8") == find("4").text_in_c
     with pytest.raises(InputError, match=r"euler\.py is there already"):
         hand_out(find("1"), folder, "ada", None)
+    with pytest.raises(InputError, match=r"^exercise 8 cannot be done in C: expected one of 1, 2, 3, 4, 7$"):
+        hand_out(find("8"), folder, "ada", None, "c")
 
 
 @pytest.mark.parametrize(

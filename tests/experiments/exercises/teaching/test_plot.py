@@ -43,6 +43,20 @@ def test_in_the_terminal_the_largest_is_at_the_top_and_the_last_at_the_right() -
     values = [text.splitlines()[i][:10].strip() for i in (1, HEIGHT)]
     assert values == ["8", "0"]
     assert in_terminal(lines([0.0, 8.0], [0.0, 0.0], "mass")).splitlines()[-1].split() == ["0", "1", "mass"]
+    # what ends sooner has its places all the same, whichever it is
+    assert marks(in_terminal(lines([0.0, 4.0, 8.0], [4.0]))) == {
+        (bottom, 0): "o",
+        (bottom // 2, 0): "x",
+        (bottom // 2, middle): "o",
+        (0, right): "o",
+    }
+    assert marks(in_terminal(lines([0.0, 8.0], [4.0, 4.0, 0.0]))) == {
+        (bottom, 0): "o",
+        (bottom // 2, 0): "x",
+        (bottom // 2, middle): "x",
+        (0, middle): "o",
+        (bottom, right): "x",
+    }
 
 
 def test_what_is_no_number_or_far_off_is_not_drawn() -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from experiments.exercises.teaching.platforms import words
-from experiments.exercises.teaching.table_file import read_table, written
+from experiments.exercises.teaching.table_file import as_meant, columns_of, read_table, written
 from reference.errors import InputError
 
 
@@ -19,6 +19,24 @@ def test_whole_rows_are_read(between: str, encoding: str, tmp_path: Path) -> Non
     file = tmp_path / "table.csv"
     file.write_bytes("".join(between.join(row) + "\r\n" for row in rows).encode(encoding))
     assert read_table(file) == [{"name": "Zoë", "mark": "1"}, {"name": "", "mark": ""}]
+
+
+def test_the_first_line_says_what_stands_between_cells(tmp_path: Path) -> None:
+    """However often it stands in those below; its names are known where there are no rows."""
+    file = tmp_path / "table.csv"
+    file.write_text("name;mark\n" + "a,b,c,d;1\n" * 3, encoding="utf-8")
+    assert read_table(file) == [{"name": "a,b,c,d", "mark": "1"}] * 3
+    assert columns_of(file) == ["name", "mark"]
+    file.write_text("name\tmark\n", encoding="utf-8-sig")
+    assert (columns_of(file), read_table(file)) == (["name", "mark"], [])
+    file.write_text("", encoding="utf-8")
+    assert columns_of(file) == []
+
+
+def test_an_apostrophe_is_taken_off_where_it_guards() -> None:
+    """A formula: not a name, nor what has none."""
+    given = ["'=ada", "'t Hooft", "ada", "=ada", ""]
+    assert list(map(as_meant, given)) == ["=ada", *given[1:]]
 
 
 def test_what_is_no_text_is_refused(tmp_path: Path) -> None:

@@ -130,4 +130,6 @@ def test_a_change_is_told_by_its_line_and_kind() -> None:
         "Two small changes of your text would make it right. Look at",
         "- line 3 (the index) and line 7 (what is a whole number, and what is not)",
     ]
+    said = [said_of(CloserLook((), repairs, 5))[0] for repairs in ((one, two), (two, one))]
+    assert [line.split()[0] for line in said] == ["One", "Two"]
     assert len(set(FAMILIES.values())) == len(FAMILIES)

@@ -87,5 +87,6 @@ def test_numbers_that_are_typed_count_beside_the_answer_that_they_are_compared_w
         catalogue = AnswerCatalogue(find(number), [])
         catalogue.__dict__["scales"] = [[2.0, 8.0]]
         assert catalogue._sizes(0, RIGHT) == scales[0]
+        catalogue.__dict__["scales"] = [[9.0, 9.0], [2.0, 8.0]]
         zero = answer(([4.0, 1.0], 0.0), ([-3.0, 0.0], 0.0))
-        assert catalogue._sizes(0, zero) == pytest.approx(scales[1], abs=0.0)
+        assert catalogue._sizes(1, zero) == pytest.approx(scales[1], abs=0.0)

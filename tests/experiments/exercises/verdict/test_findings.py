@@ -165,6 +165,11 @@ def test_words_for_c() -> None:
     assert told.hint == "Where does your return stand? What do you write?"
 
 
+def test_names_in_a_sentence() -> None:
+    """Commas between them, and before the last an and."""
+    assert [findings.listed("abc"[:n]) for n in (1, 2, 3)] == ["a", "a and b", "a, b and c"]
+
+
 TWO = Question("f", (), ("x", "v"), "two")
 
 
@@ -212,6 +217,8 @@ def test_whole_numbers_are_told_where_all_are() -> None:
     # what may be whole says nothing, nor what is to be whole
     assert of_form([[[1.0, 2.0], [2.5]]], [[[1.0, 2.0], [2.5]]])[0] == ""
     assert of_form([[[1, 2], [3]]], [[[1, 2], [3]]])[0] == ""
+    # by the first step, whatever the others are
+    assert of_form([[[1, 2], [3]], [[1, 2], [3]]], [*halves, [[1.0, 2.0], [3.0]]])[0] == "whole_numbers"
 
 
 def catalogue() -> AnswerCatalogue:
@@ -239,6 +246,16 @@ def test_results_in_another_order() -> None:
     assert told((1, 0, 2), by=1 + 1e-8) is None
     assert told((1, 0, 2), by=1 + 1e-10) is not None
     assert told((1, 0, 2), single=4.6) is None
+    # of several questions all have to be right so, and all that return one thing only; the first names the parts
+    again, more = Question("three", (), ("p", "q", "r"), ""), Question("one", (), ("e",), "")
+    several = AnswerCatalogue(known.exercise, [*known.questions, again, more])
+    backwards = [[np.array(number) for number in numbers[::-1]]]
+    given: list[Any] = [backwards, [[np.array(4.5)]], backwards, [[np.array(4.5)]]]
+    found = findings.of_order(several, given)
+    assert found is not None
+    assert "are a, b, c." in found.hint
+    for i, wrong in ((2, [[np.array(number) for number in numbers]]), (3, [[np.array(4.6)]]), (1, [[np.array(4.6)]])):
+        assert findings.of_order(several, [*given[:i], wrong, *given[i + 1 :]]) is None
 
 
 def test_what_the_exercise_itself_says() -> None:
@@ -252,6 +269,12 @@ def test_what_the_exercise_itself_says() -> None:
 
     told = findings.of_the_exercise(AnswerCatalogue(replace(known.exercise, diagnose=diagnose), known.questions), given)
     assert told == Finding("odd", "4.5.", "Why?")
+    # by the first part of the first step
+    given = [[[np.array(1.0), np.array(2.0), np.array(3.0)], [np.array(4.0)] * 3], [[np.array(0.5)]]]
+    assert (
+        findings.of_the_exercise(AnswerCatalogue(replace(known.exercise, diagnose=diagnose), known.questions), given)
+        is None
+    )
 
 
 def test_words_in_place_of_numbers() -> None:

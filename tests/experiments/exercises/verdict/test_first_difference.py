@@ -145,6 +145,11 @@ def test_of_one_number_and_of_words_nothing_is_drawn() -> None:
     assert _lines(Question("f", (), ("x",), ""), one[:1], one[:1], 0, ()) is None
     words = [[np.array(["a", "b"])]]
     assert _lines(Question("f", (), ("x",), ""), words, words, 0, (1,)) is None
+    # nor of numbers in place of words, which differ in every place
+    catalogue = catalogue_of(find("8"), "ada", None)
+    found, lines = first_difference(catalogue, [[[np.arange(5.0)]]], TOLERANCE)
+    assert found is not None
+    assert (found.index, found.given, lines) == ((0,), 0.0, None)
     lines = _lines(Question("f", (), ("x",), "", steps=2), one, one, 0, ())
     assert lines is not None
     assert (lines.what, lines.right.tolist()) == ("x", [1.5, 2.5])
