@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -12,7 +11,7 @@ import click
 
 from reference.printable import printable
 from report.commands.options import json_option, out_option, patient, setup_options, steppers_option, time_limit_option
-from report.commands.terminal import RESULTS, exit_if_files_failed, progress, say, show_table
+from report.commands.terminal import RESULTS, exit_if_files_failed, json_text, progress, say, show_table
 
 if TYPE_CHECKING:
     from experiments.runs.comparison import Comparison
@@ -58,7 +57,7 @@ def compare_command(
     with _film_file(film) as part:
         with progress("compare") as tell:
             comparison = compare(setup, steppers, tell, patient=bool(names))
-        document = json.dumps(comparison.document, indent=2)
+        document = json_text(comparison.document)
         if out is not None:
             _write(comparison, document, out)
         if as_json:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import secrets
 import shutil
@@ -18,7 +17,7 @@ import click
 from reference.printable import printable
 from report.commands.exercise_book import register as register_book
 from report.commands.options import json_option
-from report.commands.terminal import progress, show_table
+from report.commands.terminal import json_text, progress, show_table
 from report.plain import plain
 
 if TYPE_CHECKING:
@@ -98,7 +97,7 @@ def list_command(as_json: bool) -> None:
         [e.number, e.name, e.title, e.minutes, e.goals, len({m.name for m in e.mistakes})] for e in exercises().values()
     ]
     if as_json:
-        click.echo(json.dumps([dict(zip(columns, row, strict=True)) for row in rows], indent=2))
+        click.echo(json_text([dict(zip(columns, row, strict=True)) for row in rows]))
     else:
         show_table("", columns, rows)
 
@@ -215,7 +214,7 @@ def _print_grade(submission: Submission, given: Grade, key: str | None) -> None:
 
     findings = [{"name": f.name, "words": f.words, "hint": f.hint} for f in given.verdict.findings]
     row: dict[str, Any] = row_of(submission, given, key)
-    click.echo(json.dumps({**row, "findings": findings, "deviation": given.verdict.error}, indent=2))
+    click.echo(json_text({**row, "findings": findings, "deviation": given.verdict.error}))
 
 
 def _show_grade(path: Path, submission: Submission, given: Grade, plot: bool) -> None:
@@ -264,7 +263,7 @@ def _check_class(
     with tempfile.TemporaryDirectory() as folder, progress("check") as tell:
         rows = grade_class(files, table or Path(folder) / "grades.csv", exercise, key, jobs, tell, limits, keyed)
     if as_json:
-        click.echo(json.dumps(rows, indent=2))
+        click.echo(json_text(rows))
     else:
         shown = ["file", "exercise", "public", "hidden", "score", "outcome", "finding"]
         show_table("", shown, [[plain(row[c]) for c in shown] for row in rows])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +10,7 @@ import click
 
 from reference.printable import printable
 from report.commands.options import json_option
-from report.commands.terminal import progress, say
+from report.commands.terminal import json_text, progress, say
 
 if TYPE_CHECKING:
     from reference.derivation.explanation import Explanation
@@ -42,7 +41,7 @@ def explain_command(stepper: str, as_json: bool, plot: Path | None) -> None:
             tell("its stability region")
             plot.write_text(draw(explanation, found).svg(), encoding="utf-8")
     if as_json:
-        click.echo(json.dumps(explanation.document, indent=2))
+        click.echo(json_text(explanation.document))
     else:
         _show(explanation)
     if plot is not None:

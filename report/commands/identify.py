@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from report.commands.options import json_option, setup_options
-from report.commands.terminal import exit_if_files_failed, progress, show_table
+from report.commands.terminal import exit_if_files_failed, json_text, progress, show_table
 from report.plain import plain
 
 if TYPE_CHECKING:
@@ -61,7 +60,7 @@ def _print_json(stepper: str, identification: Identification) -> None:
             for match in identification.ranking
         ],
     }
-    click.echo(json.dumps(document, indent=2))
+    click.echo(json_text(document))
 
 
 def _show(_: str, identification: Identification) -> None:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 
 import click
 
 from report.commands.options import json_option
-from report.commands.terminal import show_table
+from report.commands.terminal import json_text, show_table
 
 #: In the terminal a column may have another heading than its key in the JSON, or be left out.
 HEADINGS: Mapping[str, str | None] = {"known to be": "claims to be", "settings": None, "precision": None}
@@ -25,7 +24,7 @@ def list_command(as_json: bool) -> None:
         document = {
             shown.title: [dict(zip(shown.columns, row, strict=True)) for row in shown.rows] for shown in listings
         }
-        click.echo(json.dumps(document, indent=2))
+        click.echo(json_text(document))
         return
     for shown in listings:
         headings = [HEADINGS.get(column, column) for column in shown.columns]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from math import isnan
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from report.commands.options import json_option, out_option, setup_options, steppers_option
-from report.commands.terminal import progress, show_lines, show_table
+from report.commands.terminal import json_text, progress, show_lines, show_table
 
 if TYPE_CHECKING:
     from experiments.simulation.modes_of_scene import Modes, StepperSwing, Swing
@@ -48,7 +47,7 @@ def modes_command(
         document = found.document
         if steppers:
             document["steppers"] = [_document(swing) for swing in made]
-        click.echo(json.dumps(document, indent=2))
+        click.echo(json_text(document))
     else:
         _show(found, made)
     if out is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 import sys
 from collections.abc import Mapping, Sequence
@@ -14,7 +13,7 @@ import click
 from reference.printable import printable
 from report.commands.options import json_option
 from report.commands.runner_options import store_option
-from report.commands.terminal import say, show_table
+from report.commands.terminal import json_text, say, show_table
 from report.plain import plain
 
 #: Rows of results that are shown in the terminal.
@@ -50,7 +49,7 @@ def results_command(
     found = rows(store, parse_filters(filters), retired, damaged.append)
     _tell_of(damaged, store)
     if as_json:
-        click.echo(json.dumps(found, indent=2))
+        click.echo(json_text(found))
     elif as_csv:
         write_csv(found, sys.stdout)
     else:

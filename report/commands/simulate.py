@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -18,7 +17,7 @@ from report.commands.options import (
     steppers_option,
     time_limit_option,
 )
-from report.commands.terminal import RESULTS, exit_if_files_failed, progress, show_table
+from report.commands.terminal import RESULTS, exit_if_files_failed, json_text, progress, show_table
 
 if TYPE_CHECKING:
     from experiments.simulation.simulation import Run, Simulation
@@ -74,7 +73,7 @@ def simulate_command(
         if out is not None:
             _write(simulation, out, every, tell)
     if as_json:
-        click.echo(json.dumps(simulation.document, indent=2))
+        click.echo(json_text(simulation.document))
     else:
         _show(simulation)
     folder = out or RESULTS / "simulate"
@@ -134,7 +133,7 @@ def _write(simulation: Simulation, out: Path, every: int, tell: Any) -> None:
 
     out.mkdir(parents=True, exist_ok=True)
     written = [out / "simulate.json"]
-    written[0].write_text(json.dumps(simulation.document, indent=2) + "\n", encoding="utf-8")
+    written[0].write_text(json_text(simulation.document) + "\n", encoding="utf-8")
     for run in simulation.runs:
         if run.motion is None:
             continue

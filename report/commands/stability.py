@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,7 +19,7 @@ from report.commands.options import (
     settings_option,
     steppers_option,
 )
-from report.commands.terminal import RESULTS, exit_if_files_failed, progress, show_result
+from report.commands.terminal import RESULTS, exit_if_files_failed, json_text, progress, show_result
 
 if TYPE_CHECKING:
     from experiments.limits.limit_rows import Row
@@ -97,7 +96,7 @@ def _write_limits(rows: Sequence[Row], as_json: bool, out: Path) -> None:
     written = [*write_tables(result, out), out / "stability.svg"]
     written[-1].write_text(draw("stability", result).svg(), encoding="utf-8")
     if as_json:
-        click.echo(json.dumps([row.document for row in rows], indent=2))
+        click.echo(json_text([row.document for row in rows]))
         return
     show_result(EXPERIMENT, result)
     click.echo(printable(f"written: {', '.join(map(str, written))}"))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from contextlib import closing
 from pathlib import Path
@@ -19,7 +18,7 @@ from report.commands.options import (
     steppers_option,
 )
 from report.commands.runner_options import chosen_runner, runner_options
-from report.commands.terminal import progress, show_table
+from report.commands.terminal import json_text, progress, show_table
 
 
 @click.command("sweep")
@@ -76,7 +75,7 @@ def sweep_command(
     if as_json:
         endings = {name: dict(found.endings) for name, found in tallies.items()}
         document = {"runs": done, "run_now": runner.done, "seconds": seconds, "outcomes": endings}
-        click.echo(json.dumps(document, indent=2))
+        click.echo(json_text(document))
         return
     columns = ["stepper", "runs", "most frequent reason"]
     # a reason is of what crashed, timed out or was refused: often there is none

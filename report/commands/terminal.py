@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -47,6 +48,11 @@ def progress(title: str) -> Iterator[Progress]:
             bar.update(task, description=f"{title}: {what}", completed=done, total=total)
 
         yield tell
+
+
+def json_text(document: Any) -> str:
+    """As commands print JSON, and write it to files."""
+    return json.dumps(document, indent=2)
 
 
 def show_table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:

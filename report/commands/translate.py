@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
@@ -10,7 +9,7 @@ import click
 
 from reference.errors import InputError
 from report.commands.options import json_option
-from report.commands.terminal import progress, show_lines, show_table
+from report.commands.terminal import json_text, progress, show_lines, show_table
 
 #: Of k and c, as parts of the larger of them, what is rounding.
 ROUNDING = 1e-12
@@ -67,7 +66,7 @@ def translate_command(
         stepping = Stepping(1 / 60 if dt is None else dt, substeps, iterations)
         rows = [backward(translation, typed, _spring(1.0, 0.0, mass, other), stepping, not predict)]
     if as_json:
-        click.echo(json.dumps([row.document for row in rows], indent=2))
+        click.echo(json_text([row.document for row in rows]))
         return
     _show(rows, bool(source) or len(rows) == 1)
 

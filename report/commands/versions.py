@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -15,7 +14,7 @@ import click
 from reference.errors import InputError
 from reference.printable import printable
 from report.commands.options import json_option, out_option
-from report.commands.terminal import RESULTS, progress, show_table
+from report.commands.terminal import RESULTS, json_text, progress, show_table
 
 if TYPE_CHECKING:
     from experiments.engine_versions.versions import Subject, VersionMeasurements
@@ -116,7 +115,7 @@ def _compare(measured: Sequence[tuple[Subject, VersionMeasurements]], as_json: b
     lines = [line for subject, found in measured for line in deviations(subject, found)]
     count = sum(len(of_name) for _, found in measured for rows in found.rows.values() for of_name in rows.values())
     if as_json:
-        click.echo(json.dumps({"measurements": count, "differences": lines}, indent=2))
+        click.echo(json_text({"measurements": count, "differences": lines}))
     else:
         click.echo("\n".join(lines) or f"{count} measurements are as in the baseline.")
     return int(bool(lines))
@@ -133,7 +132,7 @@ def _show(measured: Sequence[tuple[Subject, VersionMeasurements]], as_json: bool
         files = [*write_tables(result, out), out / f"{found.package}.svg", out / f"{found.package}.json"]
         documents[found.package] = _document(found)
         files[-2].write_text(draw("versions", result).svg(), encoding="utf-8")
-        files[-1].write_text(json.dumps(documents[found.package], indent=2) + "\n", encoding="utf-8")
+        files[-1].write_text(json_text(documents[found.package]) + "\n", encoding="utf-8")
         if as_json:
             continue
         for line in [*result.findings, *(f"not done: {failure}" for failure in result.failures)]:
@@ -143,7 +142,7 @@ def _show(measured: Sequence[tuple[Subject, VersionMeasurements]], as_json: bool
             show_table("", changed.columns, changed.rows)
         click.echo(printable(f"written: {', '.join(map(str, files))}"))
     if as_json:
-        click.echo(json.dumps(documents, indent=2))
+        click.echo(json_text(documents))
     return 0
 
 

@@ -76,6 +76,7 @@ def test_what_is_linear_is_held_to_a_billionth_and_other_things_to_a_millionth(
     matrix: Any = SimpleNamespace(damped=True, dragged=True, at=at)
     scheme: Any = SimpleNamespace(linear=linear)
     assert _same(scheme, matrix, None) == same
+    assert _alike(np.full((2, 2), 1e-9), np.zeros((2, 2)), 1e-9)
 
 
 def test_a_mistake_in_what_is_remembered_is_told() -> None:

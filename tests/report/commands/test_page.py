@@ -47,7 +47,7 @@ def test_the_file_is_opened_where_that_is_asked_for(tmp_path: Path, monkeypatch:
 
     def lab_page(presets: Any, engines: tuple[str, ...]) -> str:
         asked.append(([p.scene for p in presets], [r.stepper for p in presets[:1] for r in p.recordings], engines))
-        return "page"
+        return "\N{LATIN SMALL LETTER A WITH DIAERESIS}" * 622_500
 
     monkeypatch.setattr(webbrowser, "open", opened.append)
     monkeypatch.setattr("report.browser.lab_page.lab_page", lab_page)
@@ -55,7 +55,8 @@ def test_the_file_is_opened_where_that_is_asked_for(tmp_path: Path, monkeypatch:
     words = ["spring", "chain", "spring", "--out", str(out)]
     words += ["--record", "pymunk_springs", "--record", "heun", "--with", "one", "--with", "two"]
     for more, shown in ([], []), (["--open"], [out.resolve().as_uri()]):
-        CliRunner().invoke(page_command, [*words, *more], catch_exceptions=False)
+        done = CliRunner().invoke(page_command, [*words, *more], catch_exceptions=False)
+        assert done.output == f"written: {out} (1.25 MB)\n"  # each letter is two bytes
         assert opened == shown
     assert asked == [(["spring", "chain"], ["pymunk_springs", "heun"], ("one", "two"))] * 2
     with pytest.raises(InputError, match="expected a SCENE with it"):

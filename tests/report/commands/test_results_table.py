@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
 import pytest
 
 from experiments.runs.results import MORE_COLUMNS
-from report.commands import results
+from report.commands import results, results_table
 from report.commands.results_table import for_people, heading
+from tests.report.commands.terminal import springlab
 
 LONG = "spring 2 is over 100 times its length at t = 0.015 s, and so are all others of the string"
 
@@ -86,3 +90,39 @@ def test_all_rows_are_printed_with_what_they_share_and_what_there_is_no_room_for
     assert all(word in table for word in ("mujoco_tendons", "pymunk_springs", "stiffness [N/m]", "dt [s]", "diverged"))
     assert "scene=string" in said
     assert "--csv" in said
+
+
+def test_a_column_is_as_wide_as_its_heading_or_its_texts() -> None:
+    """With the space beside it; a sentence, of forty characters and more, may be folded to sixteen."""
+    assert results_table._width("error_m", [None, 0.5]) == len("error [m]") + 3
+    assert results_table._width("a", ["x", "x" * 39, "xx"]) == 39 + 3
+    assert results_table._width("a", ["x", "x" * 40]) == 16 + 3
+
+
+@pytest.mark.parametrize(("count", "told"), [(2, ""), (3, "; these are the last 2: --csv has all, COLUMN=VALUE picks")])
+def test_the_last_rows_are_shown_and_how_many_there_are(
+    count: int, told: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """Rows that are damaged are named on standard error, the first of them, and what takes over the others."""
+    asked: list[object] = []
+
+    def rows(store: Path, filters: object, retired: bool, tell: Callable[[str], None]) -> list[dict[str, object]]:
+        asked.append((store, filters, retired))
+        for i in range(count):
+            tell(f"row {i} is damaged")
+        return [{"stepper": f"s{i}", "outcome": "done"} for i in range(count)]
+
+    monkeypatch.setattr("experiments.runs.results.rows", rows)
+    monkeypatch.setattr(results, "SHOWN", 2)
+    monkeypatch.setattr(results, "NAMED", 2)
+    store = tmp_path / "store.sqlite"
+    said = springlab("results", "stepper=heun", "--all", "--store", str(store))
+    assert asked == [(store, {"stepper": "heun"}, True)]
+    assert [f"s{i}" in said.out for i in range(count)] == [False] * (count - 2) + [True, True]
+    assert said.out.endswith(f"{count} runs in {store}{told}\n")
+    assert said.err.splitlines() == [
+        *(f"store {store}: row {i} is damaged" for i in range(2)),
+        f"store {store}: {count} rows are damaged and left out; the others are here, and "
+        "`springlab results --salvage NEW` takes them over",
+    ]
+    assert "In every row: outcome=done\n" in said.out

@@ -103,3 +103,12 @@ def test_a_run_that_blows_up_is_told_and_is_no_failure() -> None:
     assert said.code == 0
     assert "euler: diverged: " in said.out
     assert "diverged" in next(line for line in said.out.splitlines() if "outcome" in line)
+
+
+@pytest.mark.parametrize(("room", "told"), [(2**28, False), (2**28 + 1, True), (3 * 2**30, True)])
+def test_much_memory_is_told_in_gibibytes(room: int, told: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    """From a quarter of one on."""
+    monkeypatch.setattr("experiments.runs.room.room_of", lambda *asked: room)
+    said = springlab(*WORDS)
+    words = f"springlab: 4 masses, 20 steps: {'3' if room > 2**30 else '0.25'} GiB of memory\n"
+    assert said.err == (words if told else "")

@@ -16,6 +16,7 @@ from report.commands.terminal import (
     _widths,
     exit_if_files_failed,
     in_one_line,
+    json_text,
     progress,
     show_lines,
     show_result,
@@ -56,7 +57,7 @@ def test_progress_is_a_line_on_standard_error_of_which_nothing_is_left(
         tell("3 of 4 runs")
     out, err = capsys.readouterr()
     assert out == ""
-    assert re.search(r"━+.* sweep: 3 of 4 runs 0:00:00 left: ", plain(err))
+    assert re.search(r"[━╸╺]{20} sweep: 3 of 4 runs 0:00:00 left: ", plain(err))
     assert err.endswith("\x1b[2K")  # the line is erased
 
 
@@ -73,6 +74,11 @@ def test_sentences_are_folded_before_they_are_notes(
         said = plain(capsys.readouterr().out)
         assert ("(1)" in said) is not folded
         assert all(word in said for word in sentence.split())
+
+
+def test_json_can_be_read_by_people_too() -> None:
+    """An entry on each line, set in by two."""
+    assert json_text({"a": [1, None]}) == '{\n  "a": [\n    1,\n    null\n  ]\n}'
 
 
 def test_lines_are_folded_between_words(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:

@@ -7,12 +7,15 @@ from pathlib import Path
 
 import pytest
 
+from engines.engine import registry
+from engines.process.packages import APART
 from experiments.engine_versions import baseline
 from experiments.engine_versions import versions as engine_versions
 from experiments.engine_versions.versions import VersionMeasurements
 from report.commands.main import springlab
 from report.commands.versions import _show
 from tests.experiments.engine_versions.spring_versions import LIMIT, MEASURED, subject
+from tests.report.commands.terminal import springlab as springlab_says
 
 
 def test_as_json_it_prints_what_was_measured_and_nothing_else(
@@ -63,3 +66,25 @@ def test_the_baseline_is_written_where_that_is_asked_for(
     assert springlab.main([*words, *["--update-baseline"] * update], standalone_mode=False) == 0
     assert written == [MEASURED] * update
     assert asked_patiently == [False]  # versions that are named are not waited for
+
+
+def test_an_environment_is_made_of_a_package_or_of_an_engine_of_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """And of no other; its folder is told."""
+    asked: list[tuple[str, str]] = []
+
+    def environment(package: str, version: str) -> Path:
+        asked.append((package, version))
+        return Path("/kept/one/bin/python")
+
+    monkeypatch.setattr("engines.process.environments.environment", environment)
+    engine = next(one for one in registry().values() if one.package in APART)
+    for name in (engine.package, engine.name):
+        said = springlab_says("versions", name, "--install")
+        assert (said.code, said.out) == (0, "made: /kept/one\n")
+    assert asked == [(engine.package, APART[engine.package].version)] * 2
+    for words, named in ((["numpy"], "numpy"), ([], "")):
+        said = springlab_says("versions", *words, "--install")
+        assert said.code == 2
+        assert said.err.startswith(f"springlab: versions --install {named}: expected one of ")
+    said = springlab_says("versions")
+    assert said.err == "springlab: versions: expected ENGINE and VERSION..., or --all, or --check\n"
