@@ -260,4 +260,10 @@ def odd_measures(figure: Figure) -> list[str]:
             bottom, top = axes.get_ylim()
             good = 0.3 <= bottom - (len(rows) - 1) <= 0.7 and -2 <= top <= -0.4
             found += [f"{len(rows)} rows from {bottom} to {top}"] * (not good)
+            upright = [y for x, y in map(data, lines(axes)) if len(x) == 2 and x[0] == x[1] and y[0] != y[1]]
+            within = [
+                0.6 < high - low < 0.9 and abs((low + high) / 2 - round((low + high) / 2)) < 1e-9
+                for low, high in upright
+            ]
+            found += [f"a bar at {y}" for y, good in zip(upright, within, strict=True) if not good]
     return found

@@ -72,6 +72,14 @@ def test_cloths_are_where_their_masses_are() -> None:
     (x, z, y), options = axes.plot_trisurf.call_args
     assert np.column_stack([x, y, z]) == pytest.approx(1e3 * one["positions"])
     assert np.array_equal(options["triangles"], disc(RADIUS, SPACING, 0).triangles)
+    limits = [getattr(axes, f"set_{name}lim").call_args.args for name in "xyz"]
+    for (low, high), values in zip(limits, (x, z, y), strict=True):
+        assert low <= values.min() + 1e-9
+        assert values.max() - 1e-9 <= high
+    spans = [high - low for low, high in limits]
+    (box,), _ = axes.set_box_aspect.call_args
+    assert np.array(spans) / box == pytest.approx([1e3] * 3)  # nothing is stretched
+    assert axes.view_init.call_args.kwargs["elev"] > 15  # from above
 
 
 def test_the_words_for_it_have_the_means() -> None:

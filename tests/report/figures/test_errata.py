@@ -34,6 +34,10 @@ def test_lines_on_the_right_are_the_two_rules_by_the_place_on_the_circle() -> No
     assert data(printed) == (pytest.approx(angles), pytest.approx(-np.cos(2 * np.radians(angles))))
     assert text(axes, "projected").get_color() == projected.get_color() != printed.get_color()
     assert text(axes, "as printed").get_color() == printed.get_color()
+    for said, curve in ((text(axes, "projected"), projected), (text(axes, "as printed"), printed)):
+        assert said.xy == pytest.approx([values[0] for values in data(curve)])
+    bottom, top = axes.get_ylim()
+    assert -1.5 < bottom == -top < -1.1
     assert tick_labels(axes.xaxis) == {0: "right", 90: "top", 180: "left", 270: "bottom", 360: "right"}
     assert axes.get_ylabel() == "velocity along it that is kept [m/s of 1 m/s]"
     assert horizontals(axes) == [0]

@@ -71,6 +71,7 @@ def test_springs_without_length_or_stiffness_may_have_some() -> None:
     assert slider(loose, "stiffness") == Slider("stiffness", "N/m", 0.0, 0.1, 1000.0, True)
     dust = string(springs=np.zeros((0, 2), np.int64), rest_lengths=np.zeros(0), stiffness=np.zeros(0))
     assert {one.name for one in sliders(dust)} == {"mass", "gravity", "drag"}
+    assert slider(dust, "drag").high == pytest.approx(2 * np.sqrt(1.0 * 2.0))  # as on a spring of 1 N/m
 
 
 @pytest.mark.parametrize("name", ["damping", "drag"])
