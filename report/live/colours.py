@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 
 from reference.state import Array
+from report.figures import COLOURS
 
-#: Of the lanes, told apart by everyone (Okabe and Ito); and of the true motion.
-LANE_COLOURS = ((0, 114, 178), (213, 94, 0), (0, 158, 115), (204, 121, 167))
+#: Of the lanes, told apart by everyone, as in figures; and of the true motion.
+LANE_COLOURS = tuple(tuple(bytes.fromhex(colour[1:])) for colour in COLOURS)
 TRUE_COLOUR = (150, 150, 150)
 
 #: A fixed mass.

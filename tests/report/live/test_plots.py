@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from report.live.plots import PREFIXES, logarithms, power
+from report.live.colours import LANE_COLOURS
+from report.live.plots import DASHES, PREFIXES, logarithms, power
+from report.live.stepping import MOST_LANES
 
 
 @pytest.mark.parametrize("size", [3e-14, 2e-7, 5e-3, 0.7, 123.0, 4.5e4, 8e9])
@@ -19,6 +21,13 @@ def test_numbers_on_an_axis_have_at_most_three_figures(size: float) -> None:
         assert power(values, chosen) == chosen
         assert power(1e9 * values, now) > chosen or chosen == max(PREFIXES)
     assert power(np.array([1e99]), 0) == max(PREFIXES)
+
+
+def test_prefixes_are_those_of_si() -> None:
+    """Every third power of ten, by its letter."""
+    assert dict(zip(range(-12, 12, 3), ["p", "n", "\N{MICRO SIGN}", "m", "", "k", "M", "G"], strict=True)) == PREFIXES
+    assert len(set(DASHES)) == len(DASHES) == MOST_LANES <= len(LANE_COLOURS)
+    assert DASHES[0] == ()
 
 
 def test_of_logarithms_nothing_is_below_rounding() -> None:
