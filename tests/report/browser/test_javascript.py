@@ -28,6 +28,49 @@ def test_numbers_and_choices_are_said_as_they_are() -> None:
     assert of_expression("truediv(dt, 6)") == "(dt / 6)"
 
 
+def test_statements_are_said_one_by_one() -> None:
+    """Names are declared, but for arrays that are made, which have room elsewhere; so are arrays that are returned."""
+    text = """
+a, b = n, 3
+flag = True
+room = x.copy()
+other = np.empty_like(x)
+for i in range(n):
+    for k in range(1, first[i]):
+        f = helper(i, -f, +a)
+        plain(a, not b)
+        a -= np.minimum(1, np.int64(spring[k]))
+c = x2[i] * len(springs) + len(masses) + rest_length[j] + x.shape[1]
+d2 = q ** 2
+return room, other
+"""
+    translation = Translation(3, functions=("helper",), plain=("plain",), rooms=("room", "other"))
+    assert translation.body(ast.parse(text).body, returned=("x", "v")) == [
+        "let a, b, c, d2, f, flag, i, k;",
+        "a = n;",
+        "b = 3;",
+        "flag = true;",
+        "F.copyWithin(room, x, x + n * d);",
+        "for (i = 0; i < n; i++) {",
+        "  for (k = 1; k < I[first + i]; k++) {",
+        "    f = helper(F, I, at, i, (-f), (+a));",
+        "    plain(a, (!b));",
+        "    a -= Math.min(1, I[spring + k]);",
+        "  }",
+        "}",
+        "c = ((((F[x + 3 * i + 2] * s) + n) + F[rest_lengths + 1 * j + 0]) + d);",
+        "d2 = (q * q);",
+        "F.copyWithin(x, room, room + n * d);",
+        "F.copyWithin(v, other, other + n * d);",
+    ]
+    assert lines("flag = False\nforce1[i] = springs[j, 1]") == [
+        "let flag;",
+        "flag = false;",
+        "F[forces + 2 * i + 1] = I[springs + 2 * j + 1];",
+    ]
+    assert lines("y = v1[i]", None) == ["let y;", "y = F[v1 + i];"]
+
+
 @pytest.mark.parametrize(
     "text", ["np.exp(x)", "x ** 3", "np.hypot(x, y)", "x // y", "x if y else z()", "[x for x in y]"]
 )

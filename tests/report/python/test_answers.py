@@ -92,6 +92,7 @@ def test_other_answers_have_the_commands_numbers() -> None:
     modes = lab.modes("string", masses=4)
     assert modes.document == said("modes", *WORDS)
     assert modes.shapes.shape == (8, 5, 2)
+    assert lab.modes("string", masses=4, lowest=1).frequencies == pytest.approx(modes.frequencies[:1])
     limits = lab.stability("oscillator", "kick_drift", "euler")
     assert limits.predicted["euler"] is None
     assert limits.measured["kick_drift"] == pytest.approx(limits.predicted["kick_drift"], rel=1e-3)
