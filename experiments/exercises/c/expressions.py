@@ -80,7 +80,7 @@ class Expressions:
             indices.insert(0, node.subscript)
             node = node.name
         parts = [self.expression(index) for index in indices]
-        index = parts[0] if len(parts) == 1 else ast.copy_location(ast.Tuple(parts, ast.Load()), parts[0])
+        index = parts[0] if len(parts) == 1 else ast.Tuple(parts, ast.Load())
         return ast.Subscript(self.expression(node), index, ast.Load())
 
     def _of_field(self, node: c_ast.StructRef) -> ast.expr:

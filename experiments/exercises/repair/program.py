@@ -53,7 +53,6 @@ class Program:
 
     def __init__(self, tree: ast.Module) -> None:
         self.tree = tree
-        self._rounds = 0
         #: First lines of the functions that are called while the module is made; of which kind names in them are.
         self._entered: set[int] = set()
         self._kinds: Kinds = {}
@@ -136,7 +135,7 @@ class Program:
             setattr(holder, function.name, before)
 
     def _run(self, tree: ast.Module, names: dict[str, Any], into: dict[str, Any]) -> bool:
-        self._rounds = 0
+        self.begin_call()
         if any(isinstance(node, ast.While) for node in ast.walk(tree)):
             tree = _Counted().visit(copy.deepcopy(tree))
         try:

@@ -78,6 +78,15 @@ def test_right_is_to_a_billionth_of_the_largest_or_the_exercises_own_tolerance(
     assert ("v of step()" in said.partition(";")[0]) == right
 
 
+def test_nothing_but_zeros_is_right_where_it_should_be() -> None:
+    """There is no largest number beside which an error could be small."""
+    asked = [Question("step", (X,), ("x", "v"), "")]
+    exercise = Exercise("", 0, "", {"step": lambda x: (0 * x, x)}, lambda *_: asked, ())
+    for x, v, right in ((0 * X, -X, "x"), (0 * X + 1e-300, X, "v")):
+        (found,) = seen(AnswerCatalogue(exercise, asked), [{"values": [[x, v]]}], "")
+        assert found.words.startswith(f"Right in your first answers is {right};")
+
+
 def test_the_lines_are_told_where_they_are_few() -> None:
     """Three at most; of one value, and of two; of a text that cannot be read none."""
     step = "def step(x):\n    v = 2 * x\n    {}\n    return x, v\n\n\ndef energy(x):\n    return 8.0\n"

@@ -79,7 +79,9 @@ def test_repairs_are_those_that_were_tried(asked: list[tuple[Any, ...]]) -> None
     assert (repair.function, repair.places, repair.cost) == ("step", ((4, "sign"),), tried[sign].cost)
     assert repair.change == "*y += dt * *v; -> *y -= dt * *v;"
     assert len(tried) < len(found.edits)
-    assert {told for e in tried if "_given" in (told := found.told(e))} == {
+    copies = [[i] for i, e in enumerate(tried) if "_given" in found.told(e)]
+    assert {repair.change for repair in found.repairs(copies)} == {found.told(tried[i]) for (i,) in copies}
+    assert {found.told(tried[i]) for (i,) in copies} == {
         "*y += dt * *v; -> _v_given = a copy of v; / *y += dt * *_v_given;",
         "*v -= dt * *y / s->mass; -> _y_given = a copy of y; / *v -= dt * *_y_given / s->mass;",
     }

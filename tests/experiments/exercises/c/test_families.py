@@ -157,6 +157,9 @@ def test_what_was_there_before_is_read_in_its_place() -> None:
             text = text_of(program, told=True)
         if "_given" in text:
             found[text.split("{\n")[1].split("\n}")[0].replace("    ", "").replace("\n", " ")] = edit.line, edit.family
+    assert len(found) == 3
+    once = [e for e in c_edits_of(read(function("*y = dt;\n*p = *y;"))) if e.cost == 2.0 and len(e.sites) == 2]
+    assert len(once) == 1  # of a line that reads it at one place
     kept = "_y_given = a copy of y; *y = dt;"
     line = [i for i, text in enumerate(text_of(program).splitlines(), 1) if "2 *" in text]
     assert {text for text in found if "_y_given" in text} == {

@@ -68,6 +68,20 @@ def test_a_right_program_is_right_as_it_is_written(name: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("values", "is_list"),
+    [("{dt, 2}", True), ("{{dt, 2}}", True), ("{dt, [1] = 2}", False), ("{[0] = dt, [1] = 2}", False)],
+)
+def test_a_list_is_one_where_no_value_says_its_place(values: str, is_list: bool) -> None:
+    """Else it is only copied: its values cannot be taken for each other."""
+    text = function(f"double q[2] = {values};")
+    (own,) = functions_in(read(text).tree)
+    (statement,) = own.body
+    assert isinstance(statement, ast.Assign)
+    assert isinstance(statement.value, ast.List) == is_list
+    assert f"double q[2] = {values};" in text_of(read(text))
+
+
+@pytest.mark.parametrize(
     "text", ["void step(", "#define IF if (\nvoid f(int a) { IF a) a = 1; }", "void f(void) { for (;;) {} }" * 2000]
 )
 def test_what_cannot_be_read_is_told(text: str) -> None:

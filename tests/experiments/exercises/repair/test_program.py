@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from experiments.exercises.repair import program
 from experiments.exercises.repair.edit import Edit
-from experiments.exercises.repair.program import MOST_ROUNDS, Program, TooLongError, _units
+from experiments.exercises.repair.program import Program, TooLongError, _units
 from experiments.exercises.repair.source_edits import edits_of
 
 #: A function that others call, a method, one that is called at once, one that has another name, and a class of a class.
@@ -203,18 +204,20 @@ def test_every_name_of_a_change_has_to_fit() -> None:
     assert not program.can_matter(Edit(2, "name", 1.0, (((pair, "elts", 0), ast.Name("b", ast.Load())),)), {2})
 
 
-def test_loops_may_go_round_so_often_in_each_call() -> None:
+def test_loops_may_go_round_so_often_in_each_call(monkeypatch: pytest.MonkeyPatch) -> None:
     """And while the module is made; no more."""
-    program = Program(ast.parse("def own(a):\n    while a > 0:\n        a -= 1\n    return a"))
-    names = program.anew()
+    monkeypatch.setattr(program, "MOST_ROUNDS", 5)
+    counting = Program(ast.parse("def own(a):\n    while a > 0:\n        a -= 1\n    return a"))
+    names = counting.anew()
     assert names is not None
-    for count, stops in ((MOST_ROUNDS, False), (MOST_ROUNDS, False), (MOST_ROUNDS + 1, True)):
-        program.begin_call()
+    assert names["own"](5) == 0  # nothing has gone round before the first call
+    for count, stops in ((5, False), (5, False), (6, True)):
+        counting.begin_call()
         with pytest.raises(TooLongError) if stops else nullcontext():
             assert names["own"](count) == 0
-    for count, is_made in ((MOST_ROUNDS, True), (MOST_ROUNDS + 1, False)):
-        program = Program(ast.parse(f"a = {count}\nwhile a > 0:\n    a -= 1\n"))
-        assert (program.anew() is not None) == is_made
+    for count, is_made in ((5, True), (6, False)):
+        made = Program(ast.parse(f"a = {count}\nwhile a > 0:\n    a -= 1\n")).anew()
+        assert (made is not None) == is_made
 
 
 def test_what_cannot_be_read_has_no_names() -> None:
