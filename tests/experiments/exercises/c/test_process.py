@@ -30,7 +30,7 @@ def ran(
 
     def noting(name: str, answer: Any = None) -> Any:
         def note(*given: Any, **named: Any) -> Any:
-            done.append((name, *(one for one in given if one is not libc), *named.items()))
+            done.append((name, *("libc" if one is libc else one for one in given), *named.items()))
             return answer
 
         return note
@@ -66,11 +66,11 @@ def test_all_layers_are_applied_before_anything_runs(monkeypatch: pytest.MonkeyP
     done = ran(monkeypatch, tmp_path, root=True)
     assert done == [
         ("limit", process.SECONDS, process.MEMORY),
-        ("rules", ["/usr"], ("programs", True), ("writable", ["/tmp"])),
+        ("rules", "libc", ["/usr"], ("programs", True), ("writable", ["/tmp"])),
         ("nobody",),
-        ("drop",),
+        ("drop", "libc"),
         ("prctl", 38, 1, 0, 0, 0),
-        ("landlock", 5),
+        ("landlock", "libc", 5),
     ]
     assert ("nobody",) not in ran(monkeypatch, tmp_path)
     assert Path(sys.path[-1]) == Path(process.__file__).parents[3]

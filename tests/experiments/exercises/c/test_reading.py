@@ -26,6 +26,7 @@ FORMS = {
     "if (n > 0 && !i) n++; else n--;": "if n > 0 and (not i):\n    n += 1\nelse:\n    n -= 1",
     "while (n) { n = i ? 1 : 2; }": "while n:\n    n = 1 if i else 2",
     "x[0][0] = x[1][1] = 0;": "x[0, 0] = x[1, 1] = 0",
+    "z[n][1][2] = 0;": "z[n, 1, 2] = 0",
     "y[n] = p[0];": "y[n] = p[0]",
     "dt = abs(n) / lambda;": "dt = abs_c_(n) / lambda_c_",
 }

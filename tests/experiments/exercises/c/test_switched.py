@@ -97,6 +97,15 @@ def test_two_changes_at_one_place_are_none(monkeypatch: pytest.MonkeyPatch) -> N
             assert names is None
 
 
+def test_places_that_are_come_to_are_those_meanwhile() -> None:
+    """Not those of before."""
+    program = SwitchedProgram.__new__(SwitchedProgram)
+    program._places, program._reached = 4, (ctypes.c_char * 4)(b"\1", b"\1", b"\0", b"\0")
+    with program.reached() as found:
+        program._reached[1] = program._reached[3] = b"\1"
+    assert found == {1, 3}
+
+
 def test_with_each_call_loops_are_counted_anew_and_memory_is_given_back() -> None:
     """From nothing."""
     program = SwitchedProgram.__new__(SwitchedProgram)
@@ -118,6 +127,7 @@ def test_nothing_is_searched_where_one_question_is_answered_otherwise(
 
     def search_groups(task: Any, begun: Callable[[Any], Any], fresh: Any, changed: Any) -> list[str]:
         had["edits"], had["program"] = begun([])
+        had["ways"] = fresh, changed
         return ["found"]
 
     def functions(library: str, exercise: int, lines: list[Any]) -> dict[str, Step]:
@@ -137,8 +147,10 @@ def test_nothing_is_searched_where_one_question_is_answered_otherwise(
         "changes": [(1.5, [[2, 1], [3, 4]]), (2.5, [[5, 6]])],
         "groups": [[QUESTION], [{**QUESTION, "arguments": [7.0, 2.0]}]],
     }
-    assert switched.search(task, float, lambda a, b: False) == (["found"] if searched else [])
+    ways = float, (lambda a, b: False)
+    assert switched.search(task, *ways) == (["found"] if searched else [])
     assert had["given"] == ("variants.so", 4, 7)
     if searched:
         assert had["edits"] == [Switched(1.5, [(2, 1), (3, 4)]), Switched(2.5, [(5, 6)])]
         assert had["program"] is made
+        assert had["ways"] == ways

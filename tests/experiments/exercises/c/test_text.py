@@ -94,6 +94,7 @@ def test_every_number_that_the_other_scheme_has_counts(given: list[float], told:
 def test_where_a_function_writes_what_it_is_given(function: str, place: int, lines: list[int]) -> None:
     """No comparison, no comment, no field of that name, no other function, and not what it may not write into."""
     assert lines_that_write(STEP, function, place) == lines
+    assert lines_that_write(f"\n{STEP}", function, place) == [line + 1 for line in lines]
     # whatever stands before it that is not written into
     before = "int n, const double *w, double dt, "
     assert lines_that_write(STEP.replace("(double", f"({before}double"), function, place) == lines

@@ -222,7 +222,10 @@ def test_loops_may_go_round_so_often_in_each_call(monkeypatch: pytest.MonkeyPatc
 
 def test_what_cannot_be_read_has_no_names() -> None:
     """The whole text, or a function or method that was changed; what is left out of it comes back."""
-    assert Program(ast.parse("1 / 0")).anew() is None
+    unreadable = Program(ast.parse("def one():\n    return 1\n1 / 0"))
+    assert unreadable.anew() is None
+    with unreadable.changed(edits_on(unreadable, 2)[:1]) as names:
+        assert names is None
     program = Program(ast.parse("def one():\n    return 1\nclass Box:\n    def get(self):\n        return 2\n"))
     function, box = program.tree.body
     assert isinstance(box, ast.ClassDef)
@@ -234,6 +237,7 @@ def test_what_cannot_be_read_has_no_names() -> None:
         with program.changed([breaks]) as names:
             assert names is None
         with program.changed([other]) as names:
+            assert names is program._names  # only what was changed is compiled
             assert names is not None
             assert sorted([names["one"](), names["Box"]().get()]) == ([2, 7] if holder is function else [1, 7])
         with program.changed([]) as names:
