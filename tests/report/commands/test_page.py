@@ -24,6 +24,7 @@ def test_a_scene_of_one_s_own_is_written(tmp_path: Path) -> None:
     assert '"name":"my_scene"' in text
     assert '"changes":[{"time":0.2,"parameter":"stiffness","value":100.0}]' in text
     assert "http" not in text.replace("http-equiv", "")
+    assert "wasm-unsafe-eval" not in text  # only engines that it carries need that
 
 
 #: Masses that collide, which the page cannot do.

@@ -69,7 +69,7 @@ def test_a_title_is_not_folded_at_the_width_of_its_table(
     """It stays on a line where the terminal has room for it, though the table is narrower."""
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setenv("TTY_COMPATIBLE", "1")
-    title = "meant: k = 631.655 [N/m], c = 35.1858 [N s/m]"
+    title = "meant [s]: k = 631.655 N/m, c = 35.1858 N s/m"
     show_table(title, ["a", "b"], [["c", 1.0]])
     assert title in re.sub(r"\x1b\[\d*m", "", capsys.readouterr().out).splitlines()
 
