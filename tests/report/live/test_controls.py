@@ -81,6 +81,8 @@ def test_numbers_go_where_they_are_told(page: Page) -> None:
     """In their own units: dt in milliseconds; with what it starts at."""
     lab = page.lab
     assert page.part("dt [ms]").value == pytest.approx(1.0)
+    dt = page.controls._number_sliders["dt"]
+    assert (dt._low, dt._high) == pytest.approx((0.01, 100.0))
     page.part("dt [ms]").move(2.0)
     assert lab.timeline.dt == pytest.approx(2e-3)
     page.part("stiffness [N/m]").move(150.0)
@@ -203,8 +205,10 @@ def test_a_notice_is_seen_until_it_is_no_more_and_said_once(page: Page, monkeypa
 
 def test_after_a_blow_up_a_stable_step_is_offered(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     """A tenth below the smallest limit of all lanes; not where one that blew up has none, nor a longer one."""
-    page.show()
     button = page.part("Start again")
+    assert not button.visible
+    assert not page.controls._command_text.visible
+    page.show()
     assert not button.visible
     lab, lanes = page.lab, page.lab.timeline.lanes
     lanes[0].blown_up = True
