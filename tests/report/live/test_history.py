@@ -54,6 +54,8 @@ def test_it_takes_so_much_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     made.keep(moment(0.5))
     made.keep(moment(0.6))
     assert len(made) == 2
+    monkeypatch.setattr(history, "BYTES", 3 * moment(0.0).bytes - 1)
+    assert len(kept(*map(moment, (0.0, 0.1, 0.2)))) == 2
 
 
 def test_one_goes_back_by_the_time_of_the_scene() -> None:
