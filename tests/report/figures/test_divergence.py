@@ -27,6 +27,9 @@ def test_lines_are_the_tables_and_full_is_measured() -> None:
     (ring,) = identified
     assert data(ring)[1] == [max(row["deviation [m]"], FLOOR) for row in by_name["KickDrift"]]
     assert ring.get_color() == measured[0].get_color() != measured[1].get_color()
+    starts, steps = zip(*(line.get_markevery() for line in measured), strict=True)
+    assert set(steps) == {len(data(measured[0])[0]) // 6}
+    assert 0 < starts[0] < starts[1] <= steps[0]  # their markers are not over one another
 
 
 def test_it_is_as_high_as_its_labels_need_and_no_higher() -> None:

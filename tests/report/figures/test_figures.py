@@ -82,6 +82,7 @@ def test_a_figure_is_well_where_nothing_is_wrong() -> None:
     assert unlabelled(figure) == overlaps(figure) == cut_off(figure) == out_of_sight(figure.axes[0]) == []
     assert hidden_by_legend(figure.axes[0]) == 0
     assert odd_measures(figure) == []
+    assert {name for name, spine in figure.axes[0].spines.items() if spine.get_visible()} == {"left", "bottom"}
 
 
 def rows(figure: Figure) -> None:
