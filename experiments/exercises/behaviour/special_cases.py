@@ -255,7 +255,7 @@ def _anchor_at_origin(arguments: list[Any]) -> list[Any] | None:
     for name in ("anchor", "centre"):
         if isinstance(arguments[-1], dict) and name in arguments[-1]:
             origin = arguments[-1][name]
-            return [arguments[0] - origin, *arguments[1:-1], {**arguments[-1], name: 0 * origin}]
+            return [arguments[0] - origin, *arguments[1:-1], {**arguments[-1], name: np.zeros_like(origin)}]
     return None
 
 
@@ -275,7 +275,7 @@ WHERE: Mapping[str, Change] = {
     "the springs are a little stretched": _hung(lambda length, rest: 1.3 * rest),
     "the springs are a little pressed": _hung(lambda length, rest: 0.8 * rest),
     "the string hangs straight down": _hung(lambda length, rest: length, straight=True),
-    "rest lengths are 0": _fields(rest_lengths=lambda r: 0 * r),
+    "rest lengths are 0": _fields(rest_lengths=np.zeros_like),
     "the anchor or the centre is at the origin": _anchor_at_origin,
     "the radius is 1 m": _fields(radius=1.0),
     "all members are equally stiff": _fields(stiffness=_mean, members=lambda m: m),

@@ -230,7 +230,7 @@ class _Changes:
                     yield from self._of_inner(statement_, name, block, here)
                     yield from self._twice_declared(block, here)
             if getattr(statement_, "declared", None) and isinstance(statement_, ast.Assign):
-                here.add(_base(statement_.targets[0]))
+                here.update(map(_base, statement_.targets))
             here.update(statement_.names if isinstance(statement_, Verbatim) else ())
 
     def _of_inner(self, holder: ast.stmt, name: str, block: Sequence[ast.stmt], known: set[str]) -> Iterator[Edit]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from experiments.exercises.c.reading import read
-from experiments.exercises.c.tree import UnreadableError, functions_in
+from experiments.exercises.c.tree import UnreadableError, Word, functions_in
 from experiments.exercises.c.written import text_of
 from experiments.exercises.exercise import find
 from experiments.exercises.verdict.judge import judge
@@ -66,6 +66,15 @@ def test_a_right_program_is_right_as_it_is_written(name: str) -> None:
     """Nothing is lost on the way."""
     text = text_of(read((PROGRAMS / f"{name}.c").read_text(encoding="utf-8")))
     assert judge(find(str(int(name[1:3]))), text, language="c").right
+
+
+def test_what_is_not_known_is_written_as_it_was() -> None:
+    """Fields of a struct that is declared elsewhere; the size of a type is only copied, that of a value is read."""
+    line = "q->r->s = q->r.s + sizeof(double) + sizeof(q);"
+    text = f"void f(struct other *q)\n{{\n    {line}\n}}\n"
+    assert text_of(read(text)) == text
+    (own,) = functions_in(read(text).tree)
+    assert [node.text for node in ast.walk(own) if isinstance(node, Word)] == ["sizeof(double)"]
 
 
 @pytest.mark.parametrize(

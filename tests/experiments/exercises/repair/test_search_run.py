@@ -154,6 +154,9 @@ def test_nearer_is_who_answers_more_questions_then_who_has_more_numbers() -> Non
     ):
         for stems in ([(one, 0), (other, 1)], [(other, 1), (one, 0)]):
             assert search._pairs(stems, [question(1.0)], 100.0) == ([[first, 1 - first], [1 - first, first]], True)
+    # what makes the first no worse is gone on from: far from right beside its tolerance, all are as near as can be told
+    alike = {**question(1.0), "scales": [1e12], "tolerance": 1e-30}
+    assert found([Add(2.0), Add(3.0)], questions=[alike, question(1.0)])["repairs"] == [[1, 0], [0, 1]]
     # of the second question, whose scale is larger, all is nearer than that of the first
     larger = {**question(1.0), "scales": [1e4]}
     assert found([Add(2.0), Add(3.0)], questions=[question(1.0), larger])["repairs"] == [[1, 0], [0, 1]]

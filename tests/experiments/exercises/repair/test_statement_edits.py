@@ -143,6 +143,8 @@ def test_what_was_given_is_read_in_place_of_what_it_became() -> None:
 
 def test_what_was_there_before_a_loop_is_read_in_it() -> None:
     """Of each array that it writes into and reads, and of both; told where it is written and where it is first read."""
+    (one,) = [change for change in changes("for i in r:\n x[i] = g(x)") if "_before" in change[-1]]
+    assert one == (2, "order", "_x_before = x.copy(); L(x[i] = g(_x_before);)")
     body = "a()\nfor i in r:\n k = f(v)\n x[i] = g(x)\n v[i] = k\n w[i] = k\nb()"
     x, v, w = "x[i] = g(x);", "v[i] = k;", "w[i] = k;"
     found = {change for change in changes(body) if "_before" in change[-1]}
