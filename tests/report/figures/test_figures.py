@@ -13,7 +13,7 @@ from matplotlib.collections import PathCollection
 from matplotlib.figure import Figure
 
 from experiments.experiment import NAMES
-from report.figures import draw, look, new_figure
+from report.figures import draw, from_nothing, look, new_figure, powers
 from tests.experiments.canned.results import RESULTS
 from tests.report.figures.artists import (
     cut_off,
@@ -23,6 +23,7 @@ from tests.report.figures.artists import (
     odd_measures,
     out_of_sight,
     overlaps,
+    tick_labels,
     unlabelled,
     words,
 )
@@ -172,6 +173,17 @@ def test_figures_are_not_kept(recwarn: pytest.WarningsRecorder) -> None:
     for _ in range(22):
         draw("stiff_limit", result("stiff_limit"))
     assert not recwarn.list
+
+
+def test_powers_of_ten_are_labelled_as_such() -> None:
+    """Beside a place for nothing every third of them, as far as the axis goes."""
+    assert powers(-2, 3) == {0.01: "$10^{-2}$", 1000.0: "$10^{3}$"}
+    _, axes = new_figure((7, 4))
+    axes.set_xscale("log")
+    axes.set_xlim(1e-18, 1e-4)
+    from_nothing(axes.xaxis, 1e-17)
+    assert [*tick_labels(axes.xaxis).values()] == ["none", *(f"$10^{{{n}}}$" for n in (-15, -12, -9, -6))]
+    assert [*tick_labels(axes.xaxis)] == pytest.approx([1e-17, 1e-15, 1e-12, 1e-9, 1e-6])
 
 
 def test_64_things_look_different() -> None:

@@ -11,7 +11,7 @@ from reference.errors import InputError
 from reference.files.setup import setup_for
 from report.figures import look
 from report.figures.simulation import FEW, TIMES, Wanted, draw, wanted
-from tests.report.figures.artists import data
+from tests.report.figures.artists import cut_off, data, laid_out, overlaps
 
 
 def simulation(scene: str, *names: str, steps: int = 5, **settings: str) -> Simulation:
@@ -142,6 +142,13 @@ def test_labels_are_at_the_ends_of_their_lines() -> None:
                 times, values = data(line)
                 assert text.xy == (times[-1], values[-1])  # type: ignore[attr-defined]
                 assert text.arrowprops["color"] == line.get_color()  # type: ignore[attr-defined]
+
+
+def test_a_dozen_labels_that_end_together_are_beside_one_another() -> None:
+    """After one step all springs still have nearly the force that they had."""
+    figure = laid_out(draw(simulation("string", steps=1, masses="12"), Wanted("forces")).figure)
+    assert len(figure.axes[0].texts) == 12
+    assert overlaps(figure) == cut_off(figure) == []
 
 
 def test_where_nothing_is_known_that_is_said() -> None:
