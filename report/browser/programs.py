@@ -19,7 +19,7 @@ from reference.compiled.loops import Loops
 from reference.compiled.tracing import Place, Program, trace, trace_obstacles
 from reference.errors import InputError, Unsupported
 from reference.jit import text_of
-from reference.obstacles import KINDS, Box, Circle, Cylinder, Obstacle, Plane, Sphere
+from reference.obstacles import Box, Circle, Cylinder, Obstacle, Plane, Sphere
 from reference.schemes.catalogue import Scheme, schemes, wide_schemes
 from reference.springs.linear_law import elastic_energy, force_by_rate, force_by_stretch, spring_force
 from reference.theory.keeps_to_surfaces import keeps_to_surfaces
@@ -329,11 +329,6 @@ def _obstacle(one: Obstacle) -> str:
     lines += [f"F[x + {d} * i + {i}] = {place[i]}; F[v + {d} * i + {i}] = {velocity[i]};" for i in axes]
     text = "\n".join("  " + line for line in lines)
     return f"{json.dumps(f'{one.kind}{d}')}: (F, x, v, i, free, numbers) => {{\n{text}\n}}"
-
-
-def kinds_known() -> tuple[str, ...]:
-    """The kinds of obstacle the page knows."""
-    return tuple(name for name in KINDS if any(one.kind == name for one in _ONES))
 
 
 def _function(lines: list[str]) -> str:

@@ -6,7 +6,10 @@ import ast
 
 import pytest
 
+from reference.compiled.expressions import Expression
 from reference.errors import Unsupported
+from reference.obstacles import KINDS
+from report.browser import programs
 from report.browser.javascript import Translation, of_expression
 from report.browser.programs import page_schemes, unavailable
 
@@ -93,3 +96,21 @@ def test_schemes_have_their_equations_beside_them() -> None:
     """Where they are sums; in-place schemes have none of the whole state."""
     assert "<math" in page_schemes()["heun"].text
     assert "<math" not in page_schemes()["heun_aliased"].text
+
+
+def test_pieces_of_programs_are_put_together() -> None:
+    """Rooms one after the other, coefficients by their numbers, nothing of none; what is known is not counted again."""
+    assert programs._rooms(["xs", "vs"]) == ["const xs = at.room + 0 * n * d, vs = at.room + 1 * n * d;"]
+    assert programs._numbers(2) == ["const [c0, c1] = c;"]
+    assert (programs._rooms([]), programs._numbers(0)) == ([], [])
+    lines = ["let a, n, s;", "n = 3;", "s = 4;", "a = n;"]
+    assert programs._without(lines, {"n", "s"}) == ["let a;", "a = n;"]
+    x, v, c, a = (Expression(name) for name in ("x", "v", "c10", "a0"))
+    moved = Expression("{} + {}", (x, Expression("{} * {}", (c, Expression("{} - {}", (v, a))))))
+    assert programs._of_vectors(moved) == "(x[i] + (c[10] * (v[i] - a[0][i])))"
+    assert programs._coefficients(["dt", "truediv(dt, 2)"]) == "dt => [dt, (dt / 2)]"
+
+
+def test_every_kind_of_obstacle_is_known() -> None:
+    """One of each is translated."""
+    assert {one.kind for one in programs._ONES} == {*KINDS}
