@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from reference.errors import InputError
 from reference.state import Array
 
 #: One entry per axis: each a number, an array of them, or a symbol.
@@ -58,8 +59,13 @@ def downwards(gravity: Array, dimension: int) -> Array:
     """A single number g [m/s^2] as a vector along the vertical axis; others as they are.
 
     Along a line a list of one number is such a vector already, and points upwards where it is positive.
+
+    Raises:
+        InputError: for a list of one number where there are more axes.
     """
-    if gravity.size != 1 or (dimension == 1 and gravity.ndim == 1):
+    if gravity.ndim == 1 and len(gravity) == 1 != dimension:
+        raise InputError(f"gravity is a list of one number: expected a number, or one for each of {dimension} axes")
+    if gravity.ndim > 0:
         return gravity
     vector = np.zeros(dimension)
     vector[vertical_axis(dimension)] = -float(gravity.item())

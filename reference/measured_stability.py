@@ -56,14 +56,19 @@ def random_growth(offsets: Array) -> float:
 def mode_growth(offsets: Array, mode: Array) -> float:
     """Growth in a step, from a straight line through the logarithm of one mode's part in the offsets.
 
+    It ends where nothing of the part is left; what does so at once has decayed whole.
+
     Args:
         offsets: state vectors, one row per step.
         mode: the left eigenvector that tells this mode from all others.
     """
     part = np.abs(offsets @ mode.conj())
-    if not np.isfinite(part).all() or part.min() == 0:
+    if not np.isfinite(part).all():
         return np.inf
-    slope = np.polynomial.Polynomial.fit(np.arange(len(part)), np.log(part), 1).convert().coef[1]
+    left = part[: np.argmin(part)] if part.min() == 0 else part
+    if len(left) < 2:
+        return -1.0
+    slope = np.polynomial.Polynomial.fit(np.arange(len(left)), np.log(left), 1).convert().coef[1]
     return float(np.expm1(slope))
 
 

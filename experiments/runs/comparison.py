@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import compress
 from typing import Any
 
 import numpy as np
 
-from experiments.runs.elsewhere import elsewhere
+from experiments.runs.fork import begun
 from experiments.runs.progress import Progress
 from experiments.runs.room import check_room
-from experiments.runs.runner import current
 from experiments.runs.side_by_side import side_by_side
 from reference.changes import Change
 from reference.errors import SolverError
@@ -20,7 +20,7 @@ from reference.identification import Identification, identify_all
 from reference.outcome import Outcome
 from reference.scenes import Setup
 from reference.state import Array, Trajectory
-from reference.stepper import Stepper
+from reference.stepper import SchemeStepper, Stepper
 from reference.system import MassSpringSystem
 from reference.theory.exact import WHY_NOT_EXACT, exact
 
@@ -131,11 +131,7 @@ def compare(
         left_out = None if patient else too_slow(stepper, setup.system)
         return left_out or stepper.run(setup.system, setup.dt, steps, setup.changes)
 
-    with current().threads(1) as beside:
-        truth = beside.submit(elsewhere, true_motion, setup.system, setup.dt, steps, setup.changes)
-        outcomes = list(side_by_side(steppers, task, progress))
-        progress("true motion")
-        true, why_not = truth.result()
+    outcomes, true, why_not = _outcomes(setup, steppers, task, progress)
     progress("catalogue of schemes")
     identified = identify_all(outcomes, setup.system, setup.dt, steps, setup.changes)
     runs = []
@@ -147,6 +143,25 @@ def compare(
         deviation = None if trajectory is None or scheme is None else trajectory.distance(scheme)
         runs.append(Run(stepper, outcome, identification, error, deviation))
     return Comparison(setup, true, tuple(runs), why_not)
+
+
+def _outcomes(
+    setup: Setup, steppers: Sequence[Stepper], task: Callable[[Stepper], Outcome], progress: Progress
+) -> tuple[list[tuple[Stepper, Outcome]], Trajectory | None, str]:
+    """How each stepper ends, and the true motion: that, and every second scheme, beside the rest."""
+    is_beside = [isinstance(stepper, SchemeStepper) and i % 2 == 1 for i, stepper in enumerate(steppers)]
+
+    def beside() -> tuple[tuple[Trajectory | None, str], list[Outcome]]:
+        true = true_motion(setup.system, setup.dt, setup.steps, setup.changes)
+        return true, [task(stepper) for stepper in compress(steppers, is_beside)]
+
+    here = [stepper for stepper, elsewhere in zip(steppers, is_beside, strict=True) if not elsewhere]
+    with begun(beside) as answer:
+        ran = iter([outcome for _, outcome in side_by_side(here, task, progress)])
+        progress("true motion")
+        (true, why_not), others = answer()
+    also = iter(others)
+    return [(s, next(also if other else ran)) for s, other in zip(steppers, is_beside, strict=True)], true, why_not
 
 
 def true_motion(

@@ -180,6 +180,9 @@ def end_of(outcome: Outcome) -> tuple[Array, Array]:
 def row_of(outcome: Outcome, steps: int) -> tuple[Array, Array]:
     """Positions and velocities at all steps of a run. Raises Unsupported, with its reason, where it ended before."""
     run = outcome.trajectory
-    if run is None or len(run) < steps + 1 or not np.isfinite(run.velocities[-1]).all():
+    if run is None or len(run) < steps + 1:
         raise Unsupported(outcome.reason or "it tells no velocities")
+    for what, ends in (("positions", run.positions[-1]), ("velocities", run.velocities[-1])):
+        if not np.isfinite(ends).all():
+            raise Unsupported(outcome.reason or f"it tells no {what}")
     return run.positions, run.velocities

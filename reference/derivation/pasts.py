@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reference.derivation.oscillators import ASIDE, DT, Run, Runs, oscillator
+from reference.derivation.oscillators import ASIDE, DT, Run, Runs, oscillator, row_of
 from reference.derivation.swings import swing
 from reference.errors import Unsupported
 from reference.identification.scale import ROUNDING, Precision
+from reference.outcome import Outcome
 from reference.state import State, Trajectory
 
 #: Steps in a row; and after which of them it is begun anew from where it came to.
@@ -58,13 +59,10 @@ def pasts(runs: Runs, precision: Precision, damped: bool, dragged: bool, of_swin
         system = swing(a, d * dragged, ASIDE, ASIDE / DT / 2)
     else:
         system = oscillator(a, b * damped, d * dragged, ASIDE, ASIDE / DT / 2)
-    first, second = (_trajectory(outcome.trajectory, outcome.reason) for outcome in runs([Run(system, DT, STEPS)] * 2))
+    first, second = (_trajectory(outcome, STEPS) for outcome in runs([Run(system, DT, STEPS)] * 2))
     same = np.array_equal(first.positions, second.positions) and np.array_equal(first.velocities, second.velocities)
     states = [State(0.0, first.positions[i], first.velocities[i]) for i in range(1, STEPS)]
-    ends = [
-        _trajectory(outcome.trajectory, outcome.reason)
-        for outcome in runs([Run(system.at(state), DT) for state in states])
-    ]
+    ends = [_trajectory(outcome) for outcome in runs([Run(system.at(state), DT) for state in states])]
     apart = max(
         max(
             float(np.abs(end.positions[1] - first.positions[i]).max()),
@@ -83,11 +81,11 @@ def after_many(runs: Runs, precision: Precision, found: Pasts) -> Pasts:
     """
     system = oscillator(SLOW, 0.0, 0.0, ASIDE)
     (outcome,) = runs([Run(system, DT, MANY)])
-    row = _trajectory(outcome.trajectory, outcome.reason)
+    row = _trajectory(outcome)
     if len(row) <= MANY or not np.abs(row.positions[-2] + [[0.0], [1.0]]).max() < 1.0:
         return found
     (outcome,) = runs([Run(system.at(State(0.0, row.positions[-2], row.velocities[-2])), DT)])
-    again = _trajectory(outcome.trajectory, outcome.reason)
+    again = _trajectory(outcome)
     off = max(
         float(np.abs(again.positions[1] - row.positions[-1]).max()),
         DT * float(np.abs(again.velocities[1] - row.velocities[-1]).max()),
@@ -96,7 +94,10 @@ def after_many(runs: Runs, precision: Precision, found: Pasts) -> Pasts:
     return Pasts(same, True, found.apart if same else off / ASIDE, MANY)
 
 
-def _trajectory(run: Trajectory | None, reason: str) -> Trajectory:
+def _trajectory(outcome: Outcome, steps: int = 1) -> Trajectory:
+    """What a run of so many steps left at least, all of it numbers. Raises Unsupported, with its reason, elsewhere."""
+    row_of(outcome, steps)
+    run = outcome.trajectory
     if run is None or not np.isfinite(run.velocities).all():
-        raise Unsupported(reason or "it tells no velocities")
+        raise Unsupported(outcome.reason or "it tells no velocities")
     return run

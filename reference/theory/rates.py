@@ -28,8 +28,9 @@ ALL_UP_TO = 1300
 #: Up to this many coordinates all are as quick as the fastest alone.
 QUICK_UP_TO = 100
 
-#: How many are taken of larger systems, those nearest to either end: to so many times the highest frequency.
-NEAREST, ENDS = 6, (1.001, 1e-3)
+#: How many are taken of larger systems, those nearest to either end, near so many times the fastest swing; and how
+#: often iteration may start again: what has not come to rest then lies as near as others do.
+NEAREST, ENDS, RESTARTS = 6, (1.001, 1e-3), 40
 
 #: The part of the fastest rate below which a real part is zero but for rounding; and of the largest eigenvalue of the
 #: stiffness, or of what resists velocities, below which, for each coordinate, another is.
@@ -96,13 +97,25 @@ def _is_none(values: Array) -> BoolArray:
     return np.asarray(values <= UNRESISTED * len(values) * values.max(initial=0.0))
 
 
+def moves_without_spring(linear: Linearisation) -> tuple[Array, Array, Array]:
+    """Moves that springs answer, those that they do not but damping or drag does, and those that nothing does.
+
+    Returns:
+        An orthonormal basis of each, as columns, of M^1/2 q: shapes (m, .), three that make up the whole.
+    """
+    squares, along = np.linalg.eigh(linear.scaled_stiffness.toarray())
+    none = _is_none(squares)
+    free = along[:, none]
+    slowed = linear.scaled(linear.damping_and_drag).toarray()
+    rates, among = np.linalg.eigh(free.T @ slowed @ free)
+    resisted = rates > UNRESISTED * len(slowed) * np.linalg.norm(slowed)
+    return along[:, ~none], free @ among[:, resisted], free @ among[:, ~resisted]
+
+
 def _zeros(linear: Linearisation) -> int:
     """How many eigenvalues of A are zero: a direction without spring has two, or one where velocities are resisted."""
-    squares, along = np.linalg.eigh(linear.scaled_stiffness.toarray())
-    free = along[:, _is_none(squares)]
-    slowed = linear.scaled(linear.damping_and_drag).toarray()
-    resisted = np.linalg.eigvalsh(free.T @ slowed @ free) > UNRESISTED * len(slowed) * np.linalg.norm(slowed)
-    return 2 * free.shape[1] - int(resisted.sum())
+    _, slowed, unresisted = moves_without_spring(linear)
+    return 2 * unresisted.shape[1] + slowed.shape[1]
 
 
 def _undamped(linear: Linearisation) -> Rates:
@@ -157,7 +170,7 @@ def _at_both_ends(linear: Linearisation, ends: Sequence[float] = ENDS) -> Rates:
     """Of large systems with damping: some of the fastest and of the slowest; decay that outruns all swings, too."""
     slowed = linear.scaled(linear.damping_and_drag)
     highest, decay = _top_undamped(linear), _largest(slowed)
-    shifts = [1j * part * highest for part in ends]
+    shifts = [part * _fastest_swing(linear.scaled_stiffness, slowed) for part in ends]
     if decay > highest:
         shifts.append(complex(-ENDS[0] * decay))
     found = np.concatenate([_nearest_to(shift, linear.scaled_stiffness, slowed) for shift in shifts])
@@ -190,7 +203,7 @@ def _nearest_to(shift: complex, stiffness: Any, damping: Any) -> Complex:
     operator: Any = LinearOperator((2 * size, 2 * size), solved, dtype=complex)
     start = np.random.default_rng(0).normal(size=2 * size).astype(complex)
     try:
-        inverse, vectors = eigs(operator, NEAREST, v0=start)
+        inverse, vectors = eigs(operator, NEAREST, v0=start, maxiter=RESTARTS)
     except ArpackNoConvergence as error:
         inverse, vectors = error.eigenvalues, error.eigenvectors
     q = vectors[:size] / np.linalg.norm(vectors[:size], axis=0)
@@ -202,6 +215,14 @@ def _nearest_to(shift: complex, stiffness: Any, damping: Any) -> Complex:
     return np.asarray(found.real + 1j * np.abs(found.imag))
 
 
+def _fastest_swing(stiffness: Any, damping: Any) -> complex:
+    """About what damping makes of the mode of the highest frequency w: mu^2 + (q* C q) mu + w^2 = 0; i w of decay."""
+    square, mode = top(stiffness)
+    slowed = float(mode @ (damping @ mode))
+    swings = max(square, 0.0) - slowed**2 / 4
+    return complex(-slowed / 2, np.sqrt(swings)) if swings > 0 else 1j * np.sqrt(max(square, 0.0))
+
+
 def _top_undamped(linear: Linearisation) -> float:
     """The highest frequency [1/s]."""
     return float(np.sqrt(max(_largest(linear.scaled_stiffness), 0.0)))
@@ -209,10 +230,23 @@ def _top_undamped(linear: Linearisation) -> float:
 
 def _largest(matrix: Any) -> float:
     """The largest eigenvalue of a sparse symmetric matrix."""
-    from scipy.sparse.linalg import eigsh
+    return top(matrix)[0]
+
+
+def top(matrix: Any) -> tuple[float, Array]:
+    """The largest eigenvalue of a sparse symmetric matrix, and its vector.
+
+    On long chains they crowd at the end of the spectrum: then by inverse iteration, from a bound that none exceeds.
+    """
+    from scipy.sparse.linalg import ArpackNoConvergence, eigsh
 
     start = np.random.default_rng(0).normal(size=matrix.shape[0])
-    return float(eigsh(matrix, 1, which="LA", v0=start, return_eigenvectors=False).item())
+    try:
+        (value,), vectors = eigsh(matrix, 1, which="LA", v0=start, maxiter=RESTARTS)
+    except ArpackNoConvergence:
+        beyond = (1 + 1e-9) * float(abs(matrix).sum(axis=1).max())  # Gershgorin
+        (value,), vectors = eigsh(matrix.tocsc(), 1, sigma=beyond, which="LM", v0=start)
+    return float(value), vectors[:, 0]
 
 
 def _by_euler(rest: Equilibrium) -> Rates:

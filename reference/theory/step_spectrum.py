@@ -24,6 +24,7 @@ from reference.theory.layout import layout_of
 from reference.theory.rates import UNDAMPED, Rates, rates
 from reference.theory.step_increments import growth_of, increments_of_modes, is_exact, step_increments
 from reference.theory.step_map import TORN_APART, Complex, is_resisted, step_jacobian
+from reference.theory.unresisted import Remainder, remainder
 from reference.theory.windows import looked_to, windows_of
 
 #: Up to this size of the whole state all eigenvalues of steps are taken, dt by dt; and of a few steps up to the second.
@@ -51,7 +52,7 @@ FARTHEST = 30.0
 SHORT = (0.2, 0.1, 0.05)
 
 #: The same for motion that nothing resists, whose growth is of a high power and hidden by rounding soon.
-HALVED = (1.2, 0.6, 0.3)
+HALVED, MOST_HALVED = (1.2, 0.6, 0.3), 16
 
 
 def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
@@ -64,8 +65,10 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     exact, precision = is_exact(scheme, rest) and not torn, PRECISION if linear else ROUGH
     margin = DIFFERENCED if torn or not linear else EXACT if exact else LINEAR
 
+    left = remainder(scheme, rest) if found.unresisted and size <= FEW_UP_TO else None
+
     def excess(dt: float) -> float:
-        return _excess(scheme, rest, dt, found)
+        return _excess(scheme, rest, dt, found, left)
 
     def rounding(dt: float) -> float:
         """Of growth in a step of dt [s]: that of increments that are exact falls with dt."""
@@ -73,8 +76,10 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         least = (0.0 if scheme.one_step else REMEMBERED) if exact else 1.0
         return margin * max(least, dt / unit)
 
+    unresisted = _growth_of_unresisted(scheme, rest, found, left) if found.unresisted and size <= FEW_UP_TO else []
+    unresisted_decays = min(unresisted, default=0.0) < -EXACT
     if size <= FEW_UP_TO and (
-        (found.unresisted and _unresisted_motion_grows(scheme, rest, found))
+        (unresisted and not unresisted_decays and _falls_as_a_power(unresisted[:3], EXACT if left else TORN_APART))
         or (found.least_decay <= 0 and _undamped_modes_grow(scheme, rest, found, margin))
     ):
         rate = excess(0.1 * unit)
@@ -90,14 +95,15 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         last = FARTHEST / float(np.abs(found.values).min())
         # slower decay is never seen in a step
         decays = found.least_decay > UNDAMPED * found.fastest
-        search = Search(excess, rounding, precision, decays)
+        stays = left is not None and left.velocities > 0 and not unresisted_decays
+        search = Search(excess, rounding, precision, decays and not stays)
         limit = first_growth(search, start, unit, last)
         if limit.dt is not None and not decays and found.least_decay > 0 and _grows_undamped(scheme, rest):
             return Limit(None, hidden(limit.dt))
         if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
             return Limit(None, unsolved)
-        phantom = limit.dt is not None and found.unresisted and _is_of_unresisted_motion(scheme, rest, found, limit.dt)
-        if phantom:
+        torn_apart = limit.dt is not None and found.unresisted and left is None
+        if torn_apart and _is_of_unresisted_motion(scheme, rest, found, limit.dt or 0.0):
             return _of_unresisted_motion(scheme, rest, found, unit)
         return _with_windows(scheme, rest, unit, limit, search.is_growth)
     if scheme.needs == "accelerations of one mass" or rest.linear is None:
@@ -189,15 +195,26 @@ def _of_unresisted_motion(scheme: Scheme, rest: Equilibrium, found: Rates, dt: f
     return Limit(None, f"{unstable_at_any(rate, dt)}; it is motion that nothing resists", rate)
 
 
-def _unresisted_motion_grows(scheme: Scheme, rest: Equilibrium, found: Rates) -> bool:
-    """Whether motion that nothing resists grows: in a step that moves one mass before another sees it, springs do."""
+def _growth_of_unresisted(scheme: Scheme, rest: Equilibrium, found: Rates, left: Remainder | None) -> list[float]:
+    """How motion that nothing resists grows in steps each half the last, down to where that is rounding.
+
+    In a step that moves one mass before another sees it, springs do that.
+    """
 
     def grown(dt: float) -> float:
+        if left is not None:
+            b = np.linalg.eigvals(left.of(step_increments(scheme, rest, dt))).astype(complex)
+            return float(growth_of(b[np.argsort(np.abs(b), kind="stable")[: left.velocities]]).max(initial=-1.0))
         values = np.linalg.eigvals(step_jacobian(scheme, rest, dt))
         nearest = values[np.argsort(np.abs(values - 1), kind="stable")[: found.unresisted]]
         return float(np.abs(nearest).max() - 1)
 
-    return _falls_as_a_power([grown(part / found.fastest) for part in HALVED], TORN_APART)
+    if left is not None and not left.velocities:
+        return []
+    seen = [grown(part / found.fastest) for part in HALVED]
+    while left is not None and abs(seen[-1]) > EXACT and len(seen) < MOST_HALVED:
+        seen.append(grown(HALVED[0] / 2 ** len(seen) / found.fastest))
+    return seen
 
 
 def _falls_as_a_power(grown: list[float], margin: float) -> bool:
@@ -221,7 +238,7 @@ def _growth_of_mode(scheme: Scheme, rest: Equilibrium, mu: complex, dt: float) -
 
 
 @np.errstate(over="ignore", invalid="ignore", divide="ignore")
-def _excess(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -> float:
+def _excess(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates, left: Remainder | None) -> float:
     """By how much of itself the worst perturbation grows in a step [1], motion that nothing resists left out."""
     try:
         increments = step_increments(scheme, rest, dt)
@@ -229,13 +246,15 @@ def _excess(scheme: Scheme, rest: Equilibrium, dt: float, found: Rates) -> float
         return np.inf
     if not np.isfinite(increments).all():
         return np.inf
-    whole = _worst(np.linalg.eigvals(increments).astype(complex), dt, found)
+    unresisted = found.unresisted
+    if left is not None:
+        increments, unresisted = left.of(increments), left.positions
+    whole = _worst(np.linalg.eigvals(increments).astype(complex), unresisted, dt * found.fastest)
     # quotients take longer, and tell more only where growth is next to none, of increments that are exact
     if abs(whole) > FINE or not is_exact(scheme, rest):
         return whole
-    return _worst(increments_of_modes(increments), dt, found)
+    return _worst(increments_of_modes(increments), unresisted, dt * found.fastest)
 
 
-def _worst(b: Complex, dt: float, found: Rates) -> float:
-    kept = is_resisted(b, found.unresisted, dt * found.fastest)
-    return float(growth_of(b[kept]).max(initial=-1.0))
+def _worst(b: Complex, unresisted: int, unit: float) -> float:
+    return float(growth_of(b[is_resisted(b, unresisted, unit)]).max(initial=-1.0))

@@ -69,9 +69,16 @@ def test_a_modes_growth_is_told_to_parts_of_a_millionth(rate: float) -> None:
     assert mode_growth(offsets, np.array([1.0, -1.0j])) == pytest.approx(rate, abs=1e-10)
 
 
-@pytest.mark.parametrize("what", [np.nan, np.inf, 0.0])
+def test_a_mode_of_which_nothing_is_left_has_decayed() -> None:
+    """By half a step, until it is lost: what rounding makes of it afterwards is no part of it; or all of it at once."""
+    offsets = np.array([[1.0], [0.5], [0.25], [0.0], [1e-9], [0.0]])
+    assert mode_growth(offsets, np.ones(1)) == pytest.approx(-0.5, rel=1e-12)
+    assert mode_growth(offsets[2:], np.ones(1)) == -1.0
+
+
+@pytest.mark.parametrize("what", [np.nan, np.inf])
 def test_a_modes_growth_that_cannot_be_told_is_infinite(what: float) -> None:
-    """Where one offset of many is no number, or nothing is left of the mode."""
+    """Where one offset of many is no number."""
     offsets = np.ones((20, 2))
     offsets[7] = what
     assert mode_growth(offsets, np.array([1.0, 2.0])) == np.inf

@@ -105,6 +105,14 @@ function stableAlong(polynomial, rate) {
 // Of all modes of a rest: the limit [s] of a scheme, 0 where every step lets something grow, Infinity where none does.
 // `about` is true where only the fastest moves were looked at; `mode` is the fastest move.
 function limitOf(name, linear, known = {}, system = null) {
+  try { return limitWhereSolved(name, linear, known, system); } catch (error) {
+    // beside damping that is very strong the equations of a step have no numbers
+    if (error instanceof SolverError) return {omega: Math.sqrt(known.top.value), about: false, limit: null, reason: "unsolved"};
+    throw error;
+  }
+}
+
+function limitWhereSolved(name, linear, known, system) {
   const scheme = schemes[schemes[name].solved];
   known.top = known.top || largestEigenpair(scaled(linear, "stiffness"), linear.size, alongStart(linear));
   const w2 = known.top.value, fastest = Math.sqrt(Math.max(w2, 0));
@@ -117,6 +125,8 @@ function limitOf(name, linear, known = {}, system = null) {
   told.about = told.about || curved;
   if (scheme.kind === "in_place") {
     if (2 * moving > STEP_UP_TO) return {...told, limit: null, reason: "too large"};
+    // what such a step does to motion that no spring resists is lost beside 1
+    if (unresistedOf(linear)) return {...told, limit: null, reason: "unheld"};
     return {...told, ...firstOrSlow(h => growthOfStep(linear, h, stepInPlace(scheme, linear, h)), linear, fastest, known, 1e-6, true)};
   }
   if (!linear.damped && !linear.drag) {

@@ -136,7 +136,7 @@ function limitSaid(lane) {
   const told = lab.limits[lane.scheme];
   if (!lab.scene.rest.length) return say("limit_unknown", {name, why: say("no_rest")});
   if (!told) return `${name}: ${say("computing")}`;
-  if (told.limit === null) return say("limit_unknown", {name, why: say({"too large": "too_large", slow: "too_slow", corner: "corner"}[told.reason] || "no_rest")});
+  if (told.limit === null) return say("limit_unknown", {name, why: say({"too large": "too_large", slow: "too_slow", corner: "corner", unheld: "unheld", unsolved: "unsolved"}[told.reason] || "no_rest")});
   if (told.reason === "nothing moves") return say("limit_nothing", {name});
   if (told.limit === 0) return say("limit_never", {name});
   if (told.limit === Infinity) return say("limit_always", {name});

@@ -130,7 +130,7 @@ def test_what_single_precision_rounds_breaks_no_capability() -> None:
     assert capability(EngineStepper(Doctored(doctored.RoundsToSingle)), "masses").startswith("broken: ")
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 @pytest.mark.usefixtures("no_limits")
 def test_an_engine_that_refuses_is_told_from_one_that_breaks() -> None:
     """Refused with its reason; stepped though it said it could not; not running at all."""
@@ -195,7 +195,7 @@ def test_bad_words_are_one_line(words: str, said: str) -> None:
     assert done.err.count("\n") == 1
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_a_version_that_never_was_is_one_line_and_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -180,7 +180,7 @@ def test_runs_are_compared_with_the_true_motion_and_with_their_schemes(
     names = [found("heun"), found(), found(), found("rk4")]
     known = SimpleNamespace(each=names, known={"heun": at(1.0)})
     monkeypatch.setattr(comparison, "check_room", lambda kept, *_, beside: room.append([s.name for s in kept]))
-    monkeypatch.setattr(comparison, "elsewhere", lambda *_: (at(2.0), "why not"))
+    monkeypatch.setattr(comparison, "true_motion", lambda *_: (at(2.0), "why not"))
     monkeypatch.setattr(comparison, "identify_all", lambda *_: known)
     made = comparison.compare(setup, steppers, patient=patient)  # type: ignore[arg-type]
     assert room == [["named", "stranger", "lost", "slow"] if patient else ["named", "stranger", "lost"]]
@@ -191,7 +191,7 @@ def test_runs_are_compared_with_the_true_motion_and_with_their_schemes(
     deviations = [None if one.deviation is None else one.deviation.max() for one in made.runs]
     assert deviations == [2.0, None, None, None]
     assert made.runs[3].outcome.ending == ("done" if patient else "unsupported")
-    monkeypatch.setattr(comparison, "elsewhere", lambda *_: (None, "why not"))
+    monkeypatch.setattr(comparison, "true_motion", lambda *_: (None, "why not"))
     known.each = names[:1]
     without = comparison.compare(setup, steppers[:1])  # type: ignore[arg-type]
     assert (without.runs[0].error, without.why_no_true_motion) == (None, "why not")

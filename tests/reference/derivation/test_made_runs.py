@@ -295,6 +295,27 @@ def test_a_velocity_that_is_no_number_is_none() -> None:
         pasts(lambda asked: [Outcome("crashed", "it crashed")] * len(asked), "double", damped=True, dragged=True)
 
 
+def test_a_position_that_is_no_number_is_none() -> None:
+    """As of a velocity; and a run that ends before its steps are made has none to look at."""
+
+    def spoiled(asked: Sequence[Run]) -> list[Outcome]:
+        outcomes = runs_of(kick_drift)(asked)
+        for outcome in outcomes:
+            assert outcome.trajectory is not None
+            outcome.trajectory.positions[-1, 1, 0] = np.nan
+        return outcomes
+
+    def short(asked: Sequence[Run]) -> list[Outcome]:
+        return runs_of(kick_drift)([run._replace(steps=1) for run in asked])
+
+    (outcome,) = spoiled([Run(oscillator(0.5, 0.0, 0.0, ASIDE), DT)])
+    with pytest.raises(Unsupported, match=r"^it tells no positions$"):
+        end_of(outcome)
+    for runs in (spoiled, short):
+        with pytest.raises(Unsupported, match=r"^it tells no "):
+            pasts(runs, "double", damped=False, dragged=False)
+
+
 # --- Pasts ---
 
 

@@ -12,7 +12,7 @@ from reference.derivation.consequences import FAR
 from reference.derivation.explanation import Explanation, explain
 from report.derived import property_lines
 
-pytestmark = pytest.mark.rotating(4)
+pytestmark = pytest.mark.rotating(7)
 
 LOBATTO = """
 import numpy as np

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pytest
+import springlab
 
 from reference.scenes import find as find_scene
 from reference.schemes.catalogue import Scheme, find, schemes
@@ -155,3 +156,16 @@ def test_what_an_iteration_tears_is_no_measured_growth() -> None:
     assert measured.reason.startswith("not measured: ")
     exact = find("kick_drift_implicit_damping")
     assert measured_mode_limit(exact, rest, stability_limit(exact, rest), found).dt is not None
+
+
+@pytest.mark.parametrize("name", ["backward_euler", "bdf2", "euler_in_place"])
+def test_what_falls_far_is_measured_as_what_does_not(name: str) -> None:
+    """Two masses on a spring, along a line: in 120 steps of 0.4 s they fall for kilometres, beside moves of 1e-6 m."""
+    at = {"masses": [0.1, 0.2], "stiffness": 50.0, "damping": 0.1}
+    falls, floats = (
+        spring_equilibrium(springlab.system([[0.0], [0.3]], [[0, 1]], gravity=gravity, **at)) for gravity in (9.81, 0.0)
+    )
+    scheme = find(name)
+    measured = [measured_mode_limit(scheme, r, stability_limit(scheme, r), rates(r)) for r in (falls, floats)]
+    assert measured[0] == measured[1]
+    assert measured[0].reason.startswith("unstable at" if name == "euler_in_place" else "stable at all of")

@@ -205,6 +205,7 @@ def test_limits_on_obstacles_are_those_of_the_springs_own_law(kind: dict[str, An
         assert np.abs(run.positions[-1] - run.positions[-2]).max() < 1e-9  # of what blows up 1e-4
 
 
+@pytest.mark.rotating(2)
 @pytest.mark.parametrize("damping", [1e-9, 1e-5])
 def test_weak_damping_on_the_floor_hides_no_limit(damping: float) -> None:
     """Two masses on a floor 1 cm below: a scheme's limit is that without damping, 1e-4 of it off at most.

@@ -116,7 +116,7 @@ def test_a_step_of_which_one_derivative_is_no_number_grows_without_end(
     jacobian[0, 1] = what
     monkeypatch.setattr(step_spectrum, "step_increments", lambda *_: jacobian)
     monkeypatch.setattr(step_spectrum, "step_jacobian", lambda *_: jacobian)
-    assert step_spectrum._excess(find("kick_drift"), rest, 1e-3, rates(rest)) == np.inf
+    assert step_spectrum._excess(find("kick_drift"), rest, 1e-3, rates(rest), None) == np.inf
     assert step_spectrum._growth_of_mode(find("kick_drift"), rest, 100j, 1e-3) == np.inf
 
 

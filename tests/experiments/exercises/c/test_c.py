@@ -76,7 +76,7 @@ def test_the_same_by_every_route(tmp_path: Path) -> None:
     assert (gradescope["outcome"], gradescope["finding"]) == (alone.outcome, alone.name)
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_midpoint_and_ralston_are_told_from_heun_by_overflow() -> None:
     """Where dt a > 1.8e308 Heun's guess is infinite; dt/2 a and 2/3 dt a are not. On linear springs all are one."""
     heun = (PROGRAMS / "e02" / "right_helper.c").read_text(encoding="utf-8")
@@ -92,7 +92,7 @@ def test_midpoint_and_ralston_are_told_from_heun_by_overflow() -> None:
         assert (verdict.name, verdict.outcome) == (name, "another scheme")
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_starters_compile_and_are_not_written_yet(tmp_path: Path) -> None:
     """Each exercise that has one; the others say so."""
     for number, exercise in exercises().items():
@@ -117,7 +117,7 @@ def test_a_comment_that_nobody_closed_is_what_the_compiler_says() -> None:
     assert (verdict.name, verdict.findings[0].line) == ("does_not_compile", 3)
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_what_nobody_has_written_into_is_not_zero() -> None:
     """A sum that begins with no number: compilers take 0 for it where they may. The line is told."""
     text = (
@@ -150,7 +150,7 @@ def test_a_compiler_opens_nothing_of_the_teachers(tmp_path: Path) -> None:
         assert "sesame" not in str(refused.value)
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_what_is_compiled_is_kept_in() -> None:
     """Code that runs while it is loaded finds the sandbox closed already: it opens no file, and its step counts."""
     text = (PROGRAMS / "e01" / "right_pointers.c").read_text(encoding="utf-8").replace("#define EXERCISE 1\n", "")
@@ -179,7 +179,7 @@ STEP = (
 )
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_what_the_compiler_warns_of_is_told_of_a_program_that_passes_too() -> None:
     """It passes all the same, and has no remark where the compiler has none."""
     quiet, warned = f"{STEP}    *v += dt * a;\n}}\n", f"{STEP}    int n = 1.0e3 + dt;\n    *v += dt * a + 0 * n;\n}}\n"
@@ -189,7 +189,7 @@ def test_what_the_compiler_warns_of_is_told_of_a_program_that_passes_too() -> No
     assert "line 7: the compiler warns" in "\n".join(paragraphs(Submission("own.c", warned, find("1")), given))
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_a_crash_by_memory_may_be_an_earlier_lines() -> None:
     """A loop one too far writes over what the next line reads; the compiler's own check stops where it went wrong."""
     crashes = f"{STEP}    double *late = 0;\n    *late = a;\n}}\n"
@@ -200,7 +200,7 @@ def test_a_crash_by_memory_may_be_an_earlier_lines() -> None:
         assert ("an earlier line may have written over" in finding.words) == by_memory
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_a_program_that_ends_itself_is_told_so() -> None:
     """By abort, or an assert that fails."""
     begin = STEP.replace("void step", "#include <assert.h>\n#include <stdlib.h>\nvoid step")
@@ -209,7 +209,7 @@ def test_a_program_that_ends_itself_is_told_so() -> None:
         assert "your program ended itself: it called abort, or an assert failed" in finding.words
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_a_programs_own_trap_is_no_arrays() -> None:
     """Though the compiler's check of an index is the same instruction."""
     trapped = f"{STEP}    /* a\n       b */\n    if (dt > 0) __builtin_trap();\n}}\n"
@@ -228,7 +228,7 @@ def test_a_missing_include_is_named() -> None:
         assert ('#include "exercise.h" is missing' in finding.words) == missing
 
 
-@pytest.mark.rotating(4, in_turn=True)
+@pytest.mark.rotating(7, in_turn=True)
 def test_in_c_nothing_is_returned() -> None:
     """What is told of a C program speaks of what it writes; of the lines that do; C++ is told as such."""
     still = judge(find("1"), f"{STEP.split('    double')[0]}    if (dt < 0) *y = 0;\n}}\n", language="c")

@@ -50,7 +50,7 @@ def everything(folder: Path) -> dict[str, tuple[bytes, int, int]]:
     return {str(p): (p.read_bytes(), p.stat().st_mode, p.stat().st_mtime_ns) for p in files}
 
 
-@pytest.mark.rotating(4)
+@pytest.mark.rotating(7)
 @pytest.mark.parametrize("quarter", range(4))
 def test_hostile_submissions_are_rows_with_a_name_and_touch_nothing(
     quarter: int, tmp_path: Path, layers: set[str], monkeypatch: pytest.MonkeyPatch
