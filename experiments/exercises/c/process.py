@@ -42,7 +42,7 @@ def main() -> None:
             sys.exit(NO_SANDBOX)
     said = []
     for command in task["commands"]:
-        done = subprocess.run(command, capture_output=True, text=True, errors="replace", cwd=task["folder"])
+        done = subprocess.run(command, capture_output=True, errors="replace", cwd=task["folder"])
         said.append([done.returncode, done.stdout, done.stderr])
         if done.returncode:
             break

@@ -119,6 +119,7 @@ def test_rows_are_two_to_four_of_one_shape_one_below_the_other() -> None:
     assert rows("x = p.z\ny = p.z + q\nz = p.z") == set()
     assert rows("f(p.z)\nf(p.z)") == set()
     assert rows("x = p.z\ng()\ny = p.z") == set()
+    assert rows("g()\nx = p.z\ny = p.z") == {"g(); x = -p.z; y = -p.z"}
     both = changes("for i in r:\n  x = p.z\n  y = q.z")
     assert (2, "for i in r:;     x = -p.z;     y = -q.z") in both["sign"]
 
