@@ -72,7 +72,7 @@ class SystemTable(SpringsTable, kw_only=True):
     def system(self, folder: Path | None = None, remarks: list[str] | None = None) -> MassSpringSystem:
         """The system it describes, all of it here. Raises InputError as MassSpringSystem does."""
         n = len(self.positions)
-        for place, i in enumerate(self.fixed):
+        for place, i in enumerate(self.fixed if n else []):  # of none it is positions that are told
             if not 0 <= i < n:
                 raise InputError(f"fixed[{place}] = {i}: expected a mass from 0 to {n - 1}")
         self._refuse_lists_of_one(n)

@@ -296,6 +296,11 @@ def test_an_empty_list_of_springs_is_a_heap_of_masses(tmp_path: Path) -> None:
         ),
         (WRITTEN_OUT.replace("[0, 2]", "[0, 5]"), ", line 13", "fixed[1] = 5: expected a mass from 0 to 2"),
         (WRITTEN_OUT.replace("[0, 2]", "[-1]"), ", line 13", "fixed[0] = -1: expected a mass from 0 to 2"),
+        (
+            "[system]\npositions = []\nsprings = []\nmasses = 1.0\nstiffness = 1.0\nfixed = [0]\n",
+            ", line 2",
+            "positions has shape (0,): expected (n, 1), (n, 2) or (n, 3) with n >= 1",
+        ),
         ('scene = "string"\n[parameters]\nmass = -1.0\n', ", line 3", "mass = -1: expected a number > 0 [kg]"),
         ('scene = "string"\n[parameters]\nmasses = 2.5\n', ", line 3", "masses = 2.5: expected a whole number"),
         (
