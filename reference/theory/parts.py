@@ -7,7 +7,7 @@ that differ. A loose mass is such a part, with no spring.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -101,6 +101,15 @@ def falling_velocities(system: MassSpringSystem) -> Array:
         members = parts.of_mass == part
         velocities[members] = system.masses[members].mean() * system.gravity / system.drag
     return velocities
+
+
+def in_falling_frame(system: MassSpringSystem) -> MassSpringSystem:
+    """A system in the frames that fall with its parts in the long run: what falls there stays where it is.
+
+    Forces are linear in velocities, so a perturbation does the same; and it does not drown in how far all has fallen.
+    Raises SolverError as `loads` does.
+    """
+    return replace(system, gravity=np.zeros(system.dimension), pulls=loads(system, parts_of(system)))
 
 
 def _refuse_creep(system: MassSpringSystem, parts: Parts) -> None:
