@@ -68,6 +68,7 @@ def test_mistakes_are_named_and_each_question_counts() -> None:
     assert (one.outcome, one.name, one.passed) == ("mistake", "way", (False, True, True))
     assert (one.findings[0].words, one.findings[0].hint) == (WAY.words, WAY.hint)
     assert verdict({"half": 1.0}).passed == (True, False, False)
+    assert verdict({"way": -1.0, "half": 0.5 + 1e-6}).passed == (False, True, True)  # to single precision
     other = verdict({"pace": 1.5})
     assert (other.outcome, other.name) == ("another scheme", "pace")
     both = verdict({"pace": 1.5, "half": 1.0})
