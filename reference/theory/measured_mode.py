@@ -36,6 +36,9 @@ MARGIN = 1e-8
 #: Growth that is told from none for certain.
 SEEN = 3 * MARGIN
 
+#: Growth that differs by less is alike.
+ALIKE = 1e-11
+
 #: A mode that is all but one with others takes up as many times what rounding does to its eigenvalue.
 ILL_CONDITIONED = 100
 
@@ -219,7 +222,10 @@ def fastest_mode_of_step(scheme: Scheme, rest: Equilibrium, dt: float, found: Ra
     kept = resisted(values.astype(complex), found.unresisted, dt * found.fastest)
     if not len(kept):
         return None
-    fastest = int(np.argmax(values == kept[np.argmax(np.abs(kept))]))
+    grown = np.abs(kept)
+    # of those that grow alike the one that turns fastest: slow modes, near 1, are all but one with one another
+    alike = kept[grown >= grown.max() - ALIKE]
+    fastest = int(np.argmax(values == alike[np.argmax(np.abs(alike - 1))]))
     value = complex(values[fastest])
     left = _left_eigenvector(jacobian, value)
     wrong = len(jacobian) * float(np.finfo(float).eps) * float(np.linalg.norm(jacobian, 2))

@@ -187,3 +187,16 @@ def test_a_mode_that_is_all_but_one_with_others_is_not_measured() -> None:
     reason = measured_mode_limit(scheme, rest, limit, found).reason
     assert reason.startswith("not measured: growth at 1.0001 of the predicted limit is ")
     assert reason.endswith("a step, of a mode that is all but one with others")
+
+
+def test_of_modes_that_stay_as_they_are_the_fastest_is_watched() -> None:
+    """A mode of w = 5e-5/s beside one of 21/s: run along the slow one, rounding was growth at 0.9997 of the limit."""
+    rest = spring_equilibrium(random_system(14))
+    scheme, found = find("drift_kick_sequential_damping"), rates(rest)
+    limit = stability_limit(scheme, rest, found)
+    assert limit.dt is not None
+    assert measured_mode_limit(scheme, rest, limit, found).dt == pytest.approx(limit.dt, rel=TOLERANCE)
+    for part in np.linspace(0.9995, 0.9999, 9):
+        mode = fastest_mode_of_step(scheme, rest, part * limit.dt, found)
+        assert mode is not None
+        assert mode.rounding < 1e-12
