@@ -36,6 +36,9 @@ MARGIN = 1e-8
 #: Growth that is told from none for certain.
 SEEN = 3 * MARGIN
 
+#: What counts as growth near a limit: this part of what there is NEAR beyond it, between MARGIN and MOST.
+PART, MOST = 1e-3, 1e-6
+
 #: Growth that differs by less is alike.
 ALIKE = 1e-11
 
@@ -94,8 +97,8 @@ def measured_mode_limit(scheme: Scheme, rest: Equilibrium, predicted: Limit, fou
             None, "not measured: where its iteration stops early differs, and tears motion that nothing resists"
         )
 
-    def unstable(dt: float) -> bool:
-        return measured_mode_growth(scheme, rest, dt, found) > MARGIN
+    def unstable(dt: float, margin: float = MARGIN) -> bool:
+        return measured_mode_growth(scheme, rest, dt, found) > margin
 
     if predicted.dt is None and rest.contacts is not None:
         return Limit(None, predicted.reason)
@@ -113,7 +116,9 @@ def measured_mode_limit(scheme: Scheme, rest: Equilibrium, predicted: Limit, fou
             else "of a mode that is all but one with others"
         )
         return Limit(None, f"not measured: {beyond}, {why}")
-    between = _around(unstable, predicted.dt)
+    # where two modes meet on the unit circle, rounding is more than MARGIN on both sides, and growth beyond far more
+    margin = MARGIN if mode is None else min(max(MARGIN, PART * mode.growth), MOST)
+    between = _around(lambda dt: unstable(dt, margin), predicted.dt)
     if isinstance(between, str):
         return Limit(None, between)
     measured = (_window(unstable, *window, predicted.looked_to) for window in predicted.windows)
