@@ -30,7 +30,7 @@ from reference.system import MassSpringSystem
 from reference.theory.equilibria import Equilibrium
 from reference.theory.layout import layout_of
 from reference.theory.measured_mode import WHOLE_UP_TO, FastestMode, fastest_mode_of_step
-from reference.theory.parts import falling_velocities
+from reference.theory.parts import falling_velocities, parts_of
 from reference.theory.rates import Rates
 
 #: Limits are found to this part of themselves.
@@ -171,6 +171,9 @@ class _Watched:
         positions = self.rest.state.positions
         system = self.predictions.system
         at_rest = replace(system, positions=positions, velocities=falling_velocities(system))
+        if not system.drag and not parts_of(system).held.any():
+            # in the frame that falls with all of it: else perturbations drown in how far it has fallen
+            at_rest = replace(at_rest, gravity=np.zeros(system.dimension))
         limit, engine = 2 * self.stepper.time_limit, self.stepper.engine
         answer = self.stepper.isolate(growths_along_modes, engine, at_rest, runs, time_limit=limit)
         return answer if isinstance(answer, Outcome) else answer["growth"].tolist()

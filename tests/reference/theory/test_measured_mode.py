@@ -24,7 +24,7 @@ from reference.theory.measured_mode import (
 from reference.theory.rates import rates
 from tests import wrong
 from tests.reference.systems import free_string, label, with_fields
-from tests.reference.theory.test_random_systems import excess_and_error, random_system
+from tests.reference.theory.test_random_systems import random_system
 
 #: Measured to 1e-5 of itself, where growth of 1e-8 in a step is seen: a limit met by a pair of eigenvalues on the unit
 #: circle, which grow as the root of the excess, is seen to about 1e-4.
@@ -173,20 +173,26 @@ def test_what_falls_far_is_measured_as_what_does_not(name: str) -> None:
     assert measured[0].reason.startswith("unstable at" if name == "euler_in_place" else "stable at all of")
 
 
-def test_a_mode_that_is_all_but_one_with_others_is_not_measured() -> None:
-    """Eight masses that nothing holds, dragged: rounding moves the eigenvalue by more than it grows past the limit."""
-    rest = spring_equilibrium(random_system(146))
-    scheme, found = find("heun_aliased"), rates(rest)
+@pytest.mark.parametrize(
+    ("seed", "name", "why"),
+    [
+        (132, "heun_link_by_link", "of a mode that is all but one with others"),
+        (246, "heun_aliased", f"too slow for a run of {STEPS} steps"),
+    ],
+)
+def test_growth_that_rounding_may_hide_is_not_measured(seed: int, name: str, why: str) -> None:
+    """Of systems that nothing holds: runs were off by 1.2e-4 and 6.7e-4 of the limit."""
+    rest = spring_equilibrium(random_system(seed))
+    scheme, found = find(name), rates(rest)
     limit = stability_limit(scheme, rest, found)
     assert limit.dt is not None
     beyond = fastest_mode_of_step(scheme, rest, 1.0001 * limit.dt, found)
     assert beyond is not None
-    # eigenvectors of modes that are so near to one another have few digits
-    assert 0.2 < beyond.rounding / excess_and_error(scheme, rest, found, 1.0001 * limit.dt)[1] < 5
-    assert SEEN < beyond.growth < beyond.rounding
+    assert beyond.growth > SEEN
+    assert (100 * beyond.rounding > beyond.growth) == why.startswith("of a mode")
     reason = measured_mode_limit(scheme, rest, limit, found).reason
     assert reason.startswith("not measured: growth at 1.0001 of the predicted limit is ")
-    assert reason.endswith("a step, of a mode that is all but one with others")
+    assert reason.endswith(f"a step, {why}")
 
 
 def test_of_modes_that_stay_as_they_are_the_fastest_is_watched() -> None:
