@@ -169,8 +169,9 @@ def _with_weak_decay(linear: Linearisation, count: int) -> Complex:
 def _at_both_ends(linear: Linearisation, ends: Sequence[float] = ENDS) -> Rates:
     """Of large systems with damping: some of the fastest and of the slowest; decay that outruns all swings, too."""
     slowed = linear.scaled(linear.damping_and_drag)
-    highest, decay = _top_undamped(linear), _largest(slowed)
-    shifts = [part * _fastest_swing(linear.scaled_stiffness, slowed) for part in ends]
+    (square, mode), (decay, _) = top(linear.scaled_stiffness), top(slowed)
+    highest = float(np.sqrt(max(square, 0.0)))
+    shifts = [part * _damped_swing(highest, float(mode @ (slowed @ mode))) for part in ends]
     if decay > highest:
         shifts.append(complex(-ENDS[0] * decay))
     found = np.concatenate([_nearest_to(shift, linear.scaled_stiffness, slowed) for shift in shifts])
@@ -215,22 +216,15 @@ def _nearest_to(shift: complex, stiffness: Any, damping: Any) -> Complex:
     return np.asarray(found.real + 1j * np.abs(found.imag))
 
 
-def _fastest_swing(stiffness: Any, damping: Any) -> complex:
-    """About what damping makes of the mode of the highest frequency w: mu^2 + (q* C q) mu + w^2 = 0; i w of decay."""
-    square, mode = top(stiffness)
-    slowed = float(mode @ (damping @ mode))
-    swings = max(square, 0.0) - slowed**2 / 4
-    return complex(-slowed / 2, np.sqrt(swings)) if swings > 0 else 1j * np.sqrt(max(square, 0.0))
+def _damped_swing(w: float, slowed: float) -> complex:
+    """The root of mu^2 + slowed mu + w^2 = 0 in the upper half; i w where that does not swing."""
+    swings = w**2 - slowed**2 / 4
+    return complex(-slowed / 2, np.sqrt(swings)) if swings > 0 else 1j * w
 
 
 def _top_undamped(linear: Linearisation) -> float:
     """The highest frequency [1/s]."""
-    return float(np.sqrt(max(_largest(linear.scaled_stiffness), 0.0)))
-
-
-def _largest(matrix: Any) -> float:
-    """The largest eigenvalue of a sparse symmetric matrix."""
-    return top(matrix)[0]
+    return float(np.sqrt(max(top(linear.scaled_stiffness)[0], 0.0)))
 
 
 def top(matrix: Any) -> tuple[float, Array]:

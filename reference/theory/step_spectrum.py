@@ -64,7 +64,6 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
     linear = rest.linear_motion is not None and scheme.linear
     exact, precision = is_exact(scheme, rest) and not torn, PRECISION if linear else ROUGH
     margin = DIFFERENCED if torn or not linear else EXACT if exact else LINEAR
-
     left = remainder(scheme, rest) if found.unresisted and size <= FEW_UP_TO else None
 
     def excess(dt: float) -> float:
@@ -76,10 +75,10 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
         least = (0.0 if scheme.one_step else REMEMBERED) if exact else 1.0
         return margin * max(least, dt / unit)
 
-    unresisted = _growth_of_unresisted(scheme, rest, found, left) if found.unresisted and size <= FEW_UP_TO else []
-    unresisted_decays = min(unresisted, default=0.0) < -EXACT
+    loose = _growth_of_unresisted(scheme, rest, found, left) if found.unresisted and size <= FEW_UP_TO else []
+    loose_decays = min(loose, default=0.0) < -EXACT
     if size <= FEW_UP_TO and (
-        (unresisted and not unresisted_decays and _falls_as_a_power(unresisted[:3], EXACT if left else TORN_APART))
+        (loose and not loose_decays and _falls_as_a_power(loose[: len(HALVED)], EXACT if left else TORN_APART))
         or (found.least_decay <= 0 and _undamped_modes_grow(scheme, rest, found, margin))
     ):
         rate = excess(0.1 * unit)
@@ -87,17 +86,12 @@ def first_limit(scheme: Scheme, rest: Equilibrium, found: Rates) -> Limit:
             return Limit(None, f"not computed: growth is seen in no step of {0.1 * unit:.2g} s, and may be in others")
         return Limit(None, unstable_at_any(rate, 0.1 * unit), rate)
     if size <= WHOLE_UP_TO:
-        start = _start(found) if linear else max(_start(found), SHORTEST_DIFFERENCED * unit)
-        if not scheme.one_step:
-            # in shorter ones what it remembers is all but what it has: rounding tears the two apart by eps / (h w)
-            slowest = float(np.abs(found.values).min())
-            start = max(start, min(1e-2 * unit, 4 * float(np.finfo(float).eps) / (LINEAR * slowest)))
-        last = FARTHEST / float(np.abs(found.values).min())
+        slowest = float(np.abs(found.values).min())
         # slower decay is never seen in a step
         decays = found.least_decay > UNDAMPED * found.fastest
-        stays = left is not None and left.velocities > 0 and not unresisted_decays
+        stays = left is not None and left.velocities > 0 and not loose_decays
         search = Search(excess, rounding, precision, decays and not stays)
-        limit = first_growth(search, start, unit, last)
+        limit = first_growth(search, _start(scheme, found, slowest, linear), unit, FARTHEST / slowest)
         if limit.dt is not None and not decays and found.least_decay > 0 and _grows_undamped(scheme, rest):
             return Limit(None, hidden(limit.dt))
         if scheme.implicit and (unsolved := _not_solved(scheme, rest, limit.dt)):
@@ -155,11 +149,21 @@ def _with_windows(
     return replace(limit, windows=windows, looked_to=looked_to(relative, limit.dt))
 
 
-def _start(found: Rates) -> float:
-    """A dt [s] short enough: a hundredth of the fastest 1/w, or a tenth of where Euler's step would let a mode grow."""
+def _start(scheme: Scheme, found: Rates, slowest: float, linear: bool) -> float:
+    """A dt [s] short enough: a hundredth of the fastest 1/w, or a tenth of where Euler's step would let a mode grow.
+
+    No shorter than differences allow where a step is not linear, nor than a scheme that remembers: in shorter steps
+    what it remembers is all but what it has, and rounding tears the two apart by eps / (h w), w the slowest [1/s].
+    """
+    unit = 1 / found.fastest
     damped = found.values[found.values.real < 0]
     eulers = float((-2 * damped.real / np.abs(damped) ** 2).min(initial=np.inf))
-    return min(1e-2 / found.fastest, 0.1 * eulers)
+    start = min(1e-2 * unit, 0.1 * eulers)
+    if not linear:
+        start = max(start, SHORTEST_DIFFERENCED * unit)
+    if not scheme.one_step:
+        start = max(start, min(1e-2 * unit, 4 * float(np.finfo(float).eps) / (LINEAR * slowest)))
+    return start
 
 
 def _undamped_modes_grow(scheme: Scheme, rest: Equilibrium, found: Rates, margin: float) -> bool:

@@ -103,7 +103,7 @@ def test_growth_falls_as_a_power_of_dt_where_each_halving_says_the_same_power(
 def test_the_search_starts_where_every_step_is_right(values: list[complex], start: float) -> None:
     """A hundredth of the fastest 1/w; or a tenth of -2 Re mu / |mu|^2, where Euler lets a mode grow, of the first."""
     found = Rates(np.array(values, dtype=complex), 0, True)
-    assert step_spectrum._start(found) == pytest.approx(start, rel=1e-4)
+    assert step_spectrum._start(find("kick_drift"), found, 1.0, linear=True) == pytest.approx(start, rel=1e-4)
 
 
 @pytest.mark.parametrize("what", [np.nan, np.inf])
